@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/id.hpp"
+#include "core/base/result.hpp"
+#include "core/fleet/job_order.hpp"
+#include "core/fleet/ports.hpp"
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/views.hpp"
+#include "core/plant/plant.hpp"
+#include "core/traffic/tile_map.hpp"
+
+namespace pulseline::fleet {
+
+struct NewStep {
+    int station_number = 0;
+    plant::MotionMode mode = plant::MotionMode::kAuto;
+};
+
+struct NewOrder {
+    std::string client_order_id;  // empty: none
+    plant::VehicleId vehicle;     // empty: any
+    int priority = 0;
+    std::vector<NewStep> steps;
+    std::string actor;            // who asks
+    // Idempotency-Key of the request; empty: none.
+    std::string idempotency_client;
+    std::string idempotency_key;
+    std::string body_sha256;
+};
+
+/// Outcome of a create: `repeated` says that this is the stored answer to an earlier request.
+struct Created {
+    JobOrder order;
+    bool repeated = false;
+};
+
+/// All that a step of the fleet put out. Records first: nothing else leaves the server before they
+/// are committed.
+struct Outputs {
+    Records records;
+    std::vector<VehicleMessage> messages;
+    std::vector<VehicleView> vehicles;  // changed ones
+    std::vector<StationView> stations;  // changed ones
+    bool fleet_changed = false;
+};
+
+/// The fleet core: one deterministic state machine. Commands and vehicle messages go in with the
+/// time they came at; records, messages and views come out through take_outputs().
+/// No clock, thread, socket, random source or database inside.
+/// Thread safety: none, one thread owns it. `plant` must outlive it and not change.
+class Fleet {
+public:
+    Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now);
+    ~Fleet();
+
+    // Commands of people and programs. An error changed nothing.
+    Result<Created> create(const NewOrder& order, Time now);
+    Result<JobOrder> pause_order(JobOrderId id, std::optional<std::int64_t> if_revision,
+                                 const std::string& actor, Time now);
+    Result<JobOrder> resume_order(JobOrderId id, std::optional<std::int64_t> if_revision,
+                                  const std::string& actor, Time now);
+    Result<JobOrder> cancel_order(JobOrderId id, std::optional<std::int64_t> if_revision,
+                                  const std::string& actor, Time now);
+    Result<VehicleView> pause_vehicle(const plant::VehicleId& id, const std::string& actor, Time now);
+    Result<VehicleView> init_position(const plant::VehicleId& id, const Pose2& pose,
+                                      const std::string& actor, Time now);
+    void pause_fleet(const std::string& actor, Time now);
+    Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
+                        Time now);
+
+    // What vehicles do.
+    void vehicle_connected(const plant::VehicleId& id, Time now);
+    void vehicle_disconnected(const plant::VehicleId& id, Time now);
+    /// Any frame or pong; silence is counted from the last one.
+    void vehicle_heard(const plant::VehicleId& id, Time now);
+    void vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now);
+    /// Three takeovers of one identity within 60 s: refused until a person resumes the vehicle.
+    void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
+    bool connection_refused(const plant::VehicleId& id) const;
+
+    /// Silence limits, resends, dispatch. Call at least every 100 ms.
+    void tick(Time now);
+
+    /// Everything put out since the last call.
+    Outputs take_outputs();
+
+    // Views.
+    Preview preview(const NewOrder& order, Time now) const;
+    std::optional<JobOrder> order(JobOrderId id) const;
+    std::vector<JobOrder> orders() const;  // open ones and recent final ones, newest first
+    std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now) const;
+    std::vector<VehicleView> vehicles(Time now) const;
+    std::vector<StationView> stations() const;
+    FleetView view(Time now) const;
+
+private:
+    class Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,135 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/id.hpp"
+#include "core/base/time.hpp"
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/plant/plant.hpp"
+#include "core/traffic/tile_map.hpp"
+
+namespace pulseline::fleet {
+
+using JobOrderId = Id<struct JobOrderTag>;
+using LegId = Id<struct LegTag>;  // also the VDA 5050 orderId of that drive
+using StopRecordId = Id<struct StopRecordTag>;
+
+/// States of the ISA-95 Job Control machine (OPC 10031-4).
+enum class JobState {
+    kNotAllowedToStart,
+    kAllowedToStart,
+    kRunning,
+    kInterrupted,
+    kEnded,
+    kAborted,
+};
+const char* to_string(JobState state);  // "NotAllowedToStart"
+bool is_final(JobState state);
+
+enum class StepState { kPending, kDriving, kMeasuring, kDone, kSkipped };
+const char* to_string(StepState state);  // "pending"
+
+struct Step {
+    plant::StationId station;
+    plant::MotionMode mode = plant::MotionMode::kAuto;
+    StepState state = StepState::kPending;
+    LegId leg;           // the drive under way or done
+    StopRecordId stop;   // set when the stop was measured
+};
+
+struct JobOrder {
+    JobOrderId id;
+    std::int64_t number = 0;        // people say JO-<number>; gapless, ours
+    std::string client_order_id;    // the MES's own name, unique when given
+    plant::VehicleId wanted_vehicle;   // empty: any that can
+    plant::VehicleId assigned_vehicle;
+    int priority = 0;               // higher first
+    std::vector<Step> steps;
+    std::size_t current_step = 0;
+    JobState state = JobState::kAllowedToStart;
+    bool cancel_requested = false;
+    bool pause_requested = false;
+    Reason reason;                  // why it waits, is interrupted or aborted; empty code: nothing
+    std::string created_by;
+    Time created;
+    Time started;
+    Time ended;
+    std::int64_t revision = 1;      // ETag
+};
+
+/// One measured arrival. Deviation = measured - theoretical in the hall frame.
+struct StopRecord {
+    StopRecordId id;
+    JobOrderId order;
+    LegId leg;
+    int step = 0;
+    plant::VehicleId vehicle;
+    plant::StationId station;
+    int station_number = 0;
+    plant::MotionMode mode = plant::MotionMode::kLinear;
+    Pose2 theoretical;
+    Pose2 measured;
+    double dx_m = 0;
+    double dy_m = 0;
+    double dheading_rad = 0;
+    double along_m = 0;  // in the station's frame
+    double left_m = 0;
+    double sigma_xy_m = 0;
+    double sigma_heading_rad = 0;
+    plant::Tolerance tolerance;
+    bool inside = false;
+    int attempt = 1;  // approaches of this step so far
+    std::string method;
+    std::vector<std::string> markers;
+    double load_kg = 0;
+    Time at;
+};
+
+/// One entry of the gapless event sequence.
+struct Event {
+    std::int64_t seq = 0;
+    Time at;
+    std::string type;  // "job_order.created", "vehicle.lost", "stop.measured", ...
+    JobOrderId order;
+    LegId leg;
+    plant::VehicleId vehicle;
+    std::string actor;  // user or token that asked, empty: the fleet itself
+    Params params;
+};
+
+/// The drive of one step as the vehicle was told it. nodes[0] is where it stood.
+struct Leg {
+    LegId id;
+    JobOrderId order;
+    int step = 0;
+    plant::VehicleId vehicle;
+    plant::StationId station;
+    plant::MotionMode mode = plant::MotionMode::kLinear;
+    std::string hall;
+    std::int64_t update_id = 0;
+    std::vector<OrderNode> nodes;
+    std::vector<OrderEdge> edges;
+    std::size_t released_nodes = 1;  // nodes[0..released_nodes) are the base
+    std::size_t passed_nodes = 1;    // reported by the vehicle
+    double duration_s = 0;
+    int attempt = 1;
+};
+
+/// What survives a restart about a vehicle.
+struct VehicleRecord {
+    plant::VehicleId id;
+    bool pose_known = false;
+    Pose2 pose;                   // last confirmed
+    plant::StationId at_station;  // empty while between stations
+    LegId leg;                    // the drive it was last told, until finished or given up
+    bool has_leg = false;
+    Leg leg_data;
+    bool needs_resume = false;    // a person must allow it to move again
+    Reason needs_resume_reason;
+    bool paused = false;          // by a person, through the server
+};
+
+}  // namespace pulseline::fleet

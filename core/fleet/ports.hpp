@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/fleet/job_order.hpp"
+
+/// Where the fleet core meets the outside: what it reads at start and what every step puts out.
+namespace pulseline::fleet {
+
+/// The answer stored with an Idempotency-Key, so that a repeated request gets the same one.
+struct IdempotencyRecord {
+    std::string client;  // user or token id
+    std::string key;
+    std::string body_sha256;
+    JobOrderId order;
+    Time at;
+};
+
+/// Rows to write; the batch is one transaction. Orders and vehicles are upserts by id.
+struct Records {
+    std::vector<JobOrder> orders;
+    std::vector<VehicleRecord> vehicles;
+    std::vector<StopRecord> stops;
+    std::vector<Event> events;
+    std::vector<IdempotencyRecord> idempotency;
+    bool empty() const {
+        return orders.empty() && vehicles.empty() && stops.empty() && events.empty() &&
+               idempotency.empty();
+    }
+};
+
+/// Everything the fleet needs to go on after a restart.
+struct StoredFleet {
+    std::vector<JobOrder> orders;  // not final ones, and the final ones of the last 7 days
+    std::vector<VehicleRecord> vehicles;
+    std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
+    std::int64_t last_event_seq = 0;
+    std::int64_t last_order_number = 0;
+    Time last_time;  // newest stored time; the clock may not start before it
+};
+
+/// Port to the database, implemented by db::FleetStore.
+class Store {
+public:
+    virtual ~Store() = default;
+    virtual StoredFleet load() = 0;
+    /// One transaction; throws db::Error when nothing was stored.
+    virtual void commit(const Records& records) = 0;
+};
+
+/// A message for a vehicle; sent only after the records of the same step are committed.
+struct VehicleMessage {
+    plant::VehicleId vehicle;
+    std::optional<OrderMessage> order;
+    std::optional<InstantActionsMessage> instant_actions;
+};
+
+}  // namespace pulseline::fleet

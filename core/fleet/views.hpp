@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fleet/job_order.hpp"
+#include "core/planning/leg_planner.hpp"
+
+/// What the fleet shows of itself: plain copies, safe to hand to another thread.
+namespace pulseline::fleet {
+
+/// How long the vehicle has been silent (no frame, no pong).
+enum class Link { kNever, kLive, kLate, kLost, kGone };
+const char* to_string(Link link);  // "live"
+constexpr Duration kLateAfter = std::chrono::seconds(2);
+constexpr Duration kLostAfter = std::chrono::seconds(10);
+constexpr Duration kGoneAfter = std::chrono::seconds(60);
+
+enum class Activity {
+    kStanding,
+    kMoving,
+    kMeasuring,
+    kWaiting,
+    kPaused,
+    kBlocked,
+    kCharging,
+    kUnknown,
+};
+const char* to_string(Activity activity);
+
+struct LegView {
+    LegId id;
+    plant::StationId station;
+    plant::MotionMode mode = plant::MotionMode::kLinear;
+    std::vector<geometry::Point2> path;
+    std::size_t granted_points = 0;
+    std::vector<geometry::Polygon> granted_area;
+    std::vector<geometry::Polygon> horizon_area;
+    double duration_s = 0;
+    double progress = 0;
+    std::optional<Time> started;
+    std::optional<Time> expected;
+};
+
+struct VehicleView {
+    plant::VehicleId id;
+    Link link = Link::kNever;
+    Activity activity = Activity::kUnknown;
+    std::optional<Reason> reason;  // why it stands or waits
+    std::optional<Time> last_heard;
+    bool pose_known = false;
+    std::optional<Pose2> pose;
+    std::optional<Time> pose_at;
+    std::string hall;
+    plant::StationId at_station;
+    JobOrderId order;  // empty: none
+    std::optional<LegView> leg;
+    bool paused = false;
+    bool needs_resume = false;
+    Reason needs_resume_reason;
+    StateMessage state;  // as last reported; all defaults before the first
+};
+
+struct StationView {
+    plant::StationId id;
+    int number = 0;
+    plant::VehicleId occupied_by;
+    plant::VehicleId reserved_by;
+    bool ready = false;
+    StopRecordId last_stop;
+};
+
+struct FleetView {
+    bool paused = false;
+    std::int64_t last_event_seq = 0;
+    int vehicles_live = 0;
+    int vehicles_total = 0;
+    std::vector<plant::VehicleId> needs_resume;
+    Time started;
+};
+
+struct Check {
+    enum class Result { kPass, kNote, kFail };
+    std::string code;  // link pose load parking_feet codes_in_view station clearance wheels battery safety mode
+    Result result = Result::kPass;
+    Params params;
+    std::optional<double> age_s;
+};
+
+struct StepPreview {
+    plant::StationId station;
+    int number = 0;
+    Pose2 start;
+    std::optional<plant::MotionMode> chosen;
+    std::vector<planning::ModeOption> options;
+};
+
+struct Preview {
+    plant::VehicleId vehicle;
+    bool accepted = false;
+    std::optional<Error> problem;
+    std::vector<Check> checks;
+    std::vector<StepPreview> steps;
+};
+
+}  // namespace pulseline::fleet

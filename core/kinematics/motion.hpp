@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/plant/plant.hpp"
+
+/// Motion primitives: how a vehicle gets from one pose to another in one motion mode.
+namespace pulseline::kinematics {
+
+using geometry::Point2;
+using geometry::Pose2;
+using plant::MotionMode;
+
+/// One primitive move. Rotate turns about the body's own centre; Straight keeps the heading and
+/// moves along `direction_rad` of the body frame (0 forwards, pi backwards, +-pi/2 sideways); Arc
+/// turns the body about `centre` of the hall frame, heading tangential (backwards when
+/// length_m < 0).
+struct Segment {
+    enum class Kind { kRotate, kStraight, kArc };
+    Kind kind = Kind::kStraight;
+    Pose2 start;
+    Pose2 end;
+    double turn_rad = 0;       // change of heading, counter-clockwise positive; not wrapped
+    double length_m = 0;       // path of the body centre; negative: driven backwards
+    double direction_rad = 0;  // Straight only
+    Point2 centre;             // Arc only
+    double duration_s = 0;     // trapezoidal speed profile, standing at both ends
+};
+
+struct MotionPlan {
+    MotionMode mode = MotionMode::kLinear;
+    std::vector<Segment> segments;
+    double length_m = 0;
+    double turn_rad = 0;  // sum of absolute turns
+    double duration_s = 0;
+};
+
+/// Pose on a segment at share s in [0, 1] of its way.
+Pose2 pose_at(const Segment& segment, double s);
+/// Piece of a segment between shares s0 < s1 (durations are those of a standing start and stop).
+Segment part(const plant::VehicleType& type, const Segment& segment, double s0, double s1);
+/// Time of a move with trapezoidal speed profile from rest to rest.
+double profile_duration_s(double distance, double max_rate, double max_accel);
+
+/// Motion of `mode` (not kAuto) from pose to pose without regard to obstacles.
+/// Errors (Errc::kUnreachable), reason codes: mode_not_supported, target_on_heading_line
+/// {offset_m, radius_m, limit_m} (Tang eq. 7), not_in_place {distance_m} (self rotation needs the
+/// same position), not_beside {along_m} (lateral), turn_radius_too_small {radius_m, limit_m},
+/// already_there.
+Result<MotionPlan> plan_motion(const plant::VehicleType& type, const Pose2& from, const Pose2& to,
+                               MotionMode mode);
+
+/// Swept area of body pieces (convex, body frame) along segments: overlapping convex pieces.
+std::vector<geometry::Polygon> sweep(const std::vector<geometry::Polygon>& body,
+                                     const std::vector<Segment>& segments);
+
+}  // namespace pulseline::kinematics

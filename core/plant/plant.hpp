@@ -1,0 +1,204 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/key.hpp"
+#include "core/geometry/polygon.hpp"
+#include "core/geometry/pose2.hpp"
+#include "core/plant/occupancy_grid.hpp"
+
+/// The plant model: plain data as a plant file states it. validate.hpp says what must hold.
+namespace pulseline::plant {
+
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Pose2;
+
+using HallId = Key<struct HallTag>;
+using StationId = Key<struct StationTag>;
+using MarkerId = Key<struct MarkerTag>;
+using NodeId = Key<struct NodeTag>;
+using EdgeId = Key<struct EdgeTag>;
+using AreaId = Key<struct AreaTag>;
+using VehicleTypeId = Key<struct VehicleTypeTag>;
+using VehicleId = Key<struct VehicleTag>;
+
+/// How a vehicle travels one leg (design.md section 3). kAuto asks the planner to choose.
+enum class MotionMode { kAuto, kSelfRotation, kLinear, kFixedAxisRotation, kLateral, kFree };
+enum class Kinematics { kSteeredPlatform, kMecanum, kDifferential };
+enum class MarkerKind { kQr, kAprilTag, kLandmark };
+enum class AreaKind { kZone, kLane, kNoGo, kObstacle };
+
+struct Hall {
+    HallId id;
+    std::string name;
+    Polygon outline;             // inner side of the walls, hall frame
+    std::string occupancy_yaml;  // ROS map_server YAML beside the plant file; empty: outline + obstacles only
+    OccupancyGrid grid;          // loaded from it; empty without one
+};
+
+/// Where a stop must end up, in the hall frame: a box or an ellipse about the theoretical position.
+struct Tolerance {
+    enum class Shape { kBox, kEllipse };
+    Shape shape = Shape::kBox;
+    double dx_m = 0.025;  // half width; semi-axis of the ellipse. Tang 2020: +-25 mm, +-0.2 deg
+    double dy_m = 0.025;
+    double dheading_rad = 0.2 * 3.14159265358979323846 / 180.0;
+};
+
+struct Station {
+    StationId id;
+    int number = 0;  // what people and codes say; unique in the plant
+    std::string name;
+    HallId hall;
+    Pose2 pose;  // theoretical pose of the vehicle standing there
+    Tolerance tolerance;
+    std::vector<MarkerId> markers;  // codes below the cameras of a vehicle standing there
+    NodeId node;                    // its roadmap node
+    bool resting_place = false;     // vehicles may be sent there to wait
+    std::vector<VehicleTypeId> vehicle_types;  // who may stop there; empty: everybody
+};
+
+struct Marker {
+    MarkerId id;
+    MarkerKind kind = MarkerKind::kQr;
+    std::string payload;  // "ST01-F"; the number as text for AprilTag and landmark
+    double size_m = 0.060;
+    HallId hall;
+    Pose2 pose;  // surveyed centre; heading: direction of the code's "up" edge (design.md section 10)
+    double sigma_xy_m = 0.0001;
+    double sigma_heading_rad = 0.0005;
+};
+
+struct Area {
+    AreaId id;
+    AreaKind kind = AreaKind::kZone;
+    std::string name;
+    HallId hall;
+    Polygon outline;
+};
+
+struct Wheel {
+    std::string name;  // "FL", "drive front"
+    Point2 position;   // body frame, y to the left
+    bool driven = false;
+    bool steered = false;
+    double diameter_m = 0;
+};
+
+/// Downward camera (design.md section 10). The mounting says where the foot of its optical axis
+/// lies in the body frame and how the image's +u axis is turned against body x.
+struct Camera {
+    std::string name;  // "front", "back"
+    Pose2 body_from_camera;
+    double height_m = 0.455;
+    double f_px = 3317.78;
+    int width_px = 1280;
+    int height_px = 1024;
+    double cu_px = 639.5;
+    double cv_px = 511.5;
+    double k1 = 0;
+};
+
+struct Bracket {
+    std::string name;  // "front left"
+    Point2 position;   // body frame
+};
+
+struct VehicleType {
+    VehicleTypeId id;
+    std::string name;
+    Kinematics kinematics = Kinematics::kSteeredPlatform;
+    Polygon footprint;  // body frame, vehicle alone
+    Polygon load_footprint;  // body frame, outline of what it usually carries; may be empty
+    double max_speed_mps = 1.0;
+    double max_accel_mps2 = 0.2;
+    double max_turn_rate_radps = 0.1;
+    double max_turn_accel_radps2 = 0.05;
+    double min_turn_radius_m = 0;    // of arcs; 0: none
+    double max_arc_radius_m = 200;   // above it an arc is a straight line with a hidden drift
+    double clearance_m = 0.5;        // distance kept from walls and other vehicles
+    double length_m() const;
+    std::vector<MotionMode> motion_modes;
+    std::vector<Wheel> wheels;
+    std::vector<Camera> cameras;
+    std::vector<Bracket> brackets;
+    double mass_kg = 0;
+    double max_load_kg = 0;
+};
+
+struct Vehicle {
+    VehicleId id;      // "TP-01", as people say it
+    VehicleTypeId type;
+    std::string manufacturer;   // VDA 5050 identity
+    std::string serial_number;  // [A-Za-z0-9_.:-]+
+    std::string name;
+    StationId home;  // where the simulated one starts and where it rests
+    std::string load_name;  // what it carries in the demo, e.g. "A-103"; empty: nothing
+    double load_kg = 0;
+};
+
+struct RoadmapNode {
+    NodeId id;
+    HallId hall;
+    Point2 position;
+};
+
+/// Directed edge; a two-way lane is two edges.
+struct RoadmapEdge {
+    EdgeId id;
+    NodeId from;
+    NodeId to;
+    double max_speed_mps = 0;                  // 0: the vehicle's own limit
+    std::vector<VehicleTypeId> vehicle_types;  // empty: everybody whose footprint fits
+};
+
+/// Direction penalty (Li 2022 eq. 10 as corrected): cost = k_same x length +
+/// (k_diff - k_same) x reference_step_m per change of direction of more than turn_threshold_rad.
+struct RoutingCost {
+    double k_same = 10;
+    double k_diff = 20;
+    double reference_step_m = 1.0;
+    double turn_threshold_rad = 5.0 * 3.14159265358979323846 / 180.0;
+};
+
+struct Plant {
+    std::string id;  // "pulse-line"
+    std::string name;
+    std::int64_t revision = 1;
+    std::vector<Hall> halls;
+    std::vector<Station> stations;
+    std::vector<Marker> markers;
+    std::vector<Area> areas;
+    std::vector<VehicleType> vehicle_types;
+    std::vector<Vehicle> vehicles;
+    std::vector<RoadmapNode> nodes;
+    std::vector<RoadmapEdge> edges;
+    RoutingCost routing;
+};
+
+// Look-ups by key; nullptr when there is none. Pointers live as long as the plant is unchanged.
+const Hall* find_hall(const Plant& plant, const HallId& id);
+const Station* find_station(const Plant& plant, const StationId& id);
+const Station* find_station(const Plant& plant, int number);
+const Marker* find_marker(const Plant& plant, const MarkerId& id);
+const Marker* find_marker_by_payload(const Plant& plant, const std::string& payload);
+const VehicleType* find_vehicle_type(const Plant& plant, const VehicleTypeId& id);
+const Vehicle* find_vehicle(const Plant& plant, const VehicleId& id);
+const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
+                            const std::string& serial_number);
+const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
+/// Footprint of vehicle and load together (convex pieces, body frame).
+std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded);
+
+const char* to_string(MotionMode mode);  // "self_rotation"
+std::optional<MotionMode> parse_motion_mode(const std::string& text);
+const char* to_string(Kinematics kinematics);  // "steered_platform"
+const char* to_string(MarkerKind kind);        // "qr", "apriltag", "landmark"
+const char* to_string(AreaKind kind);          // "zone", "lane", "no_go", "obstacle"
+
+}  // namespace pulseline::plant
