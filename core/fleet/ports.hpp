@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,41 @@ public:
     virtual StoredFleet load() = 0;
     /// One transaction; throws db::Error when nothing was stored.
     virtual void commit(const Records& records) = 0;
+};
+
+struct StopQuery {
+    plant::VehicleId vehicle;  // empty: any
+    std::optional<int> station_number;
+    JobOrderId order;  // empty: any
+    int limit = 50;
+    StopRecordId before;  // page on: only records older than this one; empty: from the newest
+};
+struct OrderQuery {
+    std::vector<JobState> states;  // empty: all
+    plant::VehicleId vehicle;
+    int limit = 50;
+    JobOrderId before;
+};
+/// Absolute deviations of earlier stops, for the expectation shown before a move.
+struct StopStatistics {
+    int stops = 0;
+    double mean_m = 0;  // of hypot(dx, dy)
+    double max_m = 0;
+    double mean_rad = 0;
+    double max_rad = 0;
+};
+
+/// Port to what is kept for reading only; runs on its own thread with a read-only connection.
+class History {
+public:
+    virtual ~History() = default;
+    virtual std::vector<StopRecord> stops(const StopQuery& query) = 0;  // newest first
+    virtual std::optional<StopRecord> stop(StopRecordId id) = 0;
+    virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;  // newest first
+    virtual std::optional<JobOrder> order(JobOrderId id) = 0;
+    virtual std::vector<Event> events_after(std::int64_t seq, int limit) = 0;
+    virtual StopStatistics statistics(const std::vector<plant::VehicleId>& vehicles,
+                                      plant::MotionMode mode, int newest) = 0;
 };
 
 /// A message for a vehicle; sent only after the records of the same step are committed.
