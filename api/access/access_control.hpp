@@ -23,7 +23,7 @@ void apply(Store& store, const Change& change);
 struct Limits {
     Duration session_idle = std::chrono::minutes(30);
     Duration session_total = std::chrono::hours(12);
-    int sign_ins_per_minute = 5;  // failed ones of one account from one peer
+    int sign_ins_per_minute = 5;  // attempts for one account from one peer
 };
 
 /// How a new password is hashed (libsodium's Argon2id).

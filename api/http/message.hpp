@@ -45,4 +45,7 @@ bool parse_target(std::string_view target, Request& request);
 /// Decodes %XX (and '+' when `plus_is_space`); nothing when it is broken, holds a NUL or no UTF-8.
 std::optional<std::string> percent_decoded(std::string_view text, bool plus_is_space);
 
+/// Well-formed UTF-8: no overlong forms, no surrogates.
+bool is_utf8(std::string_view text);
+
 }  // namespace pulseline::api
