@@ -1,0 +1,106 @@
+import type { MotionMode, Plant } from "../../shared/api/types";
+
+/** A job order being written: stations in the order they will be visited. */
+export interface TourStep {
+  id: number;
+  station: string; // as typed
+  mode: MotionMode;
+}
+export interface Tour {
+  vehicle: string; // empty: any that can
+  priority: number;
+  steps: TourStep[];
+  nextId: number;
+}
+
+export type TourEvent =
+  | { kind: "vehicle"; vehicle: string }
+  | { kind: "priority"; priority: number }
+  | { kind: "add"; station?: string }
+  | { kind: "remove"; id: number }
+  | { kind: "move"; id: number; by: -1 | 1 }
+  | { kind: "station"; id: number; station: string }
+  | { kind: "mode"; id: number; mode: MotionMode }
+  | { kind: "reset" };
+
+export const kMaxSteps = 100;
+
+export function emptyTour(): Tour {
+  return { vehicle: "", priority: 0, steps: [{ id: 1, station: "", mode: "auto" }], nextId: 2 };
+}
+
+export function tour(state: Tour, event: TourEvent): Tour {
+  switch (event.kind) {
+    case "vehicle":
+      return { ...state, vehicle: event.vehicle };
+    case "priority":
+      return { ...state, priority: Math.max(-100, Math.min(100, Math.round(event.priority))) };
+    case "add":
+      if (state.steps.length >= kMaxSteps) return state;
+      return {
+        ...state,
+        steps: [...state.steps, { id: state.nextId, station: event.station ?? "", mode: "auto" }],
+        nextId: state.nextId + 1,
+      };
+    case "remove":
+      if (state.steps.length === 1) return state;
+      return { ...state, steps: state.steps.filter((s) => s.id !== event.id) };
+    case "move": {
+      const from = state.steps.findIndex((s) => s.id === event.id);
+      const to = from + event.by;
+      const moving = state.steps[from];
+      const other = state.steps[to];
+      if (!moving || !other) return state;
+      const steps = [...state.steps];
+      steps[from] = other;
+      steps[to] = moving;
+      return { ...state, steps };
+    }
+    case "station":
+      return {
+        ...state,
+        steps: state.steps.map((s) =>
+          s.id === event.id ? { ...s, station: event.station.replace(/[^0-9]/g, "").slice(0, 4) } : s,
+        ),
+      };
+    case "mode":
+      return { ...state, steps: state.steps.map((s) => (s.id === event.id ? { ...s, mode: event.mode } : s)) };
+    case "reset":
+      return emptyTour();
+  }
+}
+
+export type TourFault =
+  | { kind: "missing"; id: number }
+  | { kind: "unknown"; id: number; station: string }
+  | { kind: "repeated"; id: number; station: string };
+
+/** What the server would refuse for sure, named by row; the rest it decides. */
+export function faults(state: Tour, plant: Plant | undefined): TourFault[] {
+  const found: TourFault[] = [];
+  state.steps.forEach((step, i) => {
+    if (step.station === "") {
+      found.push({ kind: "missing", id: step.id });
+      return;
+    }
+    if (plant && !plant.stations.some((s) => s.number === Number(step.station)))
+      found.push({ kind: "unknown", id: step.id, station: step.station });
+    const before = state.steps[i - 1];
+    if (before && before.station !== "" && Number(before.station) === Number(step.station))
+      found.push({ kind: "repeated", id: step.id, station: step.station });
+  });
+  return found;
+}
+
+/** The body of POST /job-orders. REQUIRES: no faults. */
+export function toRequest(state: Tour): {
+  vehicle?: string;
+  priority: number;
+  steps: { station: number; motion_mode: MotionMode }[];
+} {
+  return {
+    ...(state.vehicle ? { vehicle: state.vehicle } : {}),
+    priority: state.priority,
+    steps: state.steps.map((s) => ({ station: Number(s.station), motion_mode: s.mode })),
+  };
+}

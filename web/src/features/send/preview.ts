@@ -1,0 +1,121 @@
+import type { Check, DryRun, ModeOption, MotionMode, Pose, StepPreview, Vehicle } from "../../shared/api/types";
+
+/** What the preview depends on. Same key, same answer: nothing is asked again. */
+export interface PreviewInput {
+  vehicle: string;
+  station: number;
+  mode: MotionMode;
+  pose: Pose | undefined;
+  link: string;
+  stationsKey: string;
+}
+
+/** Poses are rounded to what can change the answer (10 mm, 0.1 deg), so noise at rest asks nothing. */
+export function previewKey(input: PreviewInput): string {
+  const p = input.pose;
+  const pose = p
+    ? `${Math.round(p.x_m * 100)},${Math.round(p.y_m * 100)},${Math.round((p.heading_rad * 1800) / Math.PI)}`
+    : "-";
+  return [input.vehicle, input.station, input.mode, pose, input.link, input.stationsKey].join("|");
+}
+
+export type Preview =
+  | { kind: "none" }
+  | { kind: "loading"; last: DryRun | undefined }
+  | { kind: "ready"; data: DryRun }
+  | { kind: "failed"; code: string; detail: string; requestId: string | undefined };
+
+/** Asks for previews; only the answer to the newest question is let through. */
+export class NewestOnly {
+  private turn = 0;
+  next(): { isNewest: () => boolean } {
+    const mine = ++this.turn;
+    return { isNewest: () => mine === this.turn };
+  }
+  drop(): void {
+    ++this.turn;
+  }
+}
+
+export const kDebounceMs = 250;
+
+const order: Record<Check["result"], number> = { fail: 0, note: 1, pass: 2 };
+
+/** Fails on top; within one result the server's order stays, and notes keep their place. */
+export function sortChecks(checks: readonly Check[]): Check[] {
+  const fails = checks.filter((c) => c.result === "fail");
+  const rest = checks.filter((c) => c.result !== "fail");
+  return [...fails, ...rest];
+}
+
+export function worst(checks: readonly Check[]): Check["result"] | undefined {
+  return checks.reduce<Check["result"] | undefined>(
+    (w, c) => (w === undefined || order[c.result] < order[w] ? c.result : w),
+    undefined,
+  );
+}
+
+export function countChecks(checks: readonly Check[]): { pass: number; note: number; fail: number; total: number } {
+  const of = (r: Check["result"]) => checks.filter((c) => c.result === r).length;
+  // A note does not hold the move: it counts as passed.
+  return { pass: of("pass") + of("note"), note: of("note"), fail: of("fail"), total: checks.length };
+}
+
+const modeOrder: MotionMode[] = ["linear", "free", "fixed_axis_rotation", "self_rotation", "lateral"];
+
+/** Feasible ones first, the suggested one on top; the rest in a fixed order so rows do not jump. */
+export function sortOptions(options: readonly ModeOption[]): ModeOption[] {
+  const rank = (o: ModeOption) =>
+    (o.suggested ? 0 : o.feasible ? 10 : 20) + Math.max(0, modeOrder.indexOf(o.mode)) / 10;
+  return [...options].sort((a, b) => rank(a) - rank(b));
+}
+
+/** The row that a start would send now: the person's choice, or the suggested one for auto. */
+export function chosenOption(step: StepPreview | undefined, mode: MotionMode): ModeOption | undefined {
+  if (!step) return undefined;
+  if (mode === "auto") {
+    return (
+      step.options.find((o) => o.suggested && o.feasible) ??
+      step.options.find((o) => o.mode === step.chosen && o.feasible)
+    );
+  }
+  return step.options.find((o) => o.mode === mode);
+}
+
+/** Whether Start may be armed, and if not, the first reason in the order a person would fix it. */
+export type Readiness =
+  | { kind: "ready" }
+  | { kind: "no_vehicle" }
+  | { kind: "no_station" }
+  | { kind: "offline" }
+  | { kind: "not_allowed" }
+  | { kind: "waiting" }
+  | { kind: "infeasible"; option: ModeOption }
+  | { kind: "check"; check: Check }
+  | { kind: "problem"; reason: { code: string; params: Record<string, string | number | boolean> } }
+  | { kind: "failed" };
+
+export function readiness(input: {
+  vehicle: Vehicle | undefined;
+  station: number | undefined;
+  mode: MotionMode;
+  linkUp: boolean;
+  mayCommand: boolean;
+  preview: Preview;
+}): Readiness {
+  if (!input.linkUp) return { kind: "offline" };
+  if (!input.mayCommand) return { kind: "not_allowed" };
+  if (!input.vehicle) return { kind: "no_vehicle" };
+  if (input.station === undefined) return { kind: "no_station" };
+  const { preview } = input;
+  if (preview.kind === "failed") return { kind: "failed" };
+  if (preview.kind !== "ready") return { kind: "waiting" };
+  const fail = preview.data.checks.find((c) => c.result === "fail");
+  const option = chosenOption(preview.data.steps[0], input.mode);
+  if (option && !option.feasible) return { kind: "infeasible", option };
+  if (fail) return { kind: "check", check: fail };
+  if (!preview.data.accepted) {
+    return preview.data.problem ? { kind: "problem", reason: preview.data.problem } : { kind: "failed" };
+  }
+  return { kind: "ready" };
+}
