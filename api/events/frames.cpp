@@ -1,0 +1,83 @@
+#include "api/events/frames.hpp"
+
+#include <fmt/format.h>
+
+#include "api/http/common_json.hpp"
+#include "api/http/job_order_json.hpp"
+#include "api/http/plant_json.hpp"
+#include "api/http/vehicle_json.hpp"
+
+namespace pulseline::events {
+namespace {
+
+using api::Json;
+
+std::string frame(const char* type, Json content) {
+    return api::dump({{"type", type}, {type, std::move(content)}});
+}
+
+}  // namespace
+
+std::string snapshot_frame(const plant::Plant& plant, const api::CameraImages& images,
+                           const Snapshot& snapshot) {
+    const auto vehicle = [&](const fleet::VehicleView& view) {
+        return api::vehicle_json(plant, images, view);
+    };
+    const auto order = [&](const fleet::JobOrder& one) { return api::job_order_json(plant, one); };
+    return api::dump(
+        {{"type", "snapshot"},
+         {"server_time", api::rfc3339(snapshot.now)},
+         {"fleet", api::fleet_json(plant, snapshot.fleet)},
+         {"vehicles", api::list_json(snapshot.vehicles, vehicle)},
+         {"stations", api::list_json(snapshot.stations, api::station_state_json)},
+         {"job_orders", api::list_json(snapshot.job_orders, order)},
+         {"stop_records", api::list_json(snapshot.stop_records, api::stop_record_json)}});
+}
+
+std::string poses_frame(Time at, const std::vector<PoseSample>& poses) {
+    // Ten times a second for every vehicle: rounded to 0.01 mm and written without a tree.
+    std::string text = fmt::format(R"({{"type":"poses","at":"{}","poses":[)", api::rfc3339(at));
+    const char* comma = "";
+    for (const PoseSample& sample : poses) {
+        text += fmt::format("{}[{},{:.5f},{:.5f},{:.6f},{:.4f},{:.2f}]", comma,
+                            api::dump(sample.vehicle.str()), sample.pose.x_m, sample.pose.y_m,
+                            sample.pose.heading_rad, sample.speed_mps, sample.age_s);
+        comma = ",";
+    }
+    return text + "]}";
+}
+
+std::string vehicle_frame(const plant::Plant& plant, const api::CameraImages& images,
+                          const fleet::VehicleView& vehicle) {
+    return frame("vehicle", api::vehicle_json(plant, images, vehicle));
+}
+
+std::string station_frame(const fleet::StationView& station) {
+    return frame("station", api::station_state_json(station));
+}
+
+std::string job_order_frame(const plant::Plant& plant, const fleet::JobOrder& order) {
+    return frame("job_order", api::job_order_json(plant, order));
+}
+
+std::string stop_record_frame(const fleet::StopRecord& stop) {
+    return frame("stop_record", api::stop_record_json(stop));
+}
+
+std::string fleet_frame(const plant::Plant& plant, const fleet::FleetView& fleet) {
+    return frame("fleet", api::fleet_json(plant, fleet));
+}
+
+std::string event_frame(const fleet::Event& event) {
+    return frame("event", api::event_json(event));
+}
+
+std::string sse(const fleet::Event& event) {
+    // dump() escapes line ends, so one data line always suffices.
+    return fmt::format("id: {}\nevent: {}\ndata: {}\n\n", event.seq, event.type,
+                       api::dump(api::event_json(event)));
+}
+
+std::string sse_keep_alive() { return ": still here\n\n"; }
+
+}  // namespace pulseline::events

@@ -1,0 +1,88 @@
+#include "api/http/job_order_json.hpp"
+
+namespace pulseline::api {
+namespace {
+
+template <class AnyId>
+void put_id(Json& json, const char* name, const AnyId& id) {
+    if (!id.empty()) json[name] = id.str();
+}
+
+Json step_json(const plant::Plant& plant, const fleet::Step& step) {
+    const plant::Station* station = plant::find_station(plant, step.station);
+    Json json = {{"station", step.station.str()},
+                 {"number", station != nullptr ? station->number : 0},
+                 {"motion_mode", plant::to_string(step.mode)},
+                 {"state", fleet::to_string(step.state)}};
+    put_id(json, "leg", step.leg);
+    put_id(json, "stop", step.stop);
+    return json;
+}
+
+}  // namespace
+
+Json job_order_json(const plant::Plant& plant, const fleet::JobOrder& order) {
+    Json json = {
+        {"id", order.id.str()},
+        {"number", order.number},
+        {"name", "JO-" + std::to_string(order.number)},
+        {"state", fleet::to_string(order.state)},
+        {"priority", order.priority},
+        {"wanted_vehicle", order.wanted_vehicle.str()},
+        {"vehicle", order.assigned_vehicle.str()},
+        {"steps",
+         list_json(order.steps, [&](const fleet::Step& step) { return step_json(plant, step); })},
+        {"current_step", order.current_step},
+        {"cancel_requested", order.cancel_requested},
+        {"pause_requested", order.pause_requested},
+        {"created_by", order.created_by},
+        {"created_at", rfc3339(order.created)},
+        {"revision", order.revision}};
+    if (!order.client_order_id.empty()) json["client_order_id"] = order.client_order_id;
+    if (!order.reason.code.empty()) json["reason"] = reason_json(order.reason);
+    if (order.started != Time{}) json["started_at"] = rfc3339(order.started);
+    if (order.ended != Time{}) json["ended_at"] = rfc3339(order.ended);
+    return json;
+}
+
+Json stop_record_json(const fleet::StopRecord& stop) {
+    Json json = {{"id", stop.id.str()},
+                 {"order", stop.order.str()},
+                 {"leg", stop.leg.str()},
+                 {"step", stop.step},
+                 {"vehicle", stop.vehicle.str()},
+                 {"station", stop.station.str()},
+                 {"number", stop.station_number},
+                 {"mode", plant::to_string(stop.mode)},
+                 {"theoretical", pose_json(stop.theoretical)},
+                 {"measured", pose_json(stop.measured)},
+                 {"dx_m", stop.dx_m},
+                 {"dy_m", stop.dy_m},
+                 {"dheading_rad", stop.dheading_rad},
+                 {"along_m", stop.along_m},
+                 {"left_m", stop.left_m},
+                 {"sigma_xy_m", stop.sigma_xy_m},
+                 {"sigma_heading_rad", stop.sigma_heading_rad},
+                 {"tolerance", tolerance_json(stop.tolerance)},
+                 {"inside", stop.inside},
+                 {"attempt", stop.attempt},
+                 {"method", stop.method},
+                 {"markers", stop.markers},
+                 {"load_kg", stop.load_kg},
+                 {"at", rfc3339(stop.at)}};
+    return json;
+}
+
+Json event_json(const fleet::Event& event) {
+    Json json = {{"seq", event.seq},
+                 {"at", rfc3339(event.at)},
+                 {"type", event.type},
+                 {"params", params_json(event.params)}};
+    put_id(json, "order", event.order);
+    put_id(json, "leg", event.leg);
+    put_id(json, "vehicle", event.vehicle);
+    if (!event.actor.empty()) json["actor"] = event.actor;
+    return json;
+}
+
+}  // namespace pulseline::api

@@ -1,0 +1,106 @@
+#include "api/http/preview_json.hpp"
+
+namespace pulseline::api {
+namespace {
+
+const char* text(fleet::Check::Result result) {
+    switch (result) {
+        case fleet::Check::Result::kPass:
+            return "pass";
+        case fleet::Check::Result::kNote:
+            return "note";
+        case fleet::Check::Result::kFail:
+            return "fail";
+    }
+    return "fail";
+}
+
+Json check_json(const fleet::Check& check) {
+    Json json = {{"code", check.code},
+                 {"result", text(check.result)},
+                 {"params", params_json(check.params)}};
+    if (check.age_s) json["age_s"] = *check.age_s;
+    return json;
+}
+
+Json segment_json(const kinematics::Segment& segment) {
+    using Kind = kinematics::Segment::Kind;
+    Json json = {{"start", pose_json(segment.start)},
+                 {"end", pose_json(segment.end)},
+                 {"turn_rad", segment.turn_rad},
+                 {"length_m", segment.length_m},
+                 {"duration_s", segment.duration_s}};
+    switch (segment.kind) {
+        case Kind::kRotate:
+            json["kind"] = "rotate";
+            break;
+        case Kind::kStraight:
+            json["kind"] = "straight";
+            json["direction_rad"] = segment.direction_rad;
+            break;
+        case Kind::kArc:
+            json["kind"] = "arc";
+            json["centre"] = point_json(segment.centre);
+            break;
+    }
+    return json;
+}
+
+Json option_json(const planning::ModeOption& option) {
+    Json json = {{"mode", plant::to_string(option.mode)},
+                 {"feasible", option.plan.has_value()},
+                 {"suggested", option.suggested}};
+    if (!option.plan) {
+        json["reason"] = reason_json(option.plan.error().reason);
+        return json;
+    }
+    const planning::LegPlan& plan = *option.plan;
+    json["segments"] = list_json(plan.segments, segment_json);
+    json["route"] =
+        list_json(plan.route, [](const plant::NodeId& node) { return Json(node.str()); });
+    json["length_m"] = plan.length_m;
+    json["turns"] = plan.turns;
+    json["cost"] = plan.cost;
+    json["duration_s"] = plan.duration_s;
+    json["clearance_m"] = plan.clearance_m;
+    json["nearest"] = plan.nearest;
+    json["swept_area_m2"] = plan.swept_area_m2;
+    json["swept"] = rings_json(plan.swept);
+    return json;
+}
+
+Json step_json(const fleet::StepPreview& step,
+               const std::optional<fleet::StopStatistics>& expected) {
+    Json json = {{"station", step.station.str()},
+                 {"number", step.number},
+                 {"start", pose_json(step.start)},
+                 {"options", list_json(step.options, option_json)}};
+    if (step.chosen) json["chosen"] = plant::to_string(*step.chosen);
+    if (expected && expected->stops > 0) {
+        json["expected_deviation"] = {{"stops", expected->stops},
+                                      {"mean_m", expected->mean_m},
+                                      {"max_m", expected->max_m},
+                                      {"mean_rad", expected->mean_rad},
+                                      {"max_rad", expected->max_rad}};
+    }
+    return json;
+}
+
+}  // namespace
+
+Json preview_json(const fleet::Preview& preview,
+                  const std::vector<std::optional<fleet::StopStatistics>>& expected) {
+    Json steps = Json::array();
+    for (std::size_t i = 0; i < preview.steps.size(); ++i) {
+        steps.push_back(
+            step_json(preview.steps[i], i < expected.size() ? expected[i] : std::nullopt));
+    }
+    Json json = {{"vehicle", preview.vehicle.str()},
+                 {"accepted", preview.accepted},
+                 {"checks", list_json(preview.checks, check_json)},
+                 {"steps", std::move(steps)}};
+    if (preview.problem) json["problem"] = reason_json(preview.problem->reason);
+    return json;
+}
+
+}  // namespace pulseline::api

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "api/http/common_json.hpp"
+#include "api/http/contexts.hpp"
+#include "core/fleet/views.hpp"
+
+namespace pulseline::api {
+
+/// The plant gives names and loads, `images` the times of the newest camera pictures.
+Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
+                  const fleet::VehicleView& vehicle);
+Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet);
+
+}  // namespace pulseline::api
