@@ -81,6 +81,7 @@ public:
     /// Any frame or pong; silence is counted from the last one.
     void vehicle_heard(const plant::VehicleId& id, Time now);
     void vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now);
+    void vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now);
     /// Three takeovers of one identity within 60 s: refused until a person resumes the vehicle.
     void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
     bool connection_refused(const plant::VehicleId& id) const;
@@ -89,7 +90,7 @@ public:
     void tick(Time now);
 
     /// Everything put out since the last call.
-    Outputs take_outputs();
+    Outputs take_outputs(Time now);
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;

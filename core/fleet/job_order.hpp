@@ -38,6 +38,7 @@ struct Step {
     StepState state = StepState::kPending;
     LegId leg;           // the drive under way or done
     StopRecordId stop;   // set when the stop was measured
+    int attempts = 0;    // approaches made so far
 };
 
 struct JobOrder {
@@ -130,6 +131,9 @@ struct VehicleRecord {
     bool needs_resume = false;    // a person must allow it to move again
     Reason needs_resume_reason;
     bool paused = false;          // by a person, through the server
+    StopRecordId last_stop;       // newest measured stop, empty before the first
+    plant::StationId last_stop_station;
+    bool last_stop_inside = false;
 };
 
 }  // namespace pulseline::fleet

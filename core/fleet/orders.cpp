@@ -1,0 +1,210 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/fleet/state.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+// Near enough that the cameras see the codes and the vehicle only has to correct its stop.
+constexpr double kNearlyThere_m = 0.06;
+constexpr double kNearlyThere_rad = 1.5 * kPi / 180.0;
+constexpr std::size_t kMaxSteps = 100;
+
+std::string step_field(std::size_t step, const char* name) {
+    return "/steps/" + std::to_string(step) + "/" + name;
+}
+
+bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) {
+    return station.vehicle_types.empty() ||
+           std::find(station.vehicle_types.begin(), station.vehicle_types.end(), type.id) !=
+               station.vehicle_types.end();
+}
+
+/// Where the vehicle will stand when all it has to do is done; nullopt: nobody knows.
+std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run) {
+    std::optional<Pose2> pose;
+    if (run.record.pose_known) pose = run.record.pose;
+    for (const auto& [id, order] : fleet.orders) {
+        if (is_final(order.state)) continue;
+        if (order.assigned_vehicle != run.record.id && order.wanted_vehicle != run.record.id) {
+            continue;
+        }
+        if (const auto* last = plant::find_station(fleet.plant, order.steps.back().station)) {
+            pose = last->pose;
+        }
+    }
+    return pose;
+}
+
+Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run) {
+    OrderPlan plan;
+    plan.vehicle = run.record.id;
+    std::optional<Pose2> pose = future_pose(fleet, run);
+    const auto standing = standing_bodies(fleet, run.record.id);
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
+        if (!may_stop_at(*station, *run.type)) {
+            return fail(Errc::kUnreachable, "station_not_for_type",
+                        "Station " + std::to_string(station->number) + " is not for vehicles of type " +
+                            run.type->name + ". Choose another station or vehicle.",
+                        step_field(i, "station"),
+                        {{"station", std::int64_t{station->number}},
+                         {"vehicle_type", run.type->name}});
+        }
+        plan.starts.push_back(pose.value_or(Pose2{}));
+        plan.plans.emplace_back();
+        if (pose && !nearly_there(run, *pose, *station)) {
+            auto leg = fleet.planner.plan_leg(
+                leg_request(fleet, run, *pose, station->id, order.steps[i].mode), standing);
+            if (!leg) {
+                Error error = leg.error();
+                if (error.field.empty()) {
+                    error.field = step_field(i, order.steps[i].mode == plant::MotionMode::kAuto
+                                                    ? "station"
+                                                    : "motion_mode");
+                }
+                return fail(std::move(error));
+            }
+            plan.plans.back() = std::move(*leg);
+        }
+        pose = station->pose;
+    }
+    return plan;
+}
+
+bool is_gone(const FleetState& fleet, const VehicleRun& run, Time now) {
+    return silence(fleet, run, now) >= kGoneAfter;
+}
+
+Status check_steps(const FleetState& fleet, const NewOrder& order) {
+    if (order.steps.empty() || order.steps.size() > kMaxSteps) {
+        return fail(Errc::kInvalid, "bad_step_count", "An order has 1 to 100 steps.", "/steps",
+                    {{"steps", static_cast<std::int64_t>(order.steps.size())}});
+    }
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        if (!plant::find_station(fleet.plant, order.steps[i].station_number)) {
+            return fail(Errc::kUnreachable, "unknown_station",
+                        "There is no station " + std::to_string(order.steps[i].station_number) +
+                            ". GET /api/v1/stations lists the stations.",
+                        step_field(i, "station"),
+                        {{"station", std::int64_t{order.steps[i].station_number}}});
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station) {
+    const Pose2 off = geometry::inverse(station.pose) * pose;
+    const bool in_place = std::hypot(off.x_m, off.y_m) < 1e-3 && std::abs(off.heading_rad) < 1e-4;
+    const bool correctable = !station.markers.empty() && !run.type->cameras.empty();
+    return in_place || (correctable && std::hypot(off.x_m, off.y_m) < kNearlyThere_m &&
+                        std::abs(off.heading_rad) < kNearlyThere_rad);
+}
+
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now) {
+    if (auto steps = check_steps(fleet, order); !steps) return fail(steps.error());
+    if (!order.vehicle.empty()) {
+        const VehicleRun* run = fleet.find(order.vehicle);
+        if (!run) {
+            return fail(Errc::kUnreachable, "unknown_vehicle",
+                        "There is no vehicle " + order.vehicle.str() +
+                            ". GET /api/v1/vehicles lists the vehicles.",
+                        "/vehicle", {{"vehicle", order.vehicle.str()}});
+        }
+        if (is_gone(fleet, *run, now)) {
+            return fail(Errc::kConflict, "vehicle_gone",
+                        "Vehicle " + order.vehicle.str() +
+                            " has been silent for more than 60 s. Bring it back or choose another.",
+                        "/vehicle",
+                        {{"vehicle", order.vehicle.str()},
+                         {"silent_s", seconds(silence(fleet, *run, now))}});
+        }
+        return plan_with(fleet, order, *run);
+    }
+    // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
+    std::optional<OrderPlan> best;
+    double best_s = 0;
+    std::optional<Error> why_not;
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (is_gone(fleet, run, now)) continue;
+        auto plan = plan_with(fleet, order, run);
+        if (!plan) {
+            if (!why_not) why_not = plan.error();
+            continue;
+        }
+        double time_s = 0;
+        for (const auto& leg : plan->plans) time_s += leg ? leg->duration_s : 0;
+        if (!best || time_s < best_s) {
+            best = std::move(*plan);
+            best_s = time_s;
+        }
+    }
+    if (best) return std::move(*best);
+    if (why_not) return fail(*why_not);
+    return fail(Errc::kConflict, "no_vehicle",
+                "No vehicle has been heard in the last 60 s. Connect one, then repeat.", "/vehicle");
+}
+
+Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
+    const auto idempotency = std::make_pair(request.idempotency_client, request.idempotency_key);
+    if (!request.idempotency_key.empty()) {
+        const auto it = fleet.idempotency.find(idempotency);
+        if (it != fleet.idempotency.end()) {
+            if (it->second.body_sha256 != request.body_sha256) {
+                return fail(Errc::kInvalid, "idempotency_key_reused",
+                            "This Idempotency-Key was used with another body. Use a new key.");
+            }
+            if (const JobOrder* order = fleet.find(it->second.order)) return Created{*order, true};
+        }
+    }
+    if (!request.client_order_id.empty()) {
+        for (const auto& [id, order] : fleet.orders) {
+            if (order.client_order_id == request.client_order_id) {
+                return fail(Errc::kConflict, "duplicate_client_order_id",
+                            "Order " + request.client_order_id +
+                                " exists already. Use another client_order_id.",
+                            "/client_order_id", {{"order", id.str()}});
+            }
+        }
+    }
+    if (auto plan = plan_order(fleet, request, now); !plan) return fail(plan.error());
+
+    JobOrder order;
+    order.id = JobOrderId(fleet.ids.next(now));
+    order.number = ++fleet.order_number;
+    order.client_order_id = request.client_order_id;
+    order.wanted_vehicle = request.vehicle;
+    order.priority = request.priority;
+    for (const auto& step : request.steps) {
+        Step made;
+        made.station = plant::find_station(fleet.plant, step.station_number)->id;
+        made.mode = step.mode;
+        order.steps.push_back(std::move(made));
+    }
+    order.created_by = request.actor;
+    order.created = now;
+    const JobOrder& stored = fleet.orders.emplace(order.id, std::move(order)).first->second;
+    fleet.stored_orders.insert(stored.id);
+    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
+              {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
+    if (!request.idempotency_key.empty()) {
+        const IdempotencyRecord record{request.idempotency_client, request.idempotency_key,
+                                       request.body_sha256, stored.id, now};
+        fleet.idempotency[idempotency] = record;
+        fleet.out.records.idempotency.push_back(record);
+    }
+    return Created{stored, false};
+}
+
+void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
+                 Time now) {
+    for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
+        if (order.steps[i].state != StepState::kDone) order.steps[i].state = StepState::kSkipped;
+    }
+    set_order_state(fleet, order, JobState::kAborted, std::move(reason), actor, now);
+}
+
+}  // namespace pulseline::fleet

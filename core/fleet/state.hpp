@@ -1,0 +1,199 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/fleet/fleet.hpp"
+#include "core/planning/leg_planner.hpp"
+
+/// The fleet's own state, shared by the phases of fleet.cpp. Not for use outside core/fleet.
+namespace pulseline::fleet {
+
+/// An instant action on its way: sent again until the vehicle reports it final.
+struct PendingAction {
+    Action action;
+    Time first_sent;
+    std::optional<Time> last_sent;
+    int sends = 0;
+    bool escalated = false;
+};
+
+/// One vehicle while the server runs. `record` is what survives a restart.
+struct VehicleRun {
+    const plant::Vehicle* vehicle = nullptr;
+    const plant::VehicleType* type = nullptr;
+    VehicleRecord record;
+
+    bool connected = false;
+    bool reconciled = false;  // a state has come since it connected; before that no command goes out
+    bool connection_refused = false;
+    Link link = Link::kNever;
+    std::optional<Time> last_heard;
+    StateMessage state;
+    std::optional<Time> state_at;
+    std::optional<Factsheet> factsheet;
+
+    // The order message under way.
+    bool leg_seen = false;            // the vehicle has shown this leg's id
+    std::size_t update_from = 0;      // first node of the last update
+    std::optional<Time> update_sent;  // until the vehicle shows its update id
+    int update_sends = 0;
+    bool cancelling = false;          // cancelOrder is not final: nothing but instant actions
+    std::vector<traffic::TileSet> edge_tiles;  // floor of each edge of the leg
+    std::optional<Time> leg_started;
+    std::vector<PendingAction> actions;
+
+    /// Outlines of the floor of the leg; they cost some milliseconds and change only with the base.
+    struct Areas {
+        LegId leg;
+        std::size_t passed = 0;
+        std::size_t released = 0;
+        std::vector<geometry::Polygon> granted;
+        std::vector<geometry::Polygon> horizon;
+    };
+    mutable Areas areas;
+
+    bool has_leg() const { return record.has_leg; }
+    Leg& leg() { return record.leg_data; }
+    const Leg& leg() const { return record.leg_data; }
+};
+
+struct FleetState {
+    FleetState(const plant::Plant& p, std::uint64_t id_seed, Time now)
+        : plant(p), planner(p), ids(id_seed), started(now) {}
+
+    const plant::Plant& plant;
+    planning::LegPlanner planner;
+    IdSource ids;
+    Time started;
+    std::map<plant::VehicleId, VehicleRun> vehicles;
+    std::map<JobOrderId, JobOrder> orders;  // UUIDv7: sorted by age
+    std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
+    traffic::TileMap tiles;
+    std::int64_t event_seq = 0;
+    std::int64_t order_number = 0;
+
+    // Put out by this step.
+    Outputs out;
+    std::set<plant::VehicleId> stored_vehicles;   // records to write
+    std::set<JobOrderId> stored_orders;
+    std::set<plant::VehicleId> changed_vehicles;  // views to show
+    std::set<plant::StationId> changed_stations;
+
+    VehicleRun* find(const plant::VehicleId& id) {
+        const auto it = vehicles.find(id);
+        return it == vehicles.end() ? nullptr : &it->second;
+    }
+    const VehicleRun* find(const plant::VehicleId& id) const {
+        return const_cast<FleetState*>(this)->find(id);
+    }
+    JobOrder* find(JobOrderId id) {
+        const auto it = orders.find(id);
+        return it == orders.end() ? nullptr : &it->second;
+    }
+    const JobOrder* find(JobOrderId id) const { return const_cast<FleetState*>(this)->find(id); }
+
+    void store(JobOrder& order) {
+        ++order.revision;
+        stored_orders.insert(order.id);
+    }
+    void store(const VehicleRun& run) {
+        stored_vehicles.insert(run.record.id);
+        changed_vehicles.insert(run.record.id);
+    }
+};
+
+/// Appends to the gapless event sequence.
+void add_event(FleetState& fleet, Time now, std::string type, JobOrderId order, LegId leg,
+               const plant::VehicleId& vehicle, const std::string& actor, Params params = {});
+
+/// Moves an order along the ISA-95 machine, with its event. `reason` empty code: none.
+void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason reason,
+                     const std::string& actor, Time now);
+/// Says why an order waits; an event and a row only when the reason's code or vehicle changed.
+void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time now);
+
+/// The open order the vehicle works for, or null.
+JobOrder* order_of(FleetState& fleet, const plant::VehicleId& vehicle);
+Duration silence(const FleetState& fleet, const VehicleRun& run, Time now);
+/// Vehicle's outline (with its load) at a pose, convex pieces in the hall frame.
+std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose);
+bool is_loaded(const VehicleRun& run);
+std::string hall_of(const FleetState& fleet, const VehicleRun& run);
+std::size_t hall_index(const FleetState& fleet, const std::string& hall);
+/// Station whose theoretical pose the vehicle stands on (within 0.25 m and 3 deg); empty: none.
+plant::StationId station_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);
+std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
+                                                    const plant::VehicleId& except);
+
+// --- legs (legs.cpp) ---
+planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run, const Pose2& start,
+                                 const plant::StationId& target, plant::MotionMode mode);
+/// The drive as nodes and edges; nothing released but nodes[0].
+Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::LegPlan& plan,
+              const plant::Station& station, const Pose2& start, LegId id);
+/// A leg that only measures and corrects where the vehicle stands (second approach).
+Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
+                     const Pose2& pose, LegId id);
+/// Floor each edge of the vehicle's leg sweeps.
+std::vector<traffic::TileSet> tiles_of(const FleetState& fleet, const VehicleRun& run,
+                                       const Leg& leg);
+/// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
+void extend_base(FleetState& fleet, VehicleRun& run, Time now);
+void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
+/// Keeps only the floor that the rest of the leg (or the standing vehicle) needs.
+void free_floor_behind(FleetState& fleet, VehicleRun& run);
+/// Forgets the leg; the vehicle keeps the floor it stands on.
+void drop_leg(FleetState& fleet, VehicleRun& run);
+
+// --- vehicle input (vehicle_input.cpp) ---
+void connect(FleetState& fleet, VehicleRun& run, Time now);
+void disconnect(FleetState& fleet, VehicleRun& run, Time now);
+void hear(FleetState& fleet, VehicleRun& run, Time now);
+/// The vehicle stops taking new floor until a person allows it; its order is interrupted.
+void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
+/// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
+void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
+void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
+void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
+void update_links(FleetState& fleet, Time now);
+void resend(FleetState& fleet, Time now);
+
+// --- stops (stops.cpp) ---
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& found, Time now);
+void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now);
+
+// --- orders (orders.cpp) ---
+/// The vehicle that would serve the order and the plan of each step from where it will stand.
+struct OrderPlan {
+    plant::VehicleId vehicle;
+    std::vector<Pose2> starts;                                // one per step
+    std::vector<std::optional<planning::LegPlan>> plans;      // absent: start unknown or in place
+};
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now);
+/// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
+bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station);
+Result<Created> create_order(FleetState& fleet, const NewOrder& order, Time now);
+void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
+                 Time now);
+
+// --- dispatch (dispatch.cpp) ---
+void dispatch(FleetState& fleet, Time now);
+/// Why this vehicle may not start a move now; nullopt: it may.
+std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+
+// --- localisation from codes (code_pose.cpp) ---
+std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
+                                     const std::vector<CameraReading>& readings);
+
+// --- views (views.cpp) ---
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now);
+std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
+                                const plant::Station* target,
+                                const std::optional<planning::LegPlan>& plan, Time now);
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,127 @@
+#include <cmath>
+
+#include "core/fleet/state.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr int kApproaches = 3;  // of one step before a person is asked
+
+bool is_inside(const plant::Tolerance& tolerance, double dx_m, double dy_m, double dheading_rad) {
+    if (std::abs(dheading_rad) > tolerance.dheading_rad) return false;
+    if (tolerance.shape == plant::Tolerance::Shape::kBox) {
+        return std::abs(dx_m) <= tolerance.dx_m && std::abs(dy_m) <= tolerance.dy_m;
+    }
+    return std::hypot(dx_m / tolerance.dx_m, dy_m / tolerance.dy_m) <= 1.0;
+}
+
+StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
+                       const StopMeasurement& found, Time now) {
+    const Leg& leg = run.leg();
+    StopRecord stop;
+    stop.id = StopRecordId(fleet.ids.next(now));
+    stop.order = leg.order;
+    stop.leg = leg.id;
+    stop.step = leg.step;
+    stop.vehicle = run.record.id;
+    stop.station = station.id;
+    stop.station_number = station.number;
+    stop.mode = leg.mode;
+    stop.theoretical = station.pose;
+    stop.measured = found.pose;
+    stop.dx_m = found.pose.x_m - station.pose.x_m;
+    stop.dy_m = found.pose.y_m - station.pose.y_m;
+    stop.dheading_rad = wrap(found.pose.heading_rad - station.pose.heading_rad);
+    const Pose2 station_from_vehicle = geometry::inverse(station.pose) * found.pose;
+    stop.along_m = station_from_vehicle.x_m;
+    stop.left_m = station_from_vehicle.y_m;
+    stop.sigma_xy_m = found.sigma_xy_m;
+    stop.sigma_heading_rad = found.sigma_heading_rad;
+    stop.tolerance = station.tolerance;
+    stop.inside = is_inside(station.tolerance, stop.dx_m, stop.dy_m, stop.dheading_rad);
+    stop.attempt = leg.attempt;
+    stop.method = found.method;
+    stop.markers = found.markers;
+    stop.load_kg = run.state.load_kg;
+    stop.at = now;
+    return stop;
+}
+
+/// After an unsuccessful approach: the step is tried again, or a person is asked.
+void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
+    JobOrder* order = fleet.find(run.leg().order);
+    const int attempt = run.leg().attempt;
+    const int step = run.leg().step;
+    drop_leg(fleet, run);
+    if (!order) return;
+    auto& current = order->steps[static_cast<std::size_t>(step)];
+    current.state = StepState::kPending;
+    current.attempts = attempt;
+    fleet.store(*order);
+    if (attempt >= kApproaches && order->state == JobState::kRunning) {
+        current.attempts = 0;  // a person who resumes it grants new approaches
+        set_order_state(fleet, *order, JobState::kInterrupted, std::move(reason), {}, now);
+    }
+}
+
+}  // namespace
+
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& found,
+                        Time now) {
+    const plant::Station* station = plant::find_station(fleet.plant, run.leg().station);
+    if (!station) return;
+    const StopRecord stop = stop_record(fleet, run, *station, found, now);
+    fleet.out.records.stops.push_back(stop);
+    run.record.pose = found.pose;
+    run.record.pose_known = true;
+    run.record.at_station = station->id;
+    run.record.last_stop = stop.id;
+    run.record.last_stop_station = station->id;
+    run.record.last_stop_inside = stop.inside;
+    fleet.changed_stations.insert(station->id);
+    fleet.store(run);
+    add_event(fleet, now, "stop.measured", stop.order, stop.leg, stop.vehicle, {},
+              {{"stop", stop.id.str()},
+               {"station", static_cast<std::int64_t>(stop.station_number)},
+               {"dx_m", stop.dx_m},
+               {"dy_m", stop.dy_m},
+               {"dheading_rad", stop.dheading_rad},
+               {"inside", stop.inside},
+               {"attempt", static_cast<std::int64_t>(stop.attempt)}});
+
+    JobOrder* order = fleet.find(run.leg().order);
+    if (order) {
+        order->steps[static_cast<std::size_t>(stop.step)].stop = stop.id;
+        fleet.store(*order);
+    }
+    if (!stop.inside) {
+        try_again(fleet, run,
+                  {"out_of_tolerance",
+                   {{"station", static_cast<std::int64_t>(stop.station_number)},
+                    {"dx_m", stop.dx_m},
+                    {"dy_m", stop.dy_m},
+                    {"dheading_rad", stop.dheading_rad}}},
+                  now);
+        return;
+    }
+    drop_leg(fleet, run);
+    if (!order) return;
+    order->steps[static_cast<std::size_t>(stop.step)].state = StepState::kDone;
+    order->current_step = static_cast<std::size_t>(stop.step) + 1;
+    if (order->current_step == order->steps.size()) {
+        set_order_state(fleet, *order, JobState::kEnded, {}, {}, now);
+    } else if (order->cancel_requested) {
+        abort_order(fleet, *order, order->reason, {}, now);
+    }
+}
+
+void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {
+    const Leg& leg = run.leg();
+    const plant::Station* station = plant::find_station(fleet.plant, leg.station);
+    const std::int64_t number = station ? station->number : 0;
+    add_event(fleet, now, "stop.not_measured", leg.order, leg.id, run.record.id, {},
+              {{"station", number}, {"why", why}, {"attempt", std::int64_t{leg.attempt}}});
+    try_again(fleet, run, {"stop_not_measured", {{"station", number}, {"why", why}}}, now);
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,330 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/fleet/state.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr Duration kResendEvery = std::chrono::seconds(1);
+constexpr int kOrderSends = 10;  // then the order is interrupted and a person decides
+constexpr Duration kEscalateAfter = std::chrono::seconds(10);
+
+Link link_after(Duration silent) {
+    if (silent >= kGoneAfter) return Link::kGone;
+    if (silent >= kLostAfter) return Link::kLost;
+    if (silent >= kLateAfter) return Link::kLate;
+    return Link::kLive;
+}
+
+void set_link(FleetState& fleet, VehicleRun& run, Link to, Time now) {
+    if (run.link == to) return;
+    add_event(fleet, now, "vehicle.link", {}, {}, run.record.id, {},
+              {{"from", to_string(run.link)}, {"to", to_string(to)}});
+    run.link = to;
+    fleet.changed_vehicles.insert(run.record.id);
+}
+
+bool is_final(ActionStatus status) {
+    return status == ActionStatus::kFinished || status == ActionStatus::kFailed;
+}
+
+const ActionState* find_action(const StateMessage& state, const std::string& id) {
+    for (const auto& action : state.action_states) {
+        if (action.id == id) return &action;
+    }
+    return nullptr;
+}
+
+void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
+    JobOrder* order = order_of(fleet, run.record.id);
+    drop_leg(fleet, run);
+    if (!order) return;
+    if (order->current_step < order->steps.size()) {
+        order->steps[order->current_step].state = StepState::kPending;
+        order->steps[order->current_step].leg = {};
+    }
+    if (order->cancel_requested) {
+        abort_order(fleet, *order, order->reason, {}, now);
+    } else {
+        fleet.store(*order);
+    }
+}
+
+void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
+    bool cancelled = false;
+    std::erase_if(run.actions, [&](const PendingAction& pending) {
+        const ActionState* found = find_action(run.state, pending.action.id);
+        if (!found || !is_final(found->status)) return false;
+        // A cancel is done when the vehicle says so AND stands; floor is freed only then.
+        if (pending.action.type == "cancelOrder") {
+            if (run.state.driving) return false;
+            cancelled = true;
+        }
+        add_event(fleet, now, "vehicle.action", {}, {}, run.record.id, {},
+                  {{"action", pending.action.type},
+                   {"action_id", pending.action.id},
+                   {"status", found->status == ActionStatus::kFinished ? "finished" : "failed"},
+                   {"result", found->result_description}});
+        return true;
+    });
+    if (cancelled) finish_cancel(fleet, run, now);
+}
+
+void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
+    const StateMessage& state = run.state;
+    const bool known = state.position_initialized && state.pose.has_value();
+    if (known) {
+        const bool was_known = run.record.pose_known;
+        run.record.pose = *state.pose;
+        run.record.pose_known = true;
+        if (!was_known) {
+            add_event(fleet, now, "vehicle.pose_confirmed", {}, {}, run.record.id, {},
+                      {{"x_m", state.pose->x_m},
+                       {"y_m", state.pose->y_m},
+                       {"heading_rad", state.pose->heading_rad}});
+            if (!run.has_leg()) free_floor_behind(fleet, run);
+            fleet.store(run);
+        }
+    } else if (run.record.pose_known) {
+        run.record.pose_known = false;
+        add_event(fleet, now, "vehicle.pose_lost", {}, {}, run.record.id, {});
+        fleet.store(run);
+    }
+    const plant::StationId station =
+        known && !state.driving ? station_at(fleet, run, run.record.pose) : plant::StationId{};
+    if (station != run.record.at_station && (known || state.driving)) {
+        for (const auto& changed : {station, run.record.at_station}) {
+            if (!changed.empty()) fleet.changed_stations.insert(changed);
+        }
+        run.record.at_station = station;
+        fleet.store(run);
+    }
+}
+
+/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by it.
+void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
+    const StateMessage& state = run.state;
+    if (state.position_initialized || state.driving) return;
+    const bool pending = std::any_of(run.actions.begin(), run.actions.end(), [](const auto& p) {
+        return p.action.type == "initPosition";
+    });
+    if (pending) return;
+    const auto pose = pose_from_codes(fleet, run, state.cameras);
+    if (!pose) return;
+    Action action;
+    action.type = "initPosition";
+    action.blocking = BlockingType::kHard;
+    action.init_position = InitPosition{*pose, hall_of(fleet, run), {}};
+    send_action(fleet, run, std::move(action), now);
+}
+
+const VehicleError* rejection_of(const StateMessage& state, const std::string& order_id) {
+    for (const auto& error : state.errors) {
+        for (const auto& [key, value] : error.references) {
+            if (key == "orderId" && value == order_id) return &error;
+        }
+    }
+    return nullptr;
+}
+
+void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
+    const StateMessage& state = run.state;
+    Leg& leg = run.leg();
+    if (state.order_id != leg.id.str()) {
+        if (run.leg_seen) {
+            // Restarted, switched to manual or cancelled by hand: it no longer knows its order.
+            require_person(fleet, run, {"vehicle_lost_order", {}}, now);
+            run.leg_seen = false;
+            drop_leg(fleet, run);
+            if (JobOrder* order = order_of(fleet, run.record.id);
+                order && order->current_step < order->steps.size()) {
+                order->steps[order->current_step].state = StepState::kPending;
+                fleet.store(*order);
+            }
+        } else if (const auto* error = rejection_of(state, leg.id.str())) {
+            require_person(fleet, run,
+                           {"order_rejected", {{"type", error->type}, {"text", error->description}}},
+                           now);
+            drop_leg(fleet, run);
+        }
+        return;
+    }
+    if (!run.leg_seen) {
+        run.leg_seen = true;
+        if (!run.leg_started) run.leg_started = now;
+        add_event(fleet, now, "leg.accepted", leg.order, leg.id, leg.vehicle, {});
+    }
+    if (state.order_update_id >= leg.update_id) {
+        run.update_sent.reset();
+        run.update_sends = 0;
+    }
+    if (!state.last_node_id.empty()) {
+        const auto passed = static_cast<std::size_t>(
+            std::clamp<std::int64_t>(state.last_node_sequence_id / 2 + 1, 1,
+                                     static_cast<std::int64_t>(leg.nodes.size())));
+        if (passed > leg.passed_nodes) {
+            leg.passed_nodes = passed;
+            free_floor_behind(fleet, run);
+        }
+    }
+    if (run.cancelling) return;
+
+    bool measures = false;
+    for (const auto& action : leg.nodes.back().actions) {
+        if (action.type != "measureStop") continue;
+        measures = true;
+        const ActionState* found = find_action(state, action.id);
+        if (!found) continue;
+        if (found->status == ActionStatus::kFinished && found->measurement) {
+            take_measured_stop(fleet, run, *found->measurement, now);
+            return;
+        }
+        if (is_final(found->status)) {
+            take_failed_stop(fleet, run, found->result_description, now);
+            return;
+        }
+        JobOrder* order = fleet.find(leg.order);
+        if (found->status == ActionStatus::kRunning && order &&
+            leg.step < static_cast<int>(order->steps.size()) &&
+            order->steps[static_cast<std::size_t>(leg.step)].state == StepState::kDriving) {
+            order->steps[static_cast<std::size_t>(leg.step)].state = StepState::kMeasuring;
+            fleet.store(*order);
+        }
+    }
+    const bool idle = state.node_states.empty() && state.edge_states.empty() && !state.driving;
+    if (!measures && idle && leg.passed_nodes == leg.nodes.size() && state.pose) {
+        // A vehicle without measureStop: its own pose at the last node is the measurement.
+        StopMeasurement found;
+        found.pose = *state.pose;
+        found.sigma_xy_m = state.deviation_range_m;
+        found.method = "vehicle_pose";
+        take_measured_stop(fleet, run, found, now);
+    }
+}
+
+void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleError>& before,
+                 Time now) {
+    for (const auto& error : run.state.errors) {
+        const bool known = std::any_of(before.begin(), before.end(), [&](const auto& old) {
+            return old.type == error.type && old.description == error.description;
+        });
+        if (known) continue;
+        add_event(fleet, now, "vehicle.error", {}, run.record.leg, run.record.id, {},
+                  {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
+    }
+}
+
+}  // namespace
+
+void hear(FleetState& fleet, VehicleRun& run, Time now) {
+    run.last_heard = now;
+    set_link(fleet, run, Link::kLive, now);
+}
+
+void connect(FleetState& fleet, VehicleRun& run, Time now) {
+    run.connected = true;
+    run.reconciled = false;
+    add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
+    hear(fleet, run, now);
+}
+
+void disconnect(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!run.connected) return;
+    run.connected = false;
+    run.reconciled = false;
+    add_event(fleet, now, "vehicle.disconnected", {}, {}, run.record.id, {});
+    fleet.changed_vehicles.insert(run.record.id);
+}
+
+void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
+    if (!run.record.needs_resume) {
+        run.record.needs_resume = true;
+        run.record.needs_resume_reason = reason;
+        Params params{{"reason", reason.code}};
+        for (const auto& param : reason.params) params.push_back(param);
+        add_event(fleet, now, "vehicle.needs_resume", {}, run.record.leg, run.record.id, {},
+                  std::move(params));
+        fleet.store(run);
+    }
+    JobOrder* order = order_of(fleet, run.record.id);
+    if (order && order->state == JobState::kRunning) {
+        set_order_state(fleet, *order, JobState::kInterrupted, std::move(reason), {}, now);
+    }
+}
+
+void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
+    hear(fleet, run, now);
+    const std::vector<VehicleError> errors_before = std::move(run.state.errors);
+    run.state = state;
+    run.state_at = now;
+    run.reconciled = true;
+    fleet.changed_vehicles.insert(run.record.id);
+    note_errors(fleet, run, errors_before, now);
+    take_pose(fleet, run, now);
+    take_action_states(fleet, run, now);
+    if (run.has_leg()) take_leg_progress(fleet, run, now);
+    offer_pose_from_codes(fleet, run, now);
+}
+
+void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now) {
+    if (action.id.empty()) action.id = to_string(fleet.ids.next(now));
+    PendingAction pending{std::move(action), now, std::nullopt, 0, false};
+    if (run.connected && run.reconciled) {
+        fleet.out.messages.push_back(
+            {run.record.id, std::nullopt, InstantActionsMessage{{pending.action}}});
+        pending.last_sent = now;
+        pending.sends = 1;
+    }
+    run.actions.push_back(std::move(pending));
+}
+
+void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!run.has_leg() || run.cancelling) return;
+    run.cancelling = true;
+    run.update_sent.reset();
+    Action action;
+    action.type = "cancelOrder";
+    add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
+    send_action(fleet, run, std::move(action), now);
+}
+
+void update_links(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) {
+        if (!run.last_heard) continue;
+        const Link to = link_after(now - *run.last_heard);
+        if (to == run.link) continue;
+        set_link(fleet, run, to, now);
+        if (to == Link::kLost && run.has_leg()) {
+            require_person(fleet, run, {"vehicle_was_lost", {}}, now);
+        }
+    }
+}
+
+void resend(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) {
+        if (!run.connected || !run.reconciled) continue;
+        if (run.has_leg() && run.update_sent && now - *run.update_sent >= kResendEvery) {
+            if (run.update_sends >= kOrderSends) {
+                run.update_sent.reset();
+                require_person(fleet, run, {"order_not_accepted", {}}, now);
+            } else {
+                send_order_update(fleet, run, run.update_from, now);
+            }
+        }
+        for (auto& pending : run.actions) {
+            if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
+            fleet.out.messages.push_back(
+                {id, std::nullopt, InstantActionsMessage{{pending.action}}});
+            pending.last_sent = now;
+            ++pending.sends;
+            if (!pending.escalated && now - pending.first_sent >= kEscalateAfter) {
+                pending.escalated = true;
+                add_event(fleet, now, "vehicle.action_unconfirmed", {}, run.record.leg, id, {},
+                          {{"action", pending.action.type}, {"action_id", pending.action.id}});
+            }
+        }
+    }
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,194 @@
+#include "core/fleet/views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/fleet/state.hpp"
+#include "core/kinematics/motion.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr double kArcSample_rad = 6.0 * kPi / 180.0;
+
+void update_areas(const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    auto& areas = run.areas;
+    if (areas.leg == leg.id && areas.passed == leg.passed_nodes &&
+        areas.released == leg.released_nodes) {
+        return;
+    }
+    std::vector<kinematics::Segment> granted;
+    std::vector<kinematics::Segment> horizon;
+    for (std::size_t i = leg.passed_nodes - 1; i < leg.edges.size(); ++i) {
+        (i + 1 < leg.released_nodes ? granted : horizon).push_back(leg.edges[i].segment);
+    }
+    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
+    areas.granted = geometry::union_outline(kinematics::sweep(body, granted));
+    areas.horizon = geometry::union_outline(kinematics::sweep(body, horizon));
+    areas.leg = leg.id;
+    areas.passed = leg.passed_nodes;
+    areas.released = leg.released_nodes;
+}
+
+double real_speed_share(const VehicleRun& run) {
+    return run.factsheet && run.factsheet->speed_max_mps > 0
+               ? run.factsheet->speed_max_mps / run.type->max_speed_mps
+               : 1.0;
+}
+
+LegView leg_view(const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    update_areas(run);
+    LegView view;
+    view.id = leg.id;
+    view.station = leg.station;
+    view.mode = leg.mode;
+    view.duration_s = leg.duration_s / real_speed_share(run);
+    view.granted_area = run.areas.granted;
+    view.horizon_area = run.areas.horizon;
+    view.path.push_back(leg.nodes.front().pose.position());
+    double total_s = 0;
+    double passed_s = 0;
+    for (std::size_t i = 0; i < leg.edges.size(); ++i) {
+        const auto& segment = leg.edges[i].segment;
+        if (i + 1 == leg.released_nodes) view.granted_points = view.path.size();
+        if (segment.kind != kinematics::Segment::Kind::kRotate) {
+            const int samples =
+                segment.kind == kinematics::Segment::Kind::kArc
+                    ? std::max(1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) /
+                                                             kArcSample_rad)))
+                    : 1;
+            for (int k = 1; k <= samples; ++k) {
+                view.path.push_back(
+                    kinematics::pose_at(segment, static_cast<double>(k) / samples).position());
+            }
+        }
+        total_s += segment.duration_s;
+        if (i + 1 < leg.passed_nodes) passed_s += segment.duration_s;
+    }
+    if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
+    view.progress = total_s > 0 ? passed_s / total_s : 1.0;
+    view.started = run.leg_started;
+    if (run.leg_started) view.expected = *run.leg_started + from_seconds(view.duration_s);
+    return view;
+}
+
+struct Doing {
+    Activity activity = Activity::kUnknown;
+    std::optional<Reason> reason;
+};
+
+Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
+    const JobOrder* order = order_of(const_cast<FleetState&>(fleet), run.record.id);
+    if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
+    if (run.link == Link::kLost || run.link == Link::kGone) {
+        return {Activity::kUnknown,
+                Reason{"vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}}}};
+    }
+    const bool moving = run.has_leg() && run.state.driving;
+    if (moving && run.link == Link::kLive) return {Activity::kMoving, std::nullopt};
+    if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
+        const std::string& code = reason->code;
+        const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
+                             code == "vehicle_safety_stop" || code == "not_automatic";
+        Activity activity = blocked ? Activity::kBlocked : Activity::kWaiting;
+        if (code == "vehicle_paused") activity = Activity::kPaused;
+        if (code == "pose_unknown" || code == "vehicle_silent") activity = Activity::kUnknown;
+        return {activity, reason};
+    }
+    if (run.has_leg()) {
+        const bool measuring =
+            order && order->current_step < order->steps.size() &&
+            order->steps[order->current_step].state == StepState::kMeasuring;
+        if (measuring) return {Activity::kMeasuring, std::nullopt};
+        if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
+        if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
+        if (!run.leg_seen) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        return {Activity::kMoving, std::nullopt};
+    }
+    if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
+    if (run.state.charging) return {Activity::kCharging, std::nullopt};
+    return {Activity::kStanding, Reason{"no_order", {}}};
+}
+
+}  // namespace
+
+const char* to_string(Link link) {
+    switch (link) {
+        case Link::kNever: return "never";
+        case Link::kLive: return "live";
+        case Link::kLate: return "late";
+        case Link::kLost: return "lost";
+        case Link::kGone: return "gone";
+    }
+    return "never";
+}
+
+const char* to_string(Activity activity) {
+    switch (activity) {
+        case Activity::kStanding: return "standing";
+        case Activity::kMoving: return "moving";
+        case Activity::kMeasuring: return "measuring";
+        case Activity::kWaiting: return "waiting";
+        case Activity::kPaused: return "paused";
+        case Activity::kBlocked: return "blocked";
+        case Activity::kCharging: return "charging";
+        case Activity::kUnknown: return "unknown";
+    }
+    return "unknown";
+}
+
+const char* to_string(JobState state) {
+    switch (state) {
+        case JobState::kNotAllowedToStart: return "NotAllowedToStart";
+        case JobState::kAllowedToStart: return "AllowedToStart";
+        case JobState::kRunning: return "Running";
+        case JobState::kInterrupted: return "Interrupted";
+        case JobState::kEnded: return "Ended";
+        case JobState::kAborted: return "Aborted";
+    }
+    return "Aborted";
+}
+
+const char* to_string(StepState state) {
+    switch (state) {
+        case StepState::kPending: return "pending";
+        case StepState::kDriving: return "driving";
+        case StepState::kMeasuring: return "measuring";
+        case StepState::kDone: return "done";
+        case StepState::kSkipped: return "skipped";
+    }
+    return "skipped";
+}
+
+bool is_final(JobState state) { return state == JobState::kEnded || state == JobState::kAborted; }
+
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
+    VehicleView view;
+    view.id = run.record.id;
+    view.link = run.link;
+    Doing what = doing(fleet, run, now);
+    view.activity = what.activity;
+    view.reason = std::move(what.reason);
+    view.last_heard = run.last_heard;
+    view.pose_known = run.record.pose_known;
+    if (run.record.pose_known || run.state_at) {
+        view.pose = run.record.pose_known ? std::optional<Pose2>(run.record.pose) : run.state.pose;
+    }
+    view.pose_at = run.state_at;
+    view.hall = hall_of(fleet, run);
+    view.at_station = run.record.at_station;
+    if (const auto* order = order_of(const_cast<FleetState&>(fleet), run.record.id)) {
+        view.order = order->id;
+    }
+    if (run.has_leg()) view.leg = leg_view(run);
+    view.paused = run.record.paused;
+    view.needs_resume = run.record.needs_resume;
+    view.needs_resume_reason = run.record.needs_resume_reason;
+    view.state = run.state;
+    return view;
+}
+
+}  // namespace pulseline::fleet
