@@ -1,0 +1,46 @@
+#pragma once
+
+#include "api/access/access_control.hpp"
+#include "api/http/contexts.hpp"
+#include "api/http/router.hpp"
+#include "server/assets.hpp"
+#include "server/await.hpp"
+#include "server/camera_store.hpp"
+#include "server/connections.hpp"
+#include "server/fleet_runtime.hpp"
+#include "server/metrics.hpp"
+#include "server/options.hpp"
+#include "server/stream_hub.hpp"
+#include "server/vehicle_gateway.hpp"
+
+namespace pulseline::server {
+
+/// What every session may use. The server owns it and outlives the sessions.
+struct Context {
+    const Options& options;
+    const plant::Plant& plant;
+    const api::Documents& documents;
+    const api::Service& service;
+    const Clock& clock;
+    Metrics& metrics;
+    CameraStore& images;
+    FleetRuntime& runtime;
+    access::AccessControl& access;
+    fleet::History& history;
+    StreamHub& hub;
+    VehicleGateway& gateway;
+    api::AccessPolicy policy;
+    net::io_context& io;
+    net::thread_pool& history_pool;
+    net::thread_pool& workers;
+    std::size_t workers_waiting = 0;
+    StopList stops;
+    Quota peers;
+    Quota streams;
+    std::size_t connections = 0;
+};
+
+/// A request that asks to become a WebSocket, and what came behind it.
+using Upgrade = http::request<http::string_body>;
+
+}  // namespace pulseline::server

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "core/fleet/views.hpp"
+
+namespace pulseline::server {
+
+/// Cumulative histogram over fixed bounds.
+class Histogram {
+public:
+    static constexpr std::array<double, 11> kBounds_s = {0.0005, 0.001, 0.0025, 0.005, 0.01, 0.025,
+                                                         0.05,   0.1,   0.25,   1.0,   5.0};
+    void observe(double value_s);
+    void write(std::string& out, std::string_view name, std::string_view labels) const;
+
+private:
+    std::array<std::uint64_t, kBounds_s.size() + 1> counts_{};
+    double sum_s_ = 0;
+    std::uint64_t count_ = 0;
+};
+
+/// What the process counts about itself. Thread safety: all functions.
+class Metrics {
+public:
+    void request(std::string_view route, int status, double duration_s);
+    void commit(double duration_s, std::size_t batches);
+    void commit_failed() { ++commits_failed_; }
+
+    std::atomic<std::int64_t> connections{0};
+    std::atomic<std::int64_t> stream_clients{0};
+    std::atomic<std::int64_t> event_clients{0};
+    std::atomic<std::int64_t> vehicle_sockets{0};
+    std::atomic<std::int64_t> event_seq{0};
+    std::atomic<std::uint64_t> connections_refused{0};
+    std::atomic<std::uint64_t> slow_readers_closed{0};
+    std::atomic<std::uint64_t> poses_skipped{0};
+    std::atomic<std::uint64_t> vehicle_messages_in{0};
+    std::atomic<std::uint64_t> vehicle_messages_out{0};
+    std::atomic<std::uint64_t> vehicle_messages_malformed{0};
+    std::atomic<std::uint64_t> vehicle_takeovers{0};
+    std::atomic<std::uint64_t> fleet_rebuilds{0};
+
+    /// Prometheus text format 0.0.4.
+    std::string text(const std::map<std::string, int>& orders_by_state,
+                     const std::map<std::string, int>& vehicles_by_link) const;
+
+private:
+    mutable std::mutex mutex_;
+    std::map<std::pair<std::string, int>, std::uint64_t> requests_;
+    std::map<std::string, Histogram, std::less<>> request_latency_;
+    Histogram commit_latency_;
+    std::uint64_t commits_ = 0;
+    std::uint64_t batches_ = 0;
+    std::atomic<std::uint64_t> commits_failed_{0};
+};
+
+}  // namespace pulseline::server

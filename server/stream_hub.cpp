@@ -1,0 +1,207 @@
+#include "server/stream_hub.hpp"
+
+#include <algorithm>
+
+namespace pulseline::server {
+namespace {
+
+constexpr std::size_t kStopsShown = 50;
+constexpr std::size_t kFinishedShown = 50;
+constexpr std::size_t kEventsKept = 4096;
+
+Frame frame(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
+
+}  // namespace
+
+StreamHub::StreamHub(const plant::Plant& plant, const api::CameraImages& images, const Clock& clock,
+                     Metrics& metrics)
+    : plant_(plant), images_(images), clock_(clock), metrics_(metrics) {
+    for (const auto& vehicle : plant.vehicles) vehicles_[vehicle.id].view.id = vehicle.id;
+}
+
+void StreamHub::start(std::vector<fleet::StopRecord> stops, std::int64_t last_event_seq) {
+    stops_.assign(std::make_move_iterator(stops.begin()), std::make_move_iterator(stops.end()));
+    last_event_seq_ = last_event_seq;
+    metrics_.event_seq = last_event_seq;
+}
+
+void StreamHub::publish(const FleetRuntime::Published& batch) {
+    const auto& out = batch.outputs;
+    for (const auto& vehicle : out.vehicles) {
+        vehicles_[vehicle.id] = {vehicle, nullptr};
+        for (auto* client : clients_) {
+            if (!client->subscribed || !client->vehicles.insert(vehicle.id).second) continue;
+            client->changes.emplace_back(vehicle.id);
+            client->wake();
+        }
+    }
+    for (const auto& station : out.stations) push_all(frame(events::station_frame(station)));
+    for (const auto& order : out.records.orders) {
+        note_order(order);
+        push_all(frame(events::job_order_frame(plant_, order)));
+    }
+    for (const auto& stop : out.records.stops) {
+        stops_.push_front(stop);
+        if (stops_.size() > kStopsShown) stops_.pop_back();
+        push_all(frame(events::stop_record_frame(stop)));
+    }
+    for (const auto& event : out.records.events) {
+        events_.push_back(frame(events::sse(event)));
+        if (events_.size() > kEventsKept) events_.pop_front();
+        last_event_seq_ = event.seq;
+        push_all(frame(events::event_frame(event)));
+    }
+    metrics_.event_seq = last_event_seq_;
+    if (batch.fleet) push_all(frame(events::fleet_frame(plant_, *batch.fleet)));
+    if (!out.records.events.empty()) {
+        for (const auto& [id, wake] : std::exchange(waiters_, {})) wake();
+    }
+}
+
+void StreamHub::note_order(const fleet::JobOrder& order) {
+    if (!fleet::is_final(order.state)) {
+        open_orders_[order.id] = order.state;
+    } else if (open_orders_.erase(order.id) > 0) {
+        ++finished_orders_[fleet::to_string(order.state)];
+    }
+}
+
+void StreamHub::offer_poses() {
+    for (auto* client : clients_) {
+        if (!client->subscribed || client->poses_seen == poses_.version()) continue;
+        if (client->poses_due) ++metrics_.poses_skipped;
+        client->poses_due = true;
+        client->wake();
+    }
+}
+
+void StreamHub::add(StreamClient& client) {
+    clients_.insert(&client);
+    ++metrics_.stream_clients;
+}
+
+void StreamHub::remove(StreamClient& client) {
+    if (clients_.erase(&client) > 0) --metrics_.stream_clients;
+}
+
+events::Snapshot StreamHub::take(fleet::Fleet& fleet, Time now) {
+    events::Snapshot snapshot;
+    snapshot.now = now;
+    snapshot.fleet = fleet.view(now);
+    snapshot.vehicles = fleet.vehicles(now);
+    snapshot.stations = fleet.stations();
+    std::size_t finished = 0;
+    for (auto& order : fleet.orders()) {
+        if (fleet::is_final(order.state) && ++finished > kFinishedShown) continue;
+        snapshot.job_orders.push_back(std::move(order));
+    }
+    return snapshot;
+}
+
+void StreamHub::subscribe(StreamClient& client, events::Snapshot snapshot) {
+    snapshot.stop_records.assign(stops_.begin(), stops_.end());
+    fill(client, snapshot);
+}
+
+void StreamHub::resubscribe_all(const events::Snapshot& snapshot) {
+    events::Snapshot full = snapshot;
+    full.stop_records.assign(stops_.begin(), stops_.end());
+    for (const auto& vehicle : full.vehicles) vehicles_[vehicle.id] = {vehicle, nullptr};
+    open_orders_.clear();
+    for (const auto& order : full.job_orders) note_order(order);
+    for (auto* client : clients_) {
+        if (client->subscribed) fill(*client, full);
+    }
+}
+
+void StreamHub::fill(StreamClient& client, const events::Snapshot& snapshot) {
+    client.subscribed = true;
+    client.changes.clear();
+    client.vehicles.clear();
+    client.bytes = 0;
+    client.poses_seen = 0;
+    // The snapshot itself is outside the limit: it is as large as the plant.
+    client.changes.emplace_back(frame(events::snapshot_frame(plant_, images_, snapshot)));
+    client.wake();
+}
+
+void StreamHub::push(StreamClient& client, const Frame& text) {
+    if (!client.subscribed || client.overflowed) return;
+    client.changes.emplace_back(text);
+    client.bytes += text->size();
+    if (client.changes.size() > StreamClient::kMaxChanges ||
+        client.bytes > StreamClient::kMaxBytes) {
+        client.overflowed = true;
+        client.subscribed = false;
+        client.changes.clear();
+        client.vehicles.clear();
+        ++metrics_.slow_readers_closed;
+    }
+    client.wake();
+}
+
+void StreamHub::push_all(const Frame& text) {
+    for (auto* client : clients_) push(*client, text);
+}
+
+Frame StreamHub::next(StreamClient& client) {
+    if (!client.changes.empty()) {
+        const auto change = std::move(client.changes.front());
+        client.changes.pop_front();
+        if (const auto* text = std::get_if<Frame>(&change)) {
+            client.bytes -= std::min(client.bytes, (*text)->size());
+            return *text;
+        }
+        const auto& id = std::get<plant::VehicleId>(change);
+        client.vehicles.erase(id);
+        auto& row = vehicles_[id];
+        if (!row.frame) row.frame = frame(events::vehicle_frame(plant_, images_, row.view));
+        return row.frame;
+    }
+    if (!client.poses_due) return nullptr;
+    client.poses_due = false;
+    const auto from = std::exchange(client.poses_seen, poses_.version());
+    if (!last_poses_.frame || last_poses_.from != from || last_poses_.to != poses_.version()) {
+        const Time now = clock_.now();
+        last_poses_ = {from, poses_.version(),
+                       frame(events::poses_frame(now, poses_.since(from, now)))};
+    }
+    return last_poses_.frame;
+}
+
+Frame StreamHub::event(std::int64_t seq) const {
+    const auto oldest = last_event_seq_ - static_cast<std::int64_t>(events_.size()) + 1;
+    if (seq < oldest || seq > last_event_seq_) return nullptr;
+    return events_[static_cast<std::size_t>(seq - oldest)];
+}
+
+StreamHub::Waiter StreamHub::wait_for_event(std::function<void()> wake) {
+    waiters_[next_waiter_] = std::move(wake);
+    return next_waiter_++;
+}
+
+void StreamHub::forget(Waiter waiter) { waiters_.erase(waiter); }
+
+std::map<std::string, int> StreamHub::orders_by_state() const {
+    std::map<std::string, int> counts = finished_orders_;
+    for (const auto state :
+         {fleet::JobState::kNotAllowedToStart, fleet::JobState::kAllowedToStart,
+          fleet::JobState::kRunning, fleet::JobState::kInterrupted, fleet::JobState::kEnded,
+          fleet::JobState::kAborted}) {
+        counts.try_emplace(fleet::to_string(state), 0);
+    }
+    for (const auto& [id, state] : open_orders_) ++counts[fleet::to_string(state)];
+    return counts;
+}
+
+std::map<std::string, int> StreamHub::vehicles_by_link() const {
+    std::map<std::string, int> counts;
+    for (const auto link : {fleet::Link::kNever, fleet::Link::kLive, fleet::Link::kLate,
+                            fleet::Link::kLost, fleet::Link::kGone}) {
+        counts[fleet::to_string(link)] = 0;
+    }
+    for (const auto& [id, row] : vehicles_) ++counts[fleet::to_string(row.view.link)];
+    return counts;
+}
+
+}  // namespace pulseline::server

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+
+#include "api/events/frames.hpp"
+#include "server/fleet_runtime.hpp"
+#include "server/metrics.hpp"
+#include "server/pose_table.hpp"
+
+namespace pulseline::server {
+
+using Frame = std::shared_ptr<const std::string>;
+
+/// What waits to be written to one dashboard: changes in order, of poses and vehicles only the
+/// newest. The session's writer takes frames with StreamHub::next().
+struct StreamClient {
+    static constexpr std::size_t kMaxChanges = 1024;
+    static constexpr std::size_t kMaxBytes = 1 << 20;
+
+    std::function<void()> wake;  // there is something to write
+    bool subscribed = false;     // a snapshot is in the queue or written
+    bool overflowed = false;     // fell behind: close with 1013
+    std::deque<std::variant<Frame, plant::VehicleId>> changes;
+    std::set<plant::VehicleId> vehicles;  // in `changes`
+    std::size_t bytes = 0;
+    std::uint64_t poses_seen = 0;
+    bool poses_due = false;
+};
+
+/// Tells dashboards and event readers what was committed. Thread safety: none, the network thread
+/// owns it.
+class StreamHub {
+public:
+    StreamHub(const plant::Plant& plant, const api::CameraImages& images, const Clock& clock,
+              Metrics& metrics);
+
+    /// State at start: `stops` newest first.
+    void start(std::vector<fleet::StopRecord> stops, std::int64_t last_event_seq);
+    void publish(const FleetRuntime::Published& batch);
+    /// Lets every client know the poses put since the last call.
+    void offer_poses();
+    PoseTable& poses() { return poses_; }
+
+    void add(StreamClient& client);
+    void remove(StreamClient& client);
+    /// From here on the client gets every change. Call where the answer of `take` is delivered.
+    void subscribe(StreamClient& client, events::Snapshot snapshot);
+    /// What a snapshot needs of the fleet; runs on the fleet thread.
+    static events::Snapshot take(fleet::Fleet& fleet, Time now);
+    /// Everybody gets a new snapshot, since changes were lost with the fleet.
+    void resubscribe_all(const events::Snapshot& snapshot);
+    /// Next frame to write; null when there is none.
+    Frame next(StreamClient& client);
+
+    // Event readers: kept by sequence number, so that a reader joins without gap or double.
+    std::int64_t last_event_seq() const { return last_event_seq_; }
+    /// The event in server-sent form when it is still in memory.
+    Frame event(std::int64_t seq) const;
+    using Waiter = std::uint64_t;
+    Waiter wait_for_event(std::function<void()> wake);
+    void forget(Waiter waiter);
+
+    // Counted for /metrics.
+    std::map<std::string, int> orders_by_state() const;
+    std::map<std::string, int> vehicles_by_link() const;
+
+private:
+    struct VehicleRow {
+        fleet::VehicleView view;
+        Frame frame;  // made when first needed
+    };
+
+    void push(StreamClient& client, const Frame& frame);
+    void push_all(const Frame& frame);
+    void fill(StreamClient& client, const events::Snapshot& snapshot);
+    void note_order(const fleet::JobOrder& order);
+
+    const plant::Plant& plant_;
+    const api::CameraImages& images_;
+    const Clock& clock_;
+    Metrics& metrics_;
+    PoseTable poses_;
+    std::set<StreamClient*> clients_;
+    std::map<plant::VehicleId, VehicleRow> vehicles_;
+    std::map<fleet::JobOrderId, fleet::JobState> open_orders_;
+    std::map<std::string, int> finished_orders_;  // since start
+    std::deque<fleet::StopRecord> stops_;         // newest first
+    std::deque<Frame> events_;                    // the newest, oldest first
+    std::int64_t last_event_seq_ = 0;
+    std::map<Waiter, std::function<void()>> waiters_;
+    Waiter next_waiter_ = 1;
+    struct {
+        std::uint64_t from = 0;
+        std::uint64_t to = 0;
+        Frame frame;
+    } last_poses_;  // most clients have seen the same poses
+};
+
+}  // namespace pulseline::server

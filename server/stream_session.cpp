@@ -1,0 +1,173 @@
+#include "server/sessions.hpp"
+
+namespace pulseline::server {
+namespace {
+
+constexpr auto kRecheck = std::chrono::seconds(10);  // is the session behind it still good
+constexpr auto kCloseTime = std::chrono::seconds(3);
+
+/// Wakes one waiting coroutine; a wake that nobody waits for is kept.
+class Signal {
+public:
+    explicit Signal(net::io_context& io) : timer_(io) {}
+    void set() {
+        set_ = true;
+        timer_.cancel();
+    }
+    /// False when `most` passed without a set().
+    net::awaitable<bool> wait(std::chrono::steady_clock::duration most) {
+        if (!set_) {
+            timer_.expires_after(most);
+            error_code ec;
+            co_await timer_.async_wait(into(ec));
+        }
+        co_return std::exchange(set_, false);
+    }
+
+private:
+    net::steady_timer timer_;
+    bool set_ = false;
+};
+
+template <class Stream>
+struct Session {
+    Session(Context& c, Stream s, access::Identity who)
+        : context(c), socket(std::move(s)), identity(std::move(who)), signal(c.io) {}
+
+    Context& context;
+    websocket::stream<Stream> socket;
+    access::Identity identity;
+    StreamClient client;
+    Signal signal;
+    bool ended = false;                   // the reader saw the end
+    std::uint16_t close_with = 0;         // asks the writer to close
+    const char* close_reason = "";
+
+    void close(std::uint16_t code, const char* reason) {
+        if (close_with == 0) {
+            close_with = code;
+            close_reason = reason;
+        }
+        signal.set();
+    }
+};
+
+template <class Stream>
+net::awaitable<void> close_socket(std::shared_ptr<Session<Stream>> session) {
+    // A reader that never reads would never answer either.
+    net::steady_timer timer(session->context.io, kCloseTime);
+    timer.async_wait([session](const error_code& ec) {
+        if (!ec) beast::get_lowest_layer(session->socket).cancel();
+    });
+    error_code ec;
+    co_await session->socket.async_close(
+        websocket::close_reason(static_cast<websocket::close_code>(session->close_with),
+                                session->close_reason),
+        into(ec));
+    timer.cancel();
+    beast::get_lowest_layer(session->socket).close();
+}
+
+template <class Stream>
+net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
+    auto& context = session->context;
+    while (!session->ended) {
+        if (session->client.overflowed) session->close(1013, "too slow, come back");
+        if (session->close_with == 0 &&
+            !context.access.still_valid(session->identity, context.clock.now())) {
+            session->close(4401, "signed out");
+        }
+        if (session->close_with != 0) {
+            co_await close_socket(session);
+            break;
+        }
+        const Frame frame = context.hub.next(session->client);
+        if (!frame) {
+            co_await session->signal.wait(kRecheck);
+            continue;
+        }
+        error_code ec;
+        co_await session->socket.async_write(net::buffer(*frame), into(ec));
+        if (ec) break;
+    }
+    context.hub.remove(session->client);
+    session->client.subscribed = false;
+    beast::get_lowest_layer(session->socket).cancel();
+}
+
+/// Dashboards have nothing to say; what they send is only counted.
+template <class Stream>
+net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
+    const auto& limits = session->context.options.limits;
+    beast::flat_buffer buffer(limits.stream_message_bytes + 1024);
+    auto window = std::chrono::steady_clock::now();
+    int count = 0;
+    for (;;) {
+        error_code ec;
+        co_await session->socket.async_read(buffer, into(ec));
+        if (ec) break;
+        buffer.clear();
+        const auto now = std::chrono::steady_clock::now();
+        if (now - window >= std::chrono::seconds(1)) {
+            window = now;
+            count = 0;
+        }
+        if (++count > limits.stream_messages_per_second) session->close(1008, "too many messages");
+    }
+    session->ended = true;
+    session->signal.set();
+}
+
+void rethrow(const std::exception_ptr& error) {
+    try {
+        if (error) std::rethrow_exception(error);
+    } catch (const std::exception& e) {
+        log::error("stream_session_threw", {{"what", e.what()}});
+    }
+}
+
+}  // namespace
+
+template <class Stream>
+net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upgrade,
+                                    api::Request request) {
+    const auto slot = context.streams.take(request.identity.name);
+    error_code ec;
+    // Old poses in a long kernel queue would look new.
+    beast::get_lowest_layer(stream).socket().set_option(net::socket_base::send_buffer_size(65536),
+                                                        ec);
+    beast::get_lowest_layer(stream).expires_never();  // the WebSocket keeps its own time
+    auto session =
+        std::make_shared<Session<Stream>>(context, std::move(stream), request.identity);
+    auto& socket = session->socket;
+    socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10),
+                                                      context.options.limits.stream_dead, true});
+    socket.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
+        response.erase(http::field::server);
+        response.set("X-Request-Id", request.request_id);
+    }));
+    socket.read_message_max(context.options.limits.stream_message_bytes);
+    socket.auto_fragment(false);
+    socket.text(true);
+    co_await socket.async_accept(upgrade, into(ec));
+    if (ec) co_return;
+    if (!slot) session->close(1013, "too many open streams of this account");
+
+    session->client.wake = [raw = session.get()] { raw->signal.set(); };
+    context.hub.add(session->client);
+    const StopList::Entry stop(context.stops, [session] { session->close(1001, "server stops"); });
+    context.runtime.read(&StreamHub::take, [session](Result<events::Snapshot> snapshot) {
+        if (!snapshot) {
+            session->close(1013, "not ready, come back");
+        } else if (!session->ended) {
+            session->context.hub.subscribe(session->client, std::move(*snapshot));
+        }
+    });
+    net::co_spawn(context.io, read_loop(session), rethrow);
+    co_await write_loop(session);
+}
+
+template net::awaitable<void> stream_session(Context&, PlainStream, Upgrade, api::Request);
+template net::awaitable<void> stream_session(Context&, TlsStream, Upgrade, api::Request);
+
+}  // namespace pulseline::server
