@@ -27,6 +27,11 @@ bool usable_name(const std::string& name) {
            });
 }
 
+tl::unexpected<Error> wrong_credentials() {
+    return fail(Errc::kForbidden, "wrong_credentials",
+                "Name or password is wrong; check both and try again.");
+}
+
 Status check_new_user(const std::string& name, const std::string& password) {
     if (!usable_name(name)) {
         return fail(Errc::kInvalid, "bad_user_name",
@@ -200,10 +205,7 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
     } else {
         (void)hash_password(password, impl_->cost);
     }
-    if (!right) {
-        return fail(Errc::kForbidden, "wrong_credentials",
-                    "Name or password is wrong; check both and try again.");
-    }
+    if (!right) return wrong_credentials();
 
     SignedIn signed_in;
     signed_in.cookie_token = random_text(kSecretBytes);
@@ -215,7 +217,13 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
     session.expires = now + impl_->limits.session_total;
     impl_->save(session);
 
-    const std::lock_guard lock(impl_->mutex);
+    std::unique_lock lock(impl_->mutex);
+    if (impl_->users.at(name).password_hash != user->password_hash) {
+        // The password was changed while this one was being checked: its sessions have ended.
+        lock.unlock();
+        impl_->save(RemoveSession{session.token_sha256});
+        return wrong_credentials();
+    }
     impl_->sign_ins.succeeded(name, peer);
     const auto& live = impl_->sessions[session.token_sha256] = Impl::LiveSession{session, now};
     signed_in.identity = impl_->of(live);
@@ -314,6 +322,8 @@ std::optional<Identity> AccessControl::vehicle_for_token(const std::string& auth
     }
     return Impl::of(*token);
 }
+
+const Limits& AccessControl::limits() const { return impl_->limits; }
 
 std::vector<User> AccessControl::users() const {
     const std::lock_guard lock(impl_->mutex);

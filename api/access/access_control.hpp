@@ -83,6 +83,7 @@ public:
                                               const std::string& manufacturer,
                                               const std::string& serial) const;
 
+    const Limits& limits() const;
     std::vector<User> users() const;
     std::vector<Token> tokens() const;
 

@@ -1,11 +1,14 @@
 #include "api/http/problem.hpp"
 
+#include <algorithm>
 #include <cctype>
 
 #include "api/http/common_json.hpp"
 
 namespace pulseline::api {
 namespace {
+
+constexpr std::size_t kMaxShownField = 200;
 
 /// "unknown_station" -> "Unknown station": the same words for the same type, always.
 std::string title_of(const std::string& code) {
@@ -17,6 +20,15 @@ std::string title_of(const std::string& code) {
         title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
     }
     return title;
+}
+
+std::string shortened(const std::string& field) {
+    std::size_t size = std::min(field.size(), kMaxShownField);
+    while (size < field.size() && size > 0 &&
+           (static_cast<unsigned char>(field[size]) & 0xC0U) == 0x80U) {
+        --size;  // not in the middle of a character
+    }
+    return field.substr(0, size);
 }
 
 }  // namespace
@@ -54,7 +66,8 @@ Response problem(int status, const Error& error, const Request& request) {
                  {"detail", error.what},
                  {"params", params_json(error.reason.params)},
                  {"request_id", request.request_id}};
-    if (!error.field.empty()) body["field"] = error.field;
+    // The pointer may hold a name the client made up: no need to send all of it back.
+    if (!error.field.empty()) body["field"] = shortened(error.field);
     Response response{
         status, "application/problem+json", {{"Cache-Control", "no-store"}}, dump(body)};
     for (const Param& param : error.reason.params) {

@@ -1,0 +1,20 @@
+#include "api/http/documents.hpp"
+
+#include "api/http/etag.hpp"
+#include "api/http/grid_png.hpp"
+#include "api/http/plant_json.hpp"
+
+namespace pulseline::api {
+
+Documents make_documents(const plant::Plant& plant) {
+    Documents documents;
+    documents.plant_json = dump(plant_json(plant));
+    documents.plant_etag = etag_of(plant.revision);
+    for (const plant::Hall& hall : plant.halls) {
+        if (!hall.grid.empty()) documents.grid_png[hall.id.str()] = grid_png(hall.grid);
+    }
+    documents.openapi_json = kOpenApiJson;
+    return documents;
+}
+
+}  // namespace pulseline::api

@@ -1,0 +1,132 @@
+#include "api/http/job_order_handlers.hpp"
+
+#include "api/http/etag.hpp"
+#include "api/http/job_order_json.hpp"
+#include "api/http/page.hpp"
+#include "api/http/preview_json.hpp"
+#include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
+
+namespace pulseline::api {
+namespace {
+
+constexpr int kStopsOfExpectation = 200;  // newest ones; older ones tell of another state of repair
+
+Response job_order_response(int status, const plant::Plant& plant, const fleet::JobOrder& order) {
+    Response response = json_response(status, job_order_json(plant, order));
+    response.headers.emplace_back("ETag", etag_of(order.revision));
+    return response;
+}
+
+Error unknown_job_order(const std::string& id) {
+    return {Errc::kNotFound,
+            {"unknown_job_order", {{"id", id.substr(0, 64)}}},
+            "There is no job order of that id; GET /api/v1/job-orders lists them.",
+            {}};
+}
+
+/// Vehicles whose stops tell what to expect: all of the type of the previewed one.
+std::vector<plant::VehicleId> same_type(const plant::Plant& plant, const plant::VehicleId& id) {
+    std::vector<plant::VehicleId> vehicles;
+    const plant::Vehicle* wanted = plant::find_vehicle(plant, id);
+    for (const plant::Vehicle& vehicle : plant.vehicles) {
+        if (wanted != nullptr && vehicle.type == wanted->type) vehicles.push_back(vehicle.id);
+    }
+    return vehicles;
+}
+
+Response render_preview(const HistoryContext& context, const fleet::Preview& preview) {
+    const auto vehicles = same_type(context.plant, preview.vehicle);
+    std::vector<std::optional<fleet::StopStatistics>> expected(preview.steps.size());
+    std::map<plant::MotionMode, fleet::StopStatistics> known;  // steps share modes: ask once
+    for (std::size_t i = 0; i < preview.steps.size() && !vehicles.empty(); ++i) {
+        const auto mode = preview.steps[i].chosen;
+        if (!mode) continue;
+        if (known.count(*mode) == 0) {
+            known[*mode] = context.history.statistics(vehicles, *mode, kStopsOfExpectation);
+        }
+        expected[i] = known[*mode];
+    }
+    return json_response(200, preview_json(preview, expected));
+}
+
+using Change = Result<fleet::JobOrder> (fleet::Fleet::*)(fleet::JobOrderId,
+                                                         std::optional<std::int64_t>,
+                                                         const std::string&, Time);
+
+FleetAnswer change_job_order(FleetContext& context, const Request& request, Change change) {
+    const auto id = fleet::JobOrderId::parse(request.param("id"));
+    const auto present = id ? context.fleet.order(*id) : std::nullopt;
+    if (!present) return {problem(unknown_job_order(request.param("id")), request)};
+    if (!if_match_allows(request, etag_of(present->revision))) {
+        Response refusal =
+            problem(Error{Errc::kConflict,
+                          {"stale_revision", {{"revision", present->revision}}},
+                          "The order has changed meanwhile; read it again, then decide.",
+                          "If-Match"},
+                    request);
+        refusal.headers.emplace_back("ETag", etag_of(present->revision));
+        return {std::move(refusal)};
+    }
+    const auto changed =
+        (context.fleet.*change)(*id, present->revision, request.identity.name, context.now);
+    if (!changed) return {problem(changed.error(), request)};
+    return {job_order_response(202, context.plant, *changed)};
+}
+
+}  // namespace
+
+FleetAnswer create_job_order(FleetContext& context, const Request& request) {
+    const auto dry_run = read_dry_run(request);
+    if (!dry_run) return {problem(400, dry_run.error(), request)};
+    const auto order = read_new_order(request);
+    if (!order) return {problem(400, order.error(), request)};
+    if (*dry_run) {
+        auto preview = context.fleet.preview(*order, context.now);
+        return {{}, [preview = std::move(preview)](const HistoryContext& history) {
+                    return render_preview(history, preview);
+                }};
+    }
+    const auto created = context.fleet.create(*order, context.now);
+    if (!created) {
+        // The order itself is there; what it names is not. That is 422, never 404.
+        const Error& error = created.error();
+        return {error.code == Errc::kNotFound ? problem(422, error, request)
+                                              : problem(error, request)};
+    }
+    Response response = job_order_response(201, context.plant, created->order);
+    response.headers.emplace_back("Location", "/api/v1/job-orders/" + created->order.id.str());
+    return {std::move(response)};
+}
+
+FleetAnswer pause_job_order(FleetContext& context, const Request& request) {
+    return change_job_order(context, request, &fleet::Fleet::pause_order);
+}
+
+FleetAnswer resume_job_order(FleetContext& context, const Request& request) {
+    return change_job_order(context, request, &fleet::Fleet::resume_order);
+}
+
+FleetAnswer cancel_job_order(FleetContext& context, const Request& request) {
+    return change_job_order(context, request, &fleet::Fleet::cancel_order);
+}
+
+Response list_job_orders(const HistoryContext& context, const Request& request) {
+    auto query = read_order_query(request);
+    if (!query) return problem(400, query.error(), request);
+    const int limit = query->limit;
+    query->limit = limit + 1;
+    return json_response(
+        200, page_json(context.history.orders(*query), limit, [&](const fleet::JobOrder& order) {
+            return job_order_json(context.plant, order);
+        }));
+}
+
+Response get_job_order(const HistoryContext& context, const Request& request) {
+    const auto id = fleet::JobOrderId::parse(request.param("id"));
+    const auto order = id ? context.history.order(*id) : std::nullopt;
+    if (!order) return problem(unknown_job_order(request.param("id")), request);
+    return job_order_response(200, context.plant, *order);
+}
+
+}  // namespace pulseline::api

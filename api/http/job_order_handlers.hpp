@@ -1,0 +1,14 @@
+#pragma once
+
+#include "api/http/contexts.hpp"
+
+namespace pulseline::api {
+
+FleetAnswer create_job_order(FleetContext& context, const Request& request);
+FleetAnswer pause_job_order(FleetContext& context, const Request& request);
+FleetAnswer resume_job_order(FleetContext& context, const Request& request);
+FleetAnswer cancel_job_order(FleetContext& context, const Request& request);
+Response list_job_orders(const HistoryContext& context, const Request& request);
+Response get_job_order(const HistoryContext& context, const Request& request);
+
+}  // namespace pulseline::api

@@ -1,0 +1,244 @@
+#include "api/http/requests.hpp"
+
+#include <algorithm>
+
+#include "api/access/secrets.hpp"
+#include "api/http/page.hpp"
+#include "api/json/object_reader.hpp"
+
+namespace pulseline::api {
+namespace {
+
+using json::FieldErrors;
+using json::Json;
+using json::ObjectReader;
+
+constexpr std::size_t kMaxSteps = 100;
+constexpr std::size_t kMaxResumed = 1000;
+constexpr std::int64_t kMaxStation = 1'000'000'000;
+constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
+constexpr double kMaxHeading_rad = 6.2832;
+constexpr std::size_t kMaxKeyBytes = 128;
+constexpr json::TextLimits kVehicleName{1, 64};
+
+Result<Json> read_body(const Request& request) {
+    if (request.body.empty()) {
+        return fail(Errc::kInvalid, "body_missing", "This operation needs a JSON body; send one.");
+    }
+    return json::parse_json(request.body);
+}
+
+/// Parses the body and lets `read` take its members; the first fault is the answer.
+template <class T, class Read>
+Result<T> read_object(const Request& request, Read read) {
+    const auto body = read_body(request);
+    if (!body) return fail(body.error());
+    FieldErrors errors;
+    ObjectReader in(*body, "", errors);
+    T value = read(in);
+    in.refuse_unknown();
+    if (const Status ok = errors.status(); !ok) return fail(ok.error());
+    return value;
+}
+
+fleet::NewStep read_step(const Json& item, const std::string& pointer, FieldErrors& errors) {
+    using plant::MotionMode;
+    ObjectReader in(item, pointer, errors);
+    fleet::NewStep step;
+    step.station_number = static_cast<int>(in.integer("station", {0, kMaxStation}));
+    step.mode =
+        in.one_of_or("motion_mode", MotionMode::kAuto,
+                     {MotionMode::kAuto, MotionMode::kSelfRotation, MotionMode::kLinear,
+                      MotionMode::kFixedAxisRotation, MotionMode::kLateral, MotionMode::kFree});
+    in.refuse_unknown();
+    return step;
+}
+
+/// The draft standard quotes the key, most clients do not: both are the same key.
+Result<std::string> read_idempotency_key(const Request& request) {
+    const auto it = request.headers.find("idempotency-key");
+    if (it == request.headers.end()) return std::string();
+    std::string key = it->second;
+    if (key.size() >= 2 && key.front() == '"' && key.back() == '"') {
+        key = key.substr(1, key.size() - 2);
+    }
+    const bool printable =
+        std::all_of(key.begin(), key.end(), [](char c) { return c > ' ' && c <= '~'; });
+    if (key.empty() || key.size() > kMaxKeyBytes || !printable) {
+        return fail(Errc::kInvalid, "bad_idempotency_key",
+                    "An Idempotency-Key has 1 to 128 printable ASCII characters; send such a one.",
+                    "Idempotency-Key");
+    }
+    return key;
+}
+
+Result<int> read_limit(const Request& request) {
+    const auto text = request.query_value("limit");
+    if (!text) return kDefaultPage;
+    const auto limit = parse_integer(*text, 1, kLargestPage);
+    if (!limit) {
+        return fail(Errc::kInvalid, "out_of_range", "The limit is a whole number from 1 to 500.",
+                    "?limit", {{"min", std::int64_t{1}}, {"max", std::int64_t{kLargestPage}}});
+    }
+    return static_cast<int>(*limit);
+}
+
+template <class AnyId>
+Result<AnyId> read_cursor(const Request& request) {
+    const auto text = request.query_value("cursor");
+    if (!text) return AnyId{};
+    const auto uuid = uuid_of_cursor(*text);
+    if (!uuid) {
+        return fail(Errc::kInvalid, "bad_cursor",
+                    "Take the cursor unchanged from next_cursor of an earlier page.", "?cursor");
+    }
+    return AnyId(*uuid);
+}
+
+Result<std::vector<fleet::JobState>> read_states(const std::string& text) {
+    using fleet::JobState;
+    std::vector<JobState> states;
+    std::size_t start = 0;
+    while (start <= text.size()) {
+        const auto end = std::min(text.find(',', start), text.size());
+        const std::string name = text.substr(start, end - start);
+        start = end + 1;
+        bool known = false;
+        for (const JobState state :
+             {JobState::kNotAllowedToStart, JobState::kAllowedToStart, JobState::kRunning,
+              JobState::kInterrupted, JobState::kEnded, JobState::kAborted}) {
+            if (name != fleet::to_string(state)) continue;
+            states.push_back(state);
+            known = true;
+        }
+        if (!known) {
+            return fail(Errc::kInvalid, "not_one_of",
+                        "Name states separated by commas: NotAllowedToStart, AllowedToStart, "
+                        "Running, Interrupted, Ended, Aborted.",
+                        "?state");
+        }
+    }
+    return states;
+}
+
+}  // namespace
+
+Result<SignIn> read_sign_in(const Request& request) {
+    return read_object<SignIn>(request, [](ObjectReader& in) {
+        SignIn credentials;
+        credentials.name = in.text("name", {1, 64});
+        credentials.password = in.text("password", {1, 128});
+        return credentials;
+    });
+}
+
+Result<fleet::NewOrder> read_new_order(const Request& request) {
+    const auto key = read_idempotency_key(request);
+    if (!key) return fail(key.error());
+    auto order = read_object<fleet::NewOrder>(request, [](ObjectReader& in) {
+        fleet::NewOrder read;
+        read.client_order_id = in.text_or("client_order_id", "", {1, 64});
+        read.vehicle = plant::VehicleId(in.text_or("vehicle", "", kVehicleName));
+        read.priority = static_cast<int>(in.integer_or("priority", 0, {-100, 100}));
+        in.items("steps", {1, kMaxSteps}, [&](const Json& item, const std::string& pointer) {
+            read.steps.push_back(read_step(item, pointer, in.errors()));
+        });
+        return read;
+    });
+    if (!order) return order;
+    order->actor = request.identity.name;
+    order->idempotency_client = request.identity.name;
+    order->idempotency_key = *key;
+    order->body_sha256 = access::sha256_hex(request.body);
+    return order;
+}
+
+Result<geometry::Pose2> read_pose(const Request& request) {
+    return read_object<geometry::Pose2>(request, [](ObjectReader& in) {
+        geometry::Pose2 pose;
+        pose.x_m = in.number("x_m", {-kMaxCoordinate_m, kMaxCoordinate_m});
+        pose.y_m = in.number("y_m", {-kMaxCoordinate_m, kMaxCoordinate_m});
+        pose.heading_rad = wrap(in.number("heading_rad", {-kMaxHeading_rad, kMaxHeading_rad}));
+        return pose;
+    });
+}
+
+Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request) {
+    return read_object<std::vector<plant::VehicleId>>(request, [](ObjectReader& in) {
+        std::vector<plant::VehicleId> vehicles;
+        in.items("vehicles", {1, kMaxResumed}, [&](const Json& item, const std::string& pointer) {
+            vehicles.emplace_back(json::read_text(item, pointer, in.errors(), kVehicleName));
+        });
+        return vehicles;
+    });
+}
+
+Result<bool> read_dry_run(const Request& request) {
+    const auto text = request.query_value("dryRun");
+    if (!text || *text == "false") return false;
+    if (*text == "true") return true;
+    return fail(Errc::kInvalid, "wrong_type", "dryRun is true or false.", "?dryRun",
+                {{"expected", std::string("boolean")}});
+}
+
+Result<fleet::OrderQuery> read_order_query(const Request& request) {
+    fleet::OrderQuery query;
+    if (const auto text = request.query_value("state")) {
+        auto states = read_states(*text);
+        if (!states) return fail(states.error());
+        query.states = std::move(*states);
+    }
+    query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));
+    const auto limit = read_limit(request);
+    if (!limit) return fail(limit.error());
+    query.limit = *limit;
+    const auto before = read_cursor<fleet::JobOrderId>(request);
+    if (!before) return fail(before.error());
+    query.before = *before;
+    return query;
+}
+
+Result<fleet::StopQuery> read_stop_query(const Request& request) {
+    fleet::StopQuery query;
+    query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));
+    if (const auto text = request.query_value("station")) {
+        const auto number = parse_integer(*text, 0, kMaxStation);
+        if (!number) {
+            return fail(Errc::kInvalid, "wrong_type", "The station is a number.", "?station",
+                        {{"expected", std::string("integer")}});
+        }
+        query.station_number = static_cast<int>(*number);
+    }
+    if (const auto text = request.query_value("order")) {
+        const auto id = fleet::JobOrderId::parse(*text);
+        if (!id) {
+            return fail(Errc::kInvalid, "wrong_type", "The order is the id of a job order.",
+                        "?order", {{"expected", std::string("uuid")}});
+        }
+        query.order = *id;
+    }
+    const auto limit = read_limit(request);
+    if (!limit) return fail(limit.error());
+    query.limit = *limit;
+    const auto before = read_cursor<fleet::StopRecordId>(request);
+    if (!before) return fail(before.error());
+    query.before = *before;
+    return query;
+}
+
+Result<std::optional<std::int64_t>> read_event_start(const Request& request) {
+    const auto header = request.headers.find("last-event-id");
+    const bool in_header = header != request.headers.end();
+    const auto text =
+        in_header ? std::optional<std::string>(header->second) : request.query_value("after");
+    if (!text) return std::optional<std::int64_t>();
+    const auto seq = parse_integer(*text, 0, std::numeric_limits<std::int64_t>::max());
+    if (!seq) {
+        return fail(Errc::kInvalid, "wrong_type",
+                    "Name the sequence number of the last event you have, 0 for none.",
+                    in_header ? "Last-Event-ID" : "?after", {{"expected", std::string("integer")}});
+    }
+    return seq;
+}
+
+}  // namespace pulseline::api

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/http/message.hpp"
+#include "core/base/result.hpp"
+#include "core/fleet/fleet.hpp"
+
+/// Decoders of everything a client may send. Each error names the field: a JSON pointer into the
+/// body,
+/// "?name" for a query parameter, the header's name for a header. All of them are answered with
+/// 400.
+namespace pulseline::api {
+
+struct SignIn {
+    std::string name;
+    std::string password;
+};
+Result<SignIn> read_sign_in(const Request& request);
+/// Body, Idempotency-Key and who asks.
+Result<fleet::NewOrder> read_new_order(const Request& request);
+Result<geometry::Pose2> read_pose(const Request& request);
+Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
+
+Result<bool> read_dry_run(const Request& request);
+Result<fleet::OrderQuery> read_order_query(const Request& request);
+Result<fleet::StopQuery> read_stop_query(const Request& request);
+/// Sequence number behind which an event stream starts; nothing: with the next event.
+Result<std::optional<std::int64_t>> read_event_start(const Request& request);
+
+}  // namespace pulseline::api

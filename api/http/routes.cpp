@@ -1,0 +1,91 @@
+#include "api/http/job_order_handlers.hpp"
+#include "api/http/router.hpp"
+#include "api/http/service_handlers.hpp"
+#include "api/http/session_handlers.hpp"
+#include "api/http/stop_record_handlers.hpp"
+#include "api/http/vehicle_handlers.hpp"
+
+namespace pulseline::api {
+namespace {
+
+constexpr std::nullopt_t kPublic = std::nullopt;
+constexpr auto kViewer = access::Role::kViewer;
+constexpr auto kOperator = access::Role::kOperator;
+
+}  // namespace
+
+// The names match openapi.yaml; a test holds the two together.
+std::span<const Route> routes() {
+    static const std::vector<Route> kRoutes = {
+        // method, path, operation, least role, query parameters, handler
+        {"GET", "/api/v1/session", "getSession", kViewer, {}, get_session},
+        {"POST", "/api/v1/session", "signIn", kPublic, {}, sign_in},
+        {"DELETE", "/api/v1/session", "signOut", kViewer, {}, sign_out},
+
+        {"GET", "/api/v1/plant", "getPlant", kViewer, {}, get_plant},
+        {"GET", "/api/v1/halls/{hall}/grid", "getHallGrid", kViewer, {}, get_hall_grid},
+        {"GET", "/api/v1/stations", "listStations", kViewer, {}, list_stations},
+        {"GET", "/api/v1/stations/{number}", "getStation", kViewer, {}, get_station},
+
+        {"GET", "/api/v1/vehicles", "listVehicles", kViewer, {}, list_vehicles},
+        {"GET", "/api/v1/vehicles/{id}", "getVehicle", kViewer, {}, get_vehicle},
+        {"GET",
+         "/api/v1/vehicles/{id}/cameras/{camera}",
+         "getCameraImage",
+         kViewer,
+         {},
+         get_camera_image},
+        {"POST", "/api/v1/vehicles/{id}/pause", "pauseVehicle", kOperator, {}, pause_vehicle},
+        {"POST",
+         "/api/v1/vehicles/{id}/init-position",
+         "initPosition",
+         kOperator,
+         {},
+         init_position},
+
+        {"GET", "/api/v1/fleet", "getFleet", kViewer, {}, get_fleet},
+        {"POST", "/api/v1/fleet/pause", "pauseFleet", kOperator, {}, pause_fleet},
+        {"POST", "/api/v1/fleet/resume", "resumeFleet", kOperator, {}, resume_fleet},
+
+        {"GET",
+         "/api/v1/job-orders",
+         "listJobOrders",
+         kViewer,
+         {"state", "vehicle", "limit", "cursor"},
+         list_job_orders},
+        {"POST", "/api/v1/job-orders", "createJobOrder", kOperator, {"dryRun"}, create_job_order},
+        {"GET", "/api/v1/job-orders/{id}", "getJobOrder", kViewer, {}, get_job_order},
+        {"POST", "/api/v1/job-orders/{id}/pause", "pauseJobOrder", kOperator, {}, pause_job_order},
+        {"POST",
+         "/api/v1/job-orders/{id}/resume",
+         "resumeJobOrder",
+         kOperator,
+         {},
+         resume_job_order},
+        {"POST",
+         "/api/v1/job-orders/{id}/cancel",
+         "cancelJobOrder",
+         kOperator,
+         {},
+         cancel_job_order},
+
+        {"GET",
+         "/api/v1/stop-records",
+         "listStopRecords",
+         kViewer,
+         {"vehicle", "station", "order", "limit", "cursor"},
+         list_stop_records},
+        {"GET", "/api/v1/stop-records/{id}", "getStopRecord", kViewer, {}, get_stop_record},
+
+        {"GET", "/api/v1/events", "streamEvents", kViewer, {"after"}, Socket::kEventStream},
+        {"GET", "/api/v1/stream", "stream", kViewer, {}, Socket::kWebSocket},
+
+        {"GET", "/api/v1/openapi.json", "getOpenApi", kPublic, {}, get_openapi},
+        {"GET", "/healthz", "health", kPublic, {}, health},
+        {"GET", "/readyz", "ready", kPublic, {}, ready},
+        {"GET", "/metrics", "metrics", kViewer, {}, metrics},
+    };
+    return kRoutes;
+}
+
+}  // namespace pulseline::api

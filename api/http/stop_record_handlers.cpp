@@ -1,0 +1,32 @@
+#include "api/http/stop_record_handlers.hpp"
+
+#include "api/http/job_order_json.hpp"
+#include "api/http/page.hpp"
+#include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
+
+namespace pulseline::api {
+
+Response list_stop_records(const HistoryContext& context, const Request& request) {
+    auto query = read_stop_query(request);
+    if (!query) return problem(400, query.error(), request);
+    const int limit = query->limit;
+    query->limit = limit + 1;
+    return json_response(200, page_json(context.history.stops(*query), limit, stop_record_json));
+}
+
+Response get_stop_record(const HistoryContext& context, const Request& request) {
+    const auto id = fleet::StopRecordId::parse(request.param("id"));
+    const auto stop = id ? context.history.stop(*id) : std::nullopt;
+    if (!stop) {
+        return problem(
+            Error{Errc::kNotFound,
+                  {"unknown_stop_record", {{"id", request.param("id").substr(0, 64)}}},
+                  "There is no stop record of that id; GET /api/v1/stop-records lists them.",
+                  {}},
+            request);
+    }
+    return json_response(200, stop_record_json(*stop));
+}
+
+}  // namespace pulseline::api

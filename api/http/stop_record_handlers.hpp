@@ -1,0 +1,10 @@
+#pragma once
+
+#include "api/http/contexts.hpp"
+
+namespace pulseline::api {
+
+Response list_stop_records(const HistoryContext& context, const Request& request);
+Response get_stop_record(const HistoryContext& context, const Request& request);
+
+}  // namespace pulseline::api
