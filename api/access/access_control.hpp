@@ -18,7 +18,7 @@ struct RemoveSession {
 };
 /// One thing to write through access::Store.
 using Change = std::variant<User, Session, Token, RemoveSession>;
-void apply(Store& store, const Change& change);
+void apply(Store& store, const Change& change);  // call qualified: std::apply is near
 
 struct Limits {
     Duration session_idle = std::chrono::minutes(30);
