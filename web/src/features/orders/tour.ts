@@ -1,4 +1,4 @@
-import type { MotionMode, Plant } from "../../shared/api/types";
+import type { MotionMode, Plant } from "@/shared/api/types";
 
 /** A job order being written: stations in the order they will be visited. */
 export interface TourStep {

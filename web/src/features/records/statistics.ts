@@ -1,4 +1,4 @@
-import type { StopRecord } from "../../shared/api/types";
+import type { StopRecord } from "@/shared/api/types";
 
 export interface Ellipse {
   cx: number;

@@ -1,4 +1,7 @@
-import type { Check, DryRun, ModeOption, MotionMode, Pose, StepPreview, Vehicle } from "../../shared/api/types";
+import type { Check, DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
+import type { Refusal } from "./startCommand";
+
+export type StepPreview = DryRun["steps"][number];
 
 /** What the preview depends on. Same key, same answer: nothing is asked again. */
 export interface PreviewInput {
@@ -23,7 +26,7 @@ export type Preview =
   | { kind: "none" }
   | { kind: "loading"; last: DryRun | undefined }
   | { kind: "ready"; data: DryRun }
-  | { kind: "failed"; code: string; detail: string; requestId: string | undefined };
+  | { kind: "failed"; problem: Refusal };
 
 /** Asks for previews; only the answer to the newest question is let through. */
 export class NewestOnly {
@@ -92,7 +95,7 @@ export type Readiness =
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
   | { kind: "check"; check: Check }
-  | { kind: "problem"; reason: { code: string; params: Record<string, string | number | boolean> } }
+  | { kind: "problem"; reason: Reason }
   | { kind: "failed" };
 
 export function readiness(input: {

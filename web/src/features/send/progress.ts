@@ -1,4 +1,4 @@
-import type { JobOrder, StopRecord, Vehicle } from "../../shared/api/types";
+import type { JobOrder, StopRecord, Vehicle } from "@/shared/api/types";
 
 /** Where the started move is, read only from what the server holds and the vehicle reported. */
 export type MoveProgress =

@@ -1,4 +1,7 @@
-import type { Problem, Vehicle } from "../../shared/api/types";
+import type { ApiProblem } from "@/shared/api";
+import type { NewJobOrder } from "@/shared/api/types";
+
+export type Refusal = Pick<ApiProblem, "code" | "params" | "detail" | "requestId">;
 
 /**
  * The two-step start. The idempotency key is made when the command is armed and kept until it is
@@ -6,72 +9,82 @@ import type { Problem, Vehicle } from "../../shared/api/types";
  */
 export type StartCommand =
   | { kind: "idle" }
-  | { kind: "armed"; key: string; subject: string; untilMs: number }
-  | { kind: "requested"; key: string; sinceMs: number; tries: number }
-  | { kind: "accepted"; orderId: string; orderName: string; vehicle: string; atMs: number }
-  | { kind: "refused"; problem: Problem }
-  | { kind: "unanswered"; key: string; why: "timeout" | "network" };
+  | { kind: "armed"; key: string; body: NewJobOrder; sinceMs: number }
+  | { kind: "requested"; key: string; body: NewJobOrder; sinceMs: number; tries: number }
+  | { kind: "accepted"; orderId: string; vehicle: string; station: number | undefined }
+  | { kind: "refused"; problem: Refusal }
+  | { kind: "unanswered"; key: string; body: NewJobOrder; tries: number; why: "timeout" | "network" };
 
 export type StartEvent =
-  | { kind: "arm"; key: string; subject: string; nowMs: number }
+  | { kind: "arm"; key: string; body: NewJobOrder; nowMs: number }
   | { kind: "start"; nowMs: number }
-  | { kind: "hold"; key: string; nowMs: number }
+  | { kind: "hold"; key: string; body: NewJobOrder; nowMs: number }
   | { kind: "tick"; nowMs: number }
-  | { kind: "subject"; subject: string }
+  | { kind: "subject"; body: NewJobOrder | undefined }
   | { kind: "cancel" }
-  | { kind: "accepted"; orderId: string; orderName: string; vehicle: string; nowMs: number }
-  | { kind: "refused"; problem: Problem }
+  | { kind: "accepted"; orderId: string; vehicle: string; station: number | undefined }
+  | { kind: "refused"; problem: Refusal }
   | { kind: "unanswered"; why: "timeout" | "network" }
   | { kind: "retry"; nowMs: number }
   | { kind: "done" };
 
 export const kArmMs = 8000;
 export const kHoldMs = 1500;
-export const kAnswerMs = 10000;
+/** Presses this soon after arming are the same finger: a double tap never starts. */
+export const kDwellMs = 350;
 
 export function startCommand(state: StartCommand, event: StartEvent): StartCommand {
   switch (event.kind) {
     case "arm":
       if (state.kind !== "idle" && state.kind !== "refused") return state;
-      return { kind: "armed", key: event.key, subject: event.subject, untilMs: event.nowMs + kArmMs };
+      return { kind: "armed", key: event.key, body: event.body, sinceMs: event.nowMs };
     case "start":
-      if (state.kind !== "armed") return state;
-      if (event.nowMs >= state.untilMs) return { kind: "idle" };
-      return { kind: "requested", key: state.key, sinceMs: event.nowMs, tries: 1 };
-    case "hold":
-      if (state.kind === "armed")
-        return { kind: "requested", key: state.key, sinceMs: event.nowMs, tries: 1 };
-      if (state.kind !== "idle" && state.kind !== "refused") return state;
-      return { kind: "requested", key: event.key, sinceMs: event.nowMs, tries: 1 };
+      if (state.kind !== "armed" || event.nowMs - state.sinceMs < kDwellMs) return state;
+      if (lapsed(state.sinceMs, event.nowMs)) return { kind: "idle" };
+      return { kind: "requested", key: state.key, body: state.body, sinceMs: event.nowMs, tries: 1 };
+    case "hold": {
+      if (state.kind !== "idle" && state.kind !== "refused" && state.kind !== "armed") return state;
+      const from = state.kind === "armed" ? state : event;
+      return { kind: "requested", key: from.key, body: from.body, sinceMs: event.nowMs, tries: 1 };
+    }
     case "tick":
-      return state.kind === "armed" && event.nowMs >= state.untilMs ? { kind: "idle" } : state;
+      return state.kind === "armed" && lapsed(state.sinceMs, event.nowMs) ? { kind: "idle" } : state;
     case "subject":
       // What was armed is no longer what would be sent.
-      return state.kind === "armed" && state.subject !== event.subject ? { kind: "idle" } : state;
+      return state.kind === "armed" && !sameBody(state.body, event.body) ? { kind: "idle" } : state;
     case "cancel":
       return state.kind === "armed" || state.kind === "refused" ? { kind: "idle" } : state;
     case "accepted":
-      if (state.kind !== "requested") return state;
-      return {
-        kind: "accepted",
-        orderId: event.orderId,
-        orderName: event.orderName,
-        vehicle: event.vehicle,
-        atMs: event.nowMs,
-      };
+      if (state.kind !== "requested" && state.kind !== "idle") return state;
+      return { kind: "accepted", orderId: event.orderId, vehicle: event.vehicle, station: event.station };
     case "refused":
       return state.kind === "requested" ? { kind: "refused", problem: event.problem } : state;
     case "unanswered":
-      return state.kind === "requested" ? { kind: "unanswered", key: state.key, why: event.why } : state;
+      if (state.kind !== "requested") return state;
+      return { kind: "unanswered", key: state.key, body: state.body, tries: state.tries, why: event.why };
     case "retry":
       if (state.kind !== "unanswered") return state;
-      return { kind: "requested", key: state.key, sinceMs: event.nowMs, tries: 2 };
+      return {
+        kind: "requested",
+        key: state.key,
+        body: state.body,
+        sinceMs: event.nowMs,
+        tries: state.tries + 1,
+      };
     case "done":
       return state.kind === "requested" ? state : { kind: "idle" };
   }
 }
 
-/** What an armed command is about; when it changes the arming lapses. */
-export function subjectOf(vehicle: Vehicle | undefined, station: number | undefined, mode: string | undefined): string {
-  return `${vehicle?.id ?? ""}|${station ?? ""}|${mode ?? ""}`;
+/** Seconds left of an arming, for the ring. */
+export function armedLeft_s(state: StartCommand, nowMs: number): number {
+  return state.kind === "armed" ? Math.max(0, (state.sinceMs + kArmMs - nowMs) / 1000) : 0;
+}
+
+function lapsed(sinceMs: number, nowMs: number): boolean {
+  return nowMs - sinceMs >= kArmMs;
+}
+
+function sameBody(a: NewJobOrder, b: NewJobOrder | undefined): boolean {
+  return JSON.stringify(a) === JSON.stringify(b);
 }

@@ -1,4 +1,4 @@
-import type { Plant, Station, StationState, Vehicle } from "../../shared/api/types";
+import type { Plant, Station, StationState, Vehicle } from "@/shared/api/types";
 
 /** What the number pad shows of the typed number, before anything is asked of the server. */
 export type StationEntry =

@@ -1,4 +1,4 @@
-import type { Vehicle, VehicleType } from "../../shared/api/types";
+import type { Vehicle, VehicleType } from "@/shared/api/types";
 
 export type BracketReading = Vehicle["brackets"][number];
 

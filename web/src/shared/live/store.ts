@@ -1,0 +1,200 @@
+import type { Fleet, JobOrder, Pose, StationState, StopRecord, StreamFrame, Vehicle } from '@/shared/api/types';
+
+/** State of the browser's own link to the server. */
+export type LinkState =
+  | { kind: 'connecting' }
+  | { kind: 'live'; heardAt: number }
+  | { kind: 'lost'; since: number; heardAt: number | undefined };
+
+/** Newest pose of one vehicle. Times are performance.now() milliseconds of this browser. */
+export interface LivePose extends Pose {
+  speed_mps: number;
+  /** When the server heard it, in this browser's clock. */
+  heardAt: number;
+}
+
+/** All that the screens show, replaced as a whole part on change so that selectors compare by identity. */
+export interface LiveState {
+  link: LinkState;
+  ready: boolean;
+  fleet: Fleet | undefined;
+  vehicles: ReadonlyMap<string, Vehicle>;
+  stations: ReadonlyMap<string, StationState>;
+  jobOrders: ReadonlyMap<string, JobOrder>;
+  stopRecords: ReadonlyMap<string, StopRecord>;
+  /** Server clock minus browser clock, ms; ages of server times are computed with it. */
+  clockOffsetMs: number;
+}
+
+export const emptyState: LiveState = {
+  link: { kind: 'connecting' },
+  ready: false,
+  fleet: undefined,
+  vehicles: new Map(),
+  stations: new Map(),
+  jobOrders: new Map(),
+  stopRecords: new Map(),
+  clockOffsetMs: 0,
+};
+
+const kMaxStopRecords = 500;
+
+const byKey = <T>(items: readonly T[], key: (item: T) => string) => new Map(items.map((i) => [key(i), i]));
+
+function withItem<T>(map: ReadonlyMap<string, T>, key: string, item: T): ReadonlyMap<string, T> {
+  return new Map(map).set(key, item);
+}
+
+function withStop(map: ReadonlyMap<string, StopRecord>, stop: StopRecord): ReadonlyMap<string, StopRecord> {
+  if (map.has(stop.id)) return withItem(map, stop.id, stop);
+  const next = new Map([[stop.id, stop], ...map]);
+  for (const key of [...next.keys()].slice(kMaxStopRecords)) next.delete(key);
+  return next;
+}
+
+function isNewer(old: JobOrder | undefined, next: JobOrder): boolean {
+  return old === undefined || next.revision >= old.revision;
+}
+
+/** One frame into the state. Pure. Poses are kept apart (see LiveStore) and change nothing here. */
+export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): LiveState {
+  switch (frame.type) {
+    case 'snapshot':
+      return {
+        ...state,
+        ready: true,
+        fleet: frame.fleet,
+        vehicles: byKey(frame.vehicles, (v) => v.id),
+        stations: byKey(frame.stations, (s) => s.station),
+        jobOrders: byKey(frame.job_orders, (o) => o.id),
+        stopRecords: byKey(frame.stop_records, (r) => r.id),
+        clockOffsetMs: Date.parse(frame.server_time) - wallMs || 0,
+      };
+    case 'vehicle':
+      return { ...state, vehicles: withItem(state.vehicles, frame.vehicle.id, frame.vehicle) };
+    case 'station':
+      return { ...state, stations: withItem(state.stations, frame.station.station, frame.station) };
+    case 'job_order':
+      if (!isNewer(state.jobOrders.get(frame.job_order.id), frame.job_order)) return state;
+      return { ...state, jobOrders: withItem(state.jobOrders, frame.job_order.id, frame.job_order) };
+    case 'stop_record':
+      return { ...state, stopRecords: withStop(state.stopRecords, frame.stop_record) };
+    case 'fleet':
+      return { ...state, fleet: frame.fleet };
+    case 'poses':
+    case 'event':
+      return state;
+  }
+}
+
+type PoseRow = [string, number, number, number, number, number];
+
+function isPoseRow(row: unknown): row is PoseRow {
+  return (
+    Array.isArray(row) &&
+    row.length >= 6 &&
+    typeof row[0] === 'string' &&
+    row.slice(1, 6).every((n) => typeof n === 'number' && Number.isFinite(n))
+  );
+}
+
+/**
+ * The one store of live data. React reads parts of `state` through selectors; poses live in a plain map that
+ * the canvas reads on its own, because ten changes a second and vehicle are no business of React's.
+ * Listeners hear at most once per animation frame.
+ */
+export class LiveStore {
+  readonly poses = new Map<string, LivePose>();
+  private current: LiveState = emptyState;
+  private pending: LiveState = emptyState;
+  private listeners = new Set<() => void>();
+  private poseListeners = new Set<() => void>();
+  private scheduled = false;
+  private posesDirty = false;
+
+  constructor(
+    private readonly schedule: (flush: () => void) => void = (flush) => requestAnimationFrame(() => flush()),
+    private readonly clock: () => number = () => performance.now(),
+    private readonly wall: () => number = () => Date.now(),
+  ) {}
+
+  get state(): LiveState {
+    return this.current;
+  }
+
+  subscribe = (listener: () => void): (() => void) => {
+    this.listeners.add(listener);
+    return () => this.listeners.delete(listener);
+  };
+
+  /** Heard once per animation frame in which poses came in. */
+  subscribePoses = (listener: () => void): (() => void) => {
+    this.poseListeners.add(listener);
+    return () => this.poseListeners.delete(listener);
+  };
+
+  apply(frame: StreamFrame): void {
+    if (frame.type === 'poses') {
+      this.takePoses(frame.poses);
+      return;
+    }
+    if (frame.type === 'snapshot') this.takeSnapshotPoses(frame.vehicles, Date.parse(frame.server_time));
+    this.pending = reduce(this.pending, frame, this.wall());
+    this.request();
+  }
+
+  setLink(link: LinkState): void {
+    this.pending = { ...this.pending, link };
+    this.request();
+  }
+
+  /** Forgets everything, at sign-out. */
+  clear(): void {
+    this.poses.clear();
+    this.pending = emptyState;
+    this.posesDirty = true;
+    this.request();
+  }
+
+  private takePoses(rows: readonly unknown[]): void {
+    const now = this.clock();
+    for (const row of rows) {
+      if (!isPoseRow(row)) continue;
+      const [id, x_m, y_m, heading_rad, speed_mps, age_s] = row;
+      this.poses.set(id, { x_m, y_m, heading_rad, speed_mps, heardAt: now - age_s * 1000 });
+    }
+    this.posesDirty = true;
+    this.request();
+  }
+
+  private takeSnapshotPoses(vehicles: readonly Vehicle[], serverMs: number): void {
+    const now = this.clock();
+    this.poses.clear();
+    for (const v of vehicles) {
+      if (v.pose === undefined) continue;
+      const at = v.pose_at ?? v.last_heard_at;
+      const age = at === undefined ? Infinity : Math.max(0, serverMs - Date.parse(at));
+      this.poses.set(v.id, { ...v.pose, speed_mps: v.speed_mps ?? 0, heardAt: now - age });
+    }
+    this.posesDirty = true;
+  }
+
+  private request(): void {
+    if (this.scheduled) return;
+    this.scheduled = true;
+    this.schedule(() => this.flush());
+  }
+
+  private flush(): void {
+    this.scheduled = false;
+    if (this.posesDirty) {
+      this.posesDirty = false;
+      for (const listener of this.poseListeners) listener();
+    }
+    if (this.pending === this.current) return;
+    this.current = this.pending;
+    for (const listener of this.listeners) listener();
+  }
+}
+
+export const liveStore = new LiveStore();

@@ -1,0 +1,35 @@
+import type { ReactNode } from "react";
+import { useTranslation } from "react-i18next";
+import { StatusSymbol, type SymbolName } from "./Icon";
+
+export type Priority = "critical" | "high" | "low";
+export const prioritySymbol: Record<Priority, SymbolName> = { critical: "a-1", high: "a-2s", low: "a-3" };
+
+export interface BannerProps {
+  priority: Priority;
+  what: ReactNode;
+  todo?: ReactNode;
+  age?: string | undefined;
+  actions?: ReactNode;
+  /** Word in the coloured block; the priority by default. */
+  word?: string;
+}
+
+/** The most urgent thing only, always at the same place: top of the page. */
+export function Banner({ priority, what, todo, age, actions, word }: BannerProps) {
+  const { t } = useTranslation();
+  return (
+    <div className={`banner ${priority}`} role="alert">
+      <div className="pri">
+        <StatusSymbol name={prioritySymbol[priority]} />
+        <span>{word ?? t(`priority.${priority}`)}</span>
+      </div>
+      <div className="txt">
+        <span>{what}</span>
+        {todo !== undefined && <span className="lab gt-sm">{todo}</span>}
+      </div>
+      {age !== undefined && <span className="age">{age}</span>}
+      {actions !== undefined && <div className="acts">{actions}</div>}
+    </div>
+  );
+}

@@ -1,0 +1,34 @@
+import type { ReactNode } from "react";
+import { age } from "@/shared/words/format";
+import { StatusSymbol } from "./Icon";
+
+export type CheckResult = "pass" | "note" | "fail";
+
+export interface CheckRowProps {
+  result: CheckResult;
+  name: string;
+  /** Result with its number and limit. */
+  value: ReactNode;
+  ageS?: number | undefined;
+  /** A failed check that may hurt somebody is critical, else high. */
+  critical?: boolean;
+}
+
+const kOrder: Record<CheckResult, number> = { fail: 0, note: 1, pass: 2 };
+/** Failed ones first, then notes; the order within stays. */
+export function sortChecks<T extends { result: CheckResult }>(checks: readonly T[]): T[] {
+  return [...checks].sort((a, b) => kOrder[a.result] - kOrder[b.result]);
+}
+
+export function CheckRow({ result, name, value, ageS, critical }: CheckRowProps) {
+  const symbol = result === "pass" ? "c-ok" : result === "note" ? "a-3" : critical ? "a-1" : "a-2";
+  const wash = result === "pass" ? "" : result === "note" ? "warn" : critical ? "crit" : "fail";
+  return (
+    <div className={`chk ${wash}`} data-result={result}>
+      <StatusSymbol name={symbol} className={result === "pass" ? "quiet" : ""} />
+      <b>{name}</b>
+      <span className="v">{value}</span>
+      <span className="cap">{ageS === undefined ? "" : age(ageS)}</span>
+    </div>
+  );
+}

@@ -1,0 +1,29 @@
+/** How far a command has come. Only what the server or the vehicle said, never what we hope. */
+export type CommandProgress =
+  | { kind: "ready" }
+  | { kind: "requested"; atMs: number } // performance.now()
+  | { kind: "accepted"; waitingFor: string }
+  | { kind: "confirmed"; by: string; afterS: number }
+  | { kind: "timed_out"; what: string; next: string };
+
+export const kArmMs = 8000;
+export const kHoldMs = 1500;
+/** A second press this soon is the same tap, not a decision. */
+export const kDoubleTapMs = 400;
+
+/** What a press does, given the state the button is in. Pure, so that taps can be tested. */
+export type Press = { kind: "arm" } | { kind: "run" } | { kind: "none" };
+
+export function press(
+  progress: CommandProgress,
+  armedAtMs: number | undefined,
+  lastRunMs: number | undefined,
+  nowMs: number,
+  twoStep: boolean,
+): Press {
+  if (progress.kind !== "ready" && progress.kind !== "timed_out") return { kind: "none" };
+  if (lastRunMs !== undefined && nowMs - lastRunMs < kDoubleTapMs) return { kind: "none" };
+  if (!twoStep) return { kind: "run" };
+  if (armedAtMs === undefined || nowMs - armedAtMs >= kArmMs) return { kind: "arm" };
+  return nowMs - armedAtMs < kDoubleTapMs ? { kind: "none" } : { kind: "run" };
+}

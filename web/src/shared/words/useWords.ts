@@ -1,0 +1,56 @@
+import { useMemo } from "react";
+import { useTranslation } from "react-i18next";
+import type { ApiProblem } from "@/shared/api";
+import type { MotionMode, Reason } from "@/shared/api/types";
+import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
+import { usePlant } from "@/shared/live";
+import { named, type Names, type Template } from "./words";
+
+export interface Words {
+  names: Names;
+  reason: (reason: Reason) => string;
+  /** A problem in words: by its code when that is known, else the server's own sentence. */
+  problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
+  vehicle: (id: string) => string;
+  stationNumber: (id: string) => string;
+  mode: (mode: MotionMode) => string;
+  modeShort: (mode: MotionMode) => string;
+}
+
+/** Raw templates of a namespace in the language shown. */
+export function useTemplates(namespace: string): Template {
+  const { i18n } = useTranslation(namespace);
+  const language = i18n.resolvedLanguage ?? i18n.language;
+  return useMemo(
+    () => (key: string) => {
+      const raw: unknown = i18n.getResource(language, namespace, key);
+      return typeof raw === "string" ? raw : undefined;
+    },
+    [i18n, language, namespace],
+  );
+}
+
+/** Puts codes, ids and parameters of the server into words of the language shown. */
+export function useWords(): Words {
+  const { t: translate } = useTranslation(["common", "words", "reasons"]);
+  const plant = usePlant().data;
+  return useMemo(() => {
+    const t: Translate = (key, values) => translate(key, values ?? {});
+    const vehicles = new Map((plant?.vehicles ?? []).map((v) => [v.id, v.name]));
+    const stations = new Map((plant?.stations ?? []).map((s) => [s.id, String(s.number)]));
+    const areas = new Map((plant?.areas ?? []).map((a) => [a.id, a.name]));
+    const names: Names = {
+      vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? (id === "wall" ? t("words:wall") : undefined),
+      station: (id) => stations.get(id),
+    };
+    return {
+      names,
+      reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
+      problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
+      vehicle: (id) => vehicles.get(id) ?? id,
+      stationNumber: (id) => stations.get(id) ?? id,
+      mode: (mode) => t(`words:mode.${mode}`),
+      modeShort: (mode) => t(`words:mode_short.${mode}`),
+    };
+  }, [plant, translate]);
+}
