@@ -129,4 +129,8 @@ const char* to_string(AreaKind kind) {
     return "zone";
 }
 
+const char* to_string(Tolerance::Shape shape) {
+    return shape == Tolerance::Shape::kBox ? "box" : "ellipse";
+}
+
 }  // namespace pulseline::plant

@@ -200,5 +200,6 @@ std::optional<MotionMode> parse_motion_mode(const std::string& text);
 const char* to_string(Kinematics kinematics);  // "steered_platform"
 const char* to_string(MarkerKind kind);        // "qr", "apriltag", "landmark"
 const char* to_string(AreaKind kind);          // "zone", "lane", "no_go", "obstacle"
+const char* to_string(Tolerance::Shape shape);  // "box", "ellipse"
 
 }  // namespace pulseline::plant

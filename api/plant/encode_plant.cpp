@@ -1,0 +1,199 @@
+#include "api/plant/plant_codec.hpp"
+
+namespace pulseline::plant {
+namespace {
+
+using json::Json;
+
+Json encode(const Point2& p) { return {{"x_m", p.x_m}, {"y_m", p.y_m}}; }
+
+Json encode(const Pose2& p) {
+    return {{"x_m", p.x_m}, {"y_m", p.y_m}, {"heading_rad", p.heading_rad}};
+}
+
+Json encode(const Polygon& polygon) {
+    Json ring = Json::array();
+    for (const Point2& p : polygon) ring.push_back(encode(p));
+    return ring;
+}
+
+template <class Tag>
+Json encode(const std::vector<Key<Tag>>& keys) {
+    Json list = Json::array();
+    for (const auto& key : keys) list.push_back(key.str());
+    return list;
+}
+
+Json encode(const Hall& hall, PlantForm form) {
+    Json json = {{"id", hall.id.str()}, {"name", hall.name}, {"outline", encode(hall.outline)}};
+    if (form == PlantForm::kFile) {
+        if (!hall.occupancy_yaml.empty()) json["occupancy_yaml"] = hall.occupancy_yaml;
+    } else if (!hall.grid.empty()) {
+        json["grid"] = {{"width", hall.grid.width},
+                        {"height", hall.grid.height},
+                        {"resolution_m", hall.grid.resolution_m},
+                        {"origin", encode(hall.grid.origin)}};
+    }
+    return json;
+}
+
+Json encode(const Station& s) {
+    return {{"id", s.id.str()},
+            {"number", s.number},
+            {"name", s.name},
+            {"hall", s.hall.str()},
+            {"pose", encode(s.pose)},
+            {"tolerance",
+             {{"shape", to_string(s.tolerance.shape)},
+              {"dx_m", s.tolerance.dx_m},
+              {"dy_m", s.tolerance.dy_m},
+              {"dheading_rad", s.tolerance.dheading_rad}}},
+            {"markers", encode(s.markers)},
+            {"node", s.node.str()},
+            {"resting_place", s.resting_place},
+            {"vehicle_types", encode(s.vehicle_types)}};
+}
+
+Json encode(const Marker& m) {
+    return {{"id", m.id.str()},           {"kind", to_string(m.kind)},
+            {"payload", m.payload},       {"size_m", m.size_m},
+            {"hall", m.hall.str()},       {"pose", encode(m.pose)},
+            {"sigma_xy_m", m.sigma_xy_m}, {"sigma_heading_rad", m.sigma_heading_rad}};
+}
+
+Json encode(const Area& a) {
+    return {{"id", a.id.str()},
+            {"kind", to_string(a.kind)},
+            {"name", a.name},
+            {"hall", a.hall.str()},
+            {"outline", encode(a.outline)}};
+}
+
+Json encode(const Wheel& w) {
+    return {{"name", w.name},
+            {"position", encode(w.position)},
+            {"driven", w.driven},
+            {"steered", w.steered},
+            {"diameter_m", w.diameter_m}};
+}
+
+Json encode(const Camera& c) {
+    return {{"name", c.name},
+            {"body_from_camera", encode(c.body_from_camera)},
+            {"height_m", c.height_m},
+            {"f_px", c.f_px},
+            {"width_px", c.width_px},
+            {"height_px", c.height_px},
+            {"cu_px", c.cu_px},
+            {"cv_px", c.cv_px},
+            {"k1", c.k1}};
+}
+
+Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
+
+Json encode(const VehicleType& t);
+Json encode(const Vehicle& v);
+Json encode(const RoadmapNode& n);
+Json encode(const RoadmapEdge& e);
+
+template <class T>
+Json encode_all(const std::vector<T>& items) {
+    Json list = Json::array();
+    for (const T& item : items) list.push_back(encode(item));
+    return list;
+}
+
+Json encode(const VehicleType& t) {
+    Json modes = Json::array();
+    for (const MotionMode mode : t.motion_modes) modes.push_back(to_string(mode));
+    return {{"id", t.id.str()},
+            {"name", t.name},
+            {"kinematics", to_string(t.kinematics)},
+            {"footprint", encode(t.footprint)},
+            {"load_footprint", encode(t.load_footprint)},
+            {"max_speed_mps", t.max_speed_mps},
+            {"max_accel_mps2", t.max_accel_mps2},
+            {"max_turn_rate_radps", t.max_turn_rate_radps},
+            {"max_turn_accel_radps2", t.max_turn_accel_radps2},
+            {"min_turn_radius_m", t.min_turn_radius_m},
+            {"max_arc_radius_m", t.max_arc_radius_m},
+            {"clearance_m", t.clearance_m},
+            {"motion_modes", std::move(modes)},
+            {"wheels", encode_all(t.wheels)},
+            {"cameras", encode_all(t.cameras)},
+            {"brackets", encode_all(t.brackets)},
+            {"mass_kg", t.mass_kg},
+            {"max_load_kg", t.max_load_kg}};
+}
+
+Json encode(const Vehicle& v) {
+    return {{"id", v.id.str()},
+            {"type", v.type.str()},
+            {"manufacturer", v.manufacturer},
+            {"serial_number", v.serial_number},
+            {"name", v.name},
+            {"home", v.home.str()},
+            {"load_name", v.load_name},
+            {"load_kg", v.load_kg}};
+}
+
+Json encode(const RoadmapNode& n) {
+    return {{"id", n.id.str()}, {"hall", n.hall.str()}, {"position", encode(n.position)}};
+}
+
+Json encode(const RoadmapEdge& e) {
+    Json json = {{"id", e.id.str()}, {"from", e.from.str()}, {"to", e.to.str()}};
+    if (e.max_speed_mps != 0) json["max_speed_mps"] = e.max_speed_mps;
+    if (!e.vehicle_types.empty()) json["vehicle_types"] = encode(e.vehicle_types);
+    return json;
+}
+
+/// Arrays of objects at depth <= `open` go over several lines, everything else on one.
+void print(const Json& json, int open, const std::string& indent, std::string& out) {
+    if (open == 0 || !json.is_structured() || json.empty()) {
+        out += json.dump();
+        return;
+    }
+    const bool object = json.is_object();
+    const std::string inner = indent + "  ";
+    out += object ? "{\n" : "[\n";
+    bool first = true;
+    for (const auto& [key, value] : json.items()) {
+        if (!first) out += ",\n";
+        first = false;
+        out += inner;
+        if (object) out += Json(key).dump() + ": ";
+        print(value, value.is_array() || key == "roadmap" ? open - 1 : 0, inner, out);
+    }
+    out += "\n" + indent + (object ? "}" : "]");
+}
+
+}  // namespace
+
+Json encode_plant(const Plant& plant, PlantForm form) {
+    Json halls = Json::array();
+    for (const Hall& hall : plant.halls) halls.push_back(encode(hall, form));
+    return {{"id", plant.id},
+            {"name", plant.name},
+            {"revision", plant.revision},
+            {"halls", std::move(halls)},
+            {"stations", encode_all(plant.stations)},
+            {"markers", encode_all(plant.markers)},
+            {"areas", encode_all(plant.areas)},
+            {"vehicle_types", encode_all(plant.vehicle_types)},
+            {"vehicles", encode_all(plant.vehicles)},
+            {"roadmap", {{"nodes", encode_all(plant.nodes)}, {"edges", encode_all(plant.edges)}}},
+            {"routing",
+             {{"k_same", plant.routing.k_same},
+              {"k_diff", plant.routing.k_diff},
+              {"reference_step_m", plant.routing.reference_step_m},
+              {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+}
+
+std::string plant_to_json(const Plant& plant) {
+    std::string out;
+    print(encode_plant(plant, PlantForm::kFile), 3, "", out);
+    return out + "\n";
+}
+
+}  // namespace pulseline::plant

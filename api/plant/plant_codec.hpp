@@ -1,0 +1,26 @@
+#pragma once
+
+#include <string>
+
+#include "api/json/object_reader.hpp"
+#include "core/plant/plant.hpp"
+
+/// Plant <-> JSON; the schema is api/plant.schema.json.
+namespace pulseline::plant {
+
+enum class PlantForm {
+    kFile,  // halls name their occupancy_yaml
+    kApi,   // halls tell the size and place of their grid instead (openapi.yaml, Plant)
+};
+
+json::Json encode_plant(const Plant& plant, PlantForm form);
+
+/// Reads the file form; grids stay empty. Every field at fault is kept in `errors`; the plant is
+/// worth something only when there are none.
+Plant decode_plant(const json::Json& json, json::FieldErrors& errors);
+
+/// The file form as text: one element a line, so that a diff shows what changed. Doubles print so
+/// that reading them gives the same value.
+std::string plant_to_json(const Plant& plant);
+
+}  // namespace pulseline::plant
