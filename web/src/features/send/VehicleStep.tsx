@@ -1,0 +1,118 @@
+import { useTranslation } from "react-i18next";
+import type { Plant, Vehicle } from "@/shared/api/types";
+import { StatusSymbol, type SymbolName } from "@/shared/ui";
+import { mass } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+
+const activitySymbol: Record<Vehicle["activity"], SymbolName> = {
+  standing: "s-stand",
+  moving: "s-moving",
+  measuring: "s-measure",
+  waiting: "s-wait",
+  paused: "s-wait",
+  blocked: "a-2",
+  charging: "s-charge",
+  unknown: "s-stale",
+};
+
+/** Platforms first, then by name; a silent one stays in the list, marked. */
+export function sortForSending(vehicles: readonly Vehicle[], plant: Plant | undefined): Vehicle[] {
+  const isPlatform = (v: Vehicle) =>
+    plant?.vehicle_types.find((type) => type.id === v.type)?.kinematics === "steered_platform" ? 0 : 1;
+  return [...vehicles].sort(
+    (a, b) => isPlatform(a) - isPlatform(b) || a.name.localeCompare(b.name, "en", { numeric: true }),
+  );
+}
+
+export function usePlace(): (vehicle: Vehicle) => string {
+  const { t } = useTranslation("send");
+  const words = useWords();
+  return (vehicle) =>
+    vehicle.at_station
+      ? t("vehicle.at_station", { number: words.stationNumber(vehicle.at_station) })
+      : t("vehicle.between");
+}
+
+export interface VehicleStepProps {
+  vehicles: readonly Vehicle[];
+  selected: Vehicle | undefined;
+  choosing: boolean;
+  onChoose: () => void;
+  onSelect: (id: string) => void;
+}
+
+export function VehicleStep({ vehicles, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
+  const { t } = useTranslation("send");
+  const place = usePlace();
+  if (vehicles.length === 0) return <p className="lab">{t("vehicle.none")}</p>;
+  if (selected && !choosing) {
+    const load =
+      selected.load_name || selected.load_kg > 0
+        ? t("vehicle.on_board", { name: selected.load_name, mass: mass(selected.load_kg) })
+        : t("vehicle.no_load");
+    return (
+      <div className="vrow">
+        <PlatformMini />
+        <div className="grow">
+          <b className="big">{selected.name}</b>
+          <span className="lab">
+            {load}
+            {t("words.join")}
+            {place(selected)}
+          </span>
+        </div>
+        {vehicles.length > 1 && (
+          <button type="button" className="btn" onClick={onChoose}>
+            {t("change")}
+          </button>
+        )}
+      </div>
+    );
+  }
+  return (
+    <div className="vlist" role="listbox" aria-label={t("vehicle.list")} tabIndex={-1}>
+      {vehicles.map((vehicle) => (
+        <VehicleRow key={vehicle.id} vehicle={vehicle} selected={vehicle.id === selected?.id} onSelect={onSelect} />
+      ))}
+    </div>
+  );
+}
+
+function VehicleRow({
+  vehicle,
+  selected,
+  onSelect,
+}: {
+  vehicle: Vehicle;
+  selected: boolean;
+  onSelect: (id: string) => void;
+}) {
+  const { t } = useTranslation(["send", "words"]);
+  const place = usePlace();
+  const silent = vehicle.link !== "live";
+  return (
+    <button
+      type="button"
+      role="option"
+      aria-selected={selected}
+      className={`veh pick ${selected ? "sel" : ""}`}
+      onClick={() => onSelect(vehicle.id)}
+    >
+      <StatusSymbol name={silent ? "s-stale" : activitySymbol[vehicle.activity]} />
+      <span className="id">{vehicle.name}</span>
+      <span className="what">{place(vehicle)}</span>
+      <span className="when">
+        {silent ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
+      </span>
+    </button>
+  );
+}
+
+function PlatformMini() {
+  return (
+    <svg viewBox="-6 -2 12 4" className="mini" aria-hidden="true">
+      <rect x="-5.25" y="-1.25" width="10.5" height="2.5" rx=".2" fill="var(--veh-sel)" />
+      <path d="M4.6 0L3.3 .85L3.65 0L3.3-.85Z" fill="var(--veh-sel-mark)" />
+    </svg>
+  );
+}

@@ -1,0 +1,29 @@
+import type { Check, Params, Reason } from "@/shared/api/types";
+import { listParams, say, type Names, type Template } from "@/shared/words/words";
+
+/** Adds what the wording needs and the server does not send as such: shares as percent, reasons in words. */
+function wordParams(check: Check, reasonOf: (reason: Reason) => string): Params {
+  const params: Params = { ...check.params };
+  const share = (from: string, to: string) => {
+    const value = params[from];
+    if (typeof value === "number") params[to] = value * 100;
+  };
+  share("unbalance", "unbalance_percent");
+  share("limit", "limit_percent");
+  if (typeof params.reason === "string") params.why = reasonOf({ code: params.reason, params: check.params });
+  return params;
+}
+
+/** One check in words: the wording of its result, or all its parameters when there is none. */
+export function checkWords(
+  check: Check,
+  names: Names,
+  template: Template,
+  reasonOf: (reason: Reason) => string,
+): string {
+  const params = wordParams(check, reasonOf);
+  const total = params.total_n;
+  const isEmpty = check.code === "load" && check.result === "pass" && typeof total === "number" && total < 1000;
+  const key = isEmpty ? "checks.pass.load_empty" : `checks.${check.result}.${check.code}`;
+  return say(key, params, names, template) ?? listParams(check.params, names, template("words.join") ?? ", ");
+}
