@@ -9,8 +9,8 @@ namespace pulseline::server {
 struct Asset {
     std::string_view path;  // "/assets/index-1a2b3c.js"
     std::string_view content_type;
-    std::string_view etag;     // strong, quoted
-    bool immutable = false;    // its name changes with its content
+    std::string_view etag;   // strong, quoted
+    bool immutable = false;  // its name changes with its content
     std::string_view bytes;
     std::string_view gzip;  // empty: not smaller
 };

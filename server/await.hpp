@@ -15,8 +15,8 @@ namespace pulseline::server {
 template <class R>
 using Done = std::function<void(Result<R>)>;
 
-/// Waits for a callback. `start` is given the callback and must see to it that it is called once, on
-/// the network thread.
+/// Waits for a callback. `start` is given the callback and must see to it that it is called once,
+/// on the network thread.
 template <class R>
 net::awaitable<Result<R>> callback(std::function<void(Done<R>)> start) {
     return net::async_initiate<const net::use_awaitable_t<>&, void(Result<R>)>(

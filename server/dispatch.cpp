@@ -32,14 +32,14 @@ net::awaitable<Response> on_fleet(Context& context, const api::Route& route,
         api::FleetContext with{fleet, context.plant, context.images, now};
         return handler(with, request);
     };
-    const std::function<void(Done<FleetAnswer>)> begin =
-        [&context, &route, job](Done<FleetAnswer> done) {
-            if (route.changes()) {
-                context.runtime.command(job, std::move(done));
-            } else {
-                context.runtime.read(job, std::move(done));
-            }
-        };
+    const std::function<void(Done<FleetAnswer>)> begin = [&context, &route,
+                                                          job](Done<FleetAnswer> done) {
+        if (route.changes()) {
+            context.runtime.command(job, std::move(done));
+        } else {
+            context.runtime.read(job, std::move(done));
+        }
+    };
     auto answer = co_await callback<FleetAnswer>(begin);
     if (!answer) co_return refused(answer.error(), request);
     if (!answer->then) co_return std::move(answer->response);
@@ -85,10 +85,9 @@ net::awaitable<Response> dispatch(Context& context, const api::Route& route,
     }
     if (const auto* handler = std::get_if<api::HistoryHandler>(&route.handler)) {
         const auto run = *handler;
-        co_return co_await on_history(context, request,
-                                      [run, &request](const api::HistoryContext& with) {
-                                          return run(with, request);
-                                      });
+        co_return co_await on_history(
+            context, request,
+            [run, &request](const api::HistoryContext& with) { return run(with, request); });
     }
     co_return co_await on_worker(context, route, request);
 }

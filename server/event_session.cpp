@@ -16,7 +16,8 @@ Result<std::int64_t> start_behind(const api::Request& request, std::int64_t newe
         field = "after";
     }
     if (text.empty()) return newest;
-    const bool digits = text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
+    const bool digits =
+        text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
     if (!digits) {
         return fail(Errc::kInvalid, "bad_parameter",
                     field + " must be a sequence number, such as 42.", field);
@@ -134,8 +135,8 @@ net::awaitable<void> event_session(Context& context, Stream& stream, api::Reques
         if (!context.access.still_valid(request.identity, context.clock.now())) break;
         const auto text = co_await read_behind(context, seq);
         if (!text) {
-            log::error("event_stream_failed", {{"request", request.request_id},
-                                               {"what", text.error().what}});
+            log::error("event_stream_failed",
+                       {{"request", request.request_id}, {"what", text.error().what}});
             break;  // the client comes back with Last-Event-ID
         }
         if (!text->empty()) {

@@ -227,8 +227,9 @@ void FleetRuntime::refuse(std::deque<Task>& tasks) {
 
 FleetRuntime::Published FleetRuntime::take_published() {
     Published batch;
-    batch.outputs = fleet_->take_outputs();
-    if (batch.outputs.fleet_changed) batch.fleet = fleet_->view(ports_.clock.now());
+    const Time now = ports_.clock.now();
+    batch.outputs = fleet_->take_outputs(now);
+    if (batch.outputs.fleet_changed) batch.fleet = fleet_->view(now);
     return batch;
 }
 

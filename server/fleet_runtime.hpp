@@ -21,8 +21,8 @@ namespace pulseline::server {
 
 /// Owns the fleet. One thread handles what is asked of it in batches, one thread commits what the
 /// batches put out; nothing of a batch is answered, sent or shown before its COMMIT, and all of it
-/// leaves in order. While a commit runs the next batch is handled; those that gather behind it share
-/// one commit. When a commit fails nothing of it leaves: its callers and those behind get
+/// leaves in order. While a commit runs the next batch is handled; those that gather behind it
+/// share one commit. When a commit fails nothing of it leaves: its callers and those behind get
 /// store_unavailable and the fleet is built anew from the store.
 /// Thread safety: every function may be called from any thread; callbacks run through `deliver`.
 class FleetRuntime {
@@ -37,7 +37,7 @@ public:
         fleet::Store& store;
         const Clock& clock;
         Metrics& metrics;
-        std::function<void(Job)> deliver;  // runs jobs one after the other, in order given
+        std::function<void(Job)> deliver;        // runs jobs one after the other, in order given
         std::function<void(Published)> publish;  // a committed batch; called through `deliver`
         std::function<void()> rebuilt;  // the fleet forgot its links; called through `deliver`
     };
@@ -56,7 +56,8 @@ public:
 
     /// `done` gets what `f` returned, after the commit of its batch.
     template <class F>
-    void command(F f, std::function<void(Result<std::invoke_result_t<F, fleet::Fleet&, Time>>)> done) {
+    void command(F f,
+                 std::function<void(Result<std::invoke_result_t<F, fleet::Fleet&, Time>>)> done) {
         using R = std::invoke_result_t<F, fleet::Fleet&, Time>;
         submit(false, task<R>(std::move(f), std::move(done)));
     }

@@ -77,7 +77,8 @@ void note(Context& context, const api::Request& request, const char* route, int 
           Steady::time_point start) {
     const double took = std::chrono::duration<double>(Steady::now() - start).count();
     context.metrics.request(route, status, took);
-    if (request.path == "/healthz" || request.path == "/readyz" || request.path == "/metrics") return;
+    if (request.path == "/healthz" || request.path == "/readyz" || request.path == "/metrics")
+        return;
     log::info("request", {{"request", request.request_id},
                           {"method", request.method},
                           {"path", request.path},
@@ -184,7 +185,8 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             partial.peer = peer;
             partial.secure = kIsTls<Stream>;
             partial.request_id = request_id(message["X-Request-Id"]);
-            const auto response = api::bad_request(partial, read.error().reason.code, read.error().what);
+            const auto response =
+                api::bad_request(partial, read.error().reason.code, read.error().what);
             note(context, partial, "unreadable", response.status, start);
             co_await write_response(context, stream, partial, response, version, false);
             break;
@@ -200,7 +202,8 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
                 co_await vehicle_session(context, std::move(stream), std::move(message), *admitted);
                 co_return;
             }
-            keep = co_await write_response(context, stream, request, admitted.error(), version, keep);
+            keep =
+                co_await write_response(context, stream, request, admitted.error(), version, keep);
             continue;
         }
         auto out = co_await answer(context, request);

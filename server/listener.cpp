@@ -134,8 +134,8 @@ net::awaitable<void> accept_loop(Context& context, tcp::acceptor& acceptor, Tls*
             ++context.metrics.connections_refused;
             continue;
         }
-        net::co_spawn(context.io,
-                      serve(context, std::move(socket), tls, std::move(slot), peer), ended);
+        net::co_spawn(context.io, serve(context, std::move(socket), tls, std::move(slot), peer),
+                      ended);
     }
 }
 

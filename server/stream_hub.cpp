@@ -184,10 +184,9 @@ void StreamHub::forget(Waiter waiter) { waiters_.erase(waiter); }
 
 std::map<std::string, int> StreamHub::orders_by_state() const {
     std::map<std::string, int> counts = finished_orders_;
-    for (const auto state :
-         {fleet::JobState::kNotAllowedToStart, fleet::JobState::kAllowedToStart,
-          fleet::JobState::kRunning, fleet::JobState::kInterrupted, fleet::JobState::kEnded,
-          fleet::JobState::kAborted}) {
+    for (const auto state : {fleet::JobState::kNotAllowedToStart, fleet::JobState::kAllowedToStart,
+                             fleet::JobState::kRunning, fleet::JobState::kInterrupted,
+                             fleet::JobState::kEnded, fleet::JobState::kAborted}) {
         counts.try_emplace(fleet::to_string(state), 0);
     }
     for (const auto& [id, state] : open_orders_) ++counts[fleet::to_string(state)];

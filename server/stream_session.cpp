@@ -1,4 +1,5 @@
 #include "server/sessions.hpp"
+#include "server/signal.hpp"
 
 namespace pulseline::server {
 namespace {
@@ -6,41 +7,19 @@ namespace {
 constexpr auto kRecheck = std::chrono::seconds(10);  // is the session behind it still good
 constexpr auto kCloseTime = std::chrono::seconds(3);
 
-/// Wakes one waiting coroutine; a wake that nobody waits for is kept.
-class Signal {
-public:
-    explicit Signal(net::io_context& io) : timer_(io) {}
-    void set() {
-        set_ = true;
-        timer_.cancel();
-    }
-    /// False when `most` passed without a set().
-    net::awaitable<bool> wait(std::chrono::steady_clock::duration most) {
-        if (!set_) {
-            timer_.expires_after(most);
-            error_code ec;
-            co_await timer_.async_wait(into(ec));
-        }
-        co_return std::exchange(set_, false);
-    }
-
-private:
-    net::steady_timer timer_;
-    bool set_ = false;
-};
-
 template <class Stream>
 struct Session {
     Session(Context& c, Stream s, access::Identity who)
         : context(c), socket(std::move(s)), identity(std::move(who)), signal(c.io) {}
+    ~Session() { context.hub.remove(client); }
 
     Context& context;
     websocket::stream<Stream> socket;
     access::Identity identity;
     StreamClient client;
     Signal signal;
-    bool ended = false;                   // the reader saw the end
-    std::uint16_t close_with = 0;         // asks the writer to close
+    bool ended = false;            // the reader saw the end
+    std::uint16_t close_with = 0;  // asks the writer to close
     const char* close_reason = "";
 
     void close(std::uint16_t code, const char* reason) {
@@ -137,8 +116,7 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
     beast::get_lowest_layer(stream).socket().set_option(net::socket_base::send_buffer_size(65536),
                                                         ec);
     beast::get_lowest_layer(stream).expires_never();  // the WebSocket keeps its own time
-    auto session =
-        std::make_shared<Session<Stream>>(context, std::move(stream), request.identity);
+    auto session = std::make_shared<Session<Stream>>(context, std::move(stream), request.identity);
     auto& socket = session->socket;
     socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10),
                                                       context.options.limits.stream_dead, true});

@@ -8,8 +8,9 @@
 #include <openssl/x509v3.h>
 #include <unistd.h>
 
+#include <array>
 #include <cstdio>
-#include <filesystem>
+#include <optional>
 
 namespace pulseline::server {
 namespace {
@@ -59,7 +60,7 @@ bool add_names(X509* certificate, const std::string& host) {
     return added;
 }
 
-std::optional<Pair> make_pair(const std::string& host) {
+std::optional<Pair> self_signed(const std::string& host) {
     Pair pair;
     pair.key.reset(EVP_EC_gen("P-256"));
     pair.certificate.reset(X509_new());
@@ -117,7 +118,7 @@ Result<std::unique_ptr<Tls>> make_tls(const Options& options, const std::string&
         const std::string path = options.database + ".tls.pem";
         auto pair = load_pair(path);
         if (!pair) {
-            pair = make_pair(host);
+            pair = self_signed(host);
             if (!pair || !save_pair(*pair, path)) {
                 return fail(Errc::kUnavailable, "tls_unusable",
                             "the self-signed certificate cannot be kept in " + path +
@@ -130,14 +131,14 @@ Result<std::unique_ptr<Tls>> make_tls(const Options& options, const std::string&
         tls->context.use_certificate_chain_file(options.tls_cert, ec);
         if (ec) {
             return fail(Errc::kInvalid, "tls_unusable",
-                        "--tls-cert " + options.tls_cert + " is no readable PEM certificate: " +
-                            ec.message());
+                        "--tls-cert " + options.tls_cert +
+                            " is no readable PEM certificate: " + ec.message());
         }
         tls->context.use_private_key_file(options.tls_key, ssl::context::pem, ec);
         if (ec || SSL_CTX_check_private_key(tls->context.native_handle()) != 1) {
-            return fail(Errc::kInvalid, "tls_unusable",
-                        "--tls-key " + options.tls_key +
-                            " is no readable PEM key of that certificate");
+            return fail(
+                Errc::kInvalid, "tls_unusable",
+                "--tls-key " + options.tls_key + " is no readable PEM key of that certificate");
         }
     }
     tls->fingerprint = fingerprint(SSL_CTX_get0_certificate(tls->context.native_handle()));

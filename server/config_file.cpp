@@ -1,0 +1,117 @@
+#include "server/config_file.hpp"
+
+#include <toml++/toml.h>
+#include <functional>
+#include <map>
+#include <sstream>
+
+namespace pulseline::server {
+namespace {
+
+using Setter = std::function<bool(const toml::node&)>;
+
+Setter text(std::string& to) {
+    return [&to](const toml::node& node) {
+        const auto value = node.value_exact<std::string>();
+        if (value) to = *value;
+        return value.has_value();
+    };
+}
+Setter boolean(bool& to) {
+    return [&to](const toml::node& node) {
+        const auto value = node.value_exact<bool>();
+        if (value) to = *value;
+        return value.has_value();
+    };
+}
+Setter texts(std::vector<std::string>& to) {
+    return [&to](const toml::node& node) {
+        const auto* array = node.as_array();
+        if (!array) return false;
+        std::vector<std::string> values;
+        for (const auto& item : *array) {
+            const auto value = item.value_exact<std::string>();
+            if (!value) return false;
+            values.push_back(*value);
+        }
+        to = std::move(values);
+        return true;
+    };
+}
+template <class T>
+Setter count(T& to) {
+    return [&to](const toml::node& node) {
+        const auto value = node.value_exact<std::int64_t>();
+        if (!value || *value < 1 || *value > 1'000'000'000) return false;
+        to = static_cast<T>(*value);
+        return true;
+    };
+}
+
+std::string at(const std::string& path, const toml::source_region& region) {
+    std::ostringstream out;
+    out << path << ":" << region.begin.line;
+    return out.str();
+}
+
+Status apply(const std::string& path, const toml::table& table, const std::string& prefix,
+             const std::map<std::string, Setter>& known, const std::set<std::string>& given) {
+    for (const auto& [key, node] : table) {
+        const std::string name = prefix + std::string(key.str());
+        const auto setter = known.find(name);
+        if (setter == known.end()) {
+            return fail(Errc::kInvalid, "unknown_config_key",
+                        at(path, node.source()) + ": unknown key \"" + name +
+                            "\"; remove it or correct its spelling",
+                        name);
+        }
+        if (given.contains(name)) continue;
+        if (!setter->second(node)) {
+            return fail(Errc::kInvalid, "wrong_config_value",
+                        at(path, node.source()) + ": \"" + name +
+                            "\" has a value of the wrong kind; see `pulseline serve --help`",
+                        name);
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Status read_config_file(const std::string& path, const std::set<std::string>& given,
+                        Options& options) {
+    toml::table table;
+    try {
+        table = toml::parse_file(path);
+    } catch (const toml::parse_error& e) {
+        return fail(Errc::kInvalid, "config_unreadable",
+                    at(path, e.source()) + ": " + std::string(e.description()));
+    }
+    Limits& limits = options.limits;
+    const std::map<std::string, Setter> limit_keys = {
+        {"limits.body_bytes", count(limits.body_bytes)},
+        {"limits.connections", count(limits.connections)},
+        {"limits.connections_per_peer", count(limits.connections_per_peer)},
+        {"limits.streams_per_user", count(limits.streams_per_user)},
+        {"limits.requests_per_connection", count(limits.requests_per_connection)},
+        {"limits.vehicle_outbox", count(limits.vehicle_outbox)},
+    };
+    if (const auto* section = table["limits"].as_table()) {
+        if (auto done = apply(path, *section, "limits.", limit_keys, given); !done) return done;
+        table.erase("limits");
+    }
+    const std::map<std::string, Setter> keys = {
+        {"db", text(options.database)},
+        {"plant", text(options.plant_file)},
+        {"listen", text(options.listen)},
+        {"tls_cert", text(options.tls_cert)},
+        {"tls_key", text(options.tls_key)},
+        {"tls_self_signed", boolean(options.tls_self_signed)},
+        {"behind_proxy", boolean(options.behind_proxy)},
+        {"allow_origins", texts(options.allow_origins)},
+        {"log_json", boolean(options.log_json)},
+    };
+    return apply(path, table, "", keys, given);
+}
+
+}  // namespace pulseline::server

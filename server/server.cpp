@@ -1,0 +1,259 @@
+#include "server/server.hpp"
+
+#include <sodium.h>
+
+#include <csignal>
+
+#include "api/http/documents.hpp"
+#include "server/context.hpp"
+#include "server/listener.hpp"
+#include "server/origins.hpp"
+#include "server/server_clock.hpp"
+
+namespace pulseline::server {
+namespace {
+
+constexpr auto kPosePeriod = std::chrono::milliseconds(100);
+constexpr auto kStopGrace = std::chrono::milliseconds(1500);
+constexpr int kStopsShown = 50;
+
+std::uint64_t random_seed() {
+    std::uint64_t seed = 0;
+    randombytes_buf(&seed, sizeof seed);
+    return seed;
+}
+
+void rethrow(const std::exception_ptr& error) {
+    if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+const char* const kVersion = PULSELINE_VERSION;
+
+class Server::Impl : public api::Service {
+public:
+    Impl(Options options, Parts parts)
+        : options_(std::move(options)),
+          parts_(parts),
+          io_(std::make_unique<net::io_context>(1)),
+          acceptor_(*io_),
+          signals_(*io_) {}
+    ~Impl() override;
+
+    Status start();
+    void run();
+    void begin_stop();
+
+    std::optional<Error> not_ready() const override;
+    std::string metrics() const override;
+    std::string version() const override { return kVersion; }
+
+    FleetRuntime::Ports runtime_ports();
+    VehicleGateway::Ports gateway_ports();
+    net::awaitable<void> offer_poses();
+    net::awaitable<void> finish();
+
+    Options options_;
+    Parts parts_;
+    // Sessions live in io_; the destructor ends it before what they use.
+    std::unique_ptr<net::io_context> io_;
+    std::optional<tcp::acceptor> acceptor_;
+    std::optional<net::signal_set> signals_;
+    Address address_;
+    std::unique_ptr<Tls> tls_;
+    api::Documents documents_;
+    Metrics metrics_;
+    CameraStore images_;
+    std::optional<ServerClock> clock_;
+    std::optional<StreamHub> hub_;
+    std::optional<FleetRuntime> runtime_;
+    std::optional<access::AccessControl> access_;
+    std::optional<VehicleGateway> gateway_;
+    std::optional<net::thread_pool> history_pool_;
+    std::optional<net::thread_pool> workers_;
+    std::optional<Context> context_;
+    bool stopping_ = false;
+};
+
+Server::Impl::~Impl() {
+    if (runtime_) runtime_->stop();
+    if (history_pool_) history_pool_->join();
+    if (workers_) workers_->join();
+    acceptor_.reset();
+    signals_.reset();
+    io_.reset();
+}
+
+Status Server::Impl::start() {
+    auto address = parse_address(options_.listen);
+    if (!address) return fail(address.error());
+    address_ = *address;
+    if (auto exposed = check_exposure(options_, address_); !exposed) return exposed;
+    if (options_.tls()) {
+        auto tls = make_tls(options_, address_.host);
+        if (!tls) return fail(tls.error());
+        tls_ = std::move(*tls);
+    }
+    auto acceptor = open_acceptor(*io_, address_);
+    if (!acceptor) return fail(acceptor.error());
+    acceptor_ = std::move(*acceptor);
+    address_.port = acceptor_->local_endpoint().port();
+
+    auto stored = parts_.store.load();
+    clock_.emplace(stored.last_time);
+    documents_ = api::make_documents(parts_.plant);
+    hub_.emplace(parts_.plant, images_, *clock_, metrics_);
+    fleet::StopQuery newest;
+    newest.limit = kStopsShown;
+    hub_->start(parts_.history.stops(newest), stored.last_event_seq);
+    runtime_.emplace(runtime_ports(), random_seed());
+    access_.emplace(
+        parts_.access,
+        [this](const access::Change& change) {
+            runtime_->write([&] { access::apply(parts_.access, change); });
+        },
+        clock_->now());
+    gateway_.emplace(gateway_ports());
+    history_pool_.emplace(1);
+    workers_.emplace(2);
+    context_.emplace(Context{options_,
+                             parts_.plant,
+                             documents_,
+                             *this,
+                             *clock_,
+                             metrics_,
+                             images_,
+                             *runtime_,
+                             *access_,
+                             parts_.history,
+                             *hub_,
+                             *gateway_,
+                             api::AccessPolicy{allowed_origins(options_, address_)},
+                             *io_,
+                             *history_pool_,
+                             *workers_,
+                             0,
+                             StopList{},
+                             Quota(options_.limits.connections_per_peer),
+                             Quota(options_.limits.streams_per_user),
+                             0});
+    if (auto started = runtime_->start(std::move(stored)); !started) return started;
+    runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
+        if (snapshot) hub_->resubscribe_all(*snapshot);
+    });
+    net::co_spawn(*io_, accept_loop(*context_, *acceptor_, tls_.get()), rethrow);
+    net::co_spawn(*io_, offer_poses(), rethrow);
+    return {};
+}
+
+FleetRuntime::Ports Server::Impl::runtime_ports() {
+    return {parts_.plant,
+            parts_.store,
+            *clock_,
+            metrics_,
+            [this](FleetRuntime::Job job) { net::post(*io_, std::move(job)); },
+            [this](FleetRuntime::Published batch) {
+                gateway_->send(batch.outputs.messages);
+                hub_->publish(batch);
+            },
+            [this] {
+                gateway_->introduce_all();
+                runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
+                    if (snapshot) hub_->resubscribe_all(*snapshot);
+                });
+            }};
+}
+
+VehicleGateway::Ports Server::Impl::gateway_ports() {
+    return {parts_.plant, options_.limits, *clock_, *runtime_,
+            *access_,     metrics_,        images_, hub_->poses()};
+}
+
+net::awaitable<void> Server::Impl::offer_poses() {
+    net::steady_timer timer(*io_);
+    while (!stopping_) {
+        timer.expires_after(kPosePeriod);
+        error_code ec;
+        co_await timer.async_wait(into(ec));
+        hub_->offer_poses();
+    }
+}
+
+void Server::Impl::run() {
+    for (;;) {
+        try {
+            io_->run();
+            return;
+        } catch (const std::exception& e) {
+            // One broken handler may not end the service.
+            log::error("handler_threw", {{"what", e.what()}});
+        }
+    }
+}
+
+void Server::Impl::begin_stop() {
+    if (std::exchange(stopping_, true)) return;
+    log::info("stopping");
+    error_code ec;
+    signals_->cancel(ec);
+    acceptor_->close(ec);
+    context_->stops.stop_all();
+    runtime_->stop();  // what was asked before is committed; its answers wait in io_
+    net::co_spawn(*io_, finish(), rethrow);
+}
+
+net::awaitable<void> Server::Impl::finish() {
+    const auto until = std::chrono::steady_clock::now() + kStopGrace;
+    net::steady_timer timer(*io_);
+    while (context_->connections > 0 && std::chrono::steady_clock::now() < until) {
+        timer.expires_after(std::chrono::milliseconds(10));
+        error_code ec;
+        co_await timer.async_wait(into(ec));
+    }
+    io_->stop();
+}
+
+std::optional<Error> Server::Impl::not_ready() const {
+    if (stopping_) {
+        return Error{Errc::kUnavailable, {"stopping", {}}, "The server is stopping.", {}};
+    }
+    if (!runtime_->writable()) {
+        return Error{Errc::kUnavailable,
+                     {"store_unavailable", {}},
+                     "The database cannot be written; look at the server's disk.",
+                     {}};
+    }
+    return std::nullopt;
+}
+
+std::string Server::Impl::metrics() const {
+    return metrics_.text(hub_->orders_by_state(), hub_->vehicles_by_link());
+}
+
+Server::Server(Options options, Parts parts)
+    : impl_(std::make_unique<Impl>(std::move(options), parts)) {}
+Server::~Server() = default;
+
+Status Server::start() { return impl_->start(); }
+void Server::run() { impl_->run(); }
+void Server::stop() {
+    net::post(*impl_->io_, [impl = impl_.get()] { impl->begin_stop(); });
+}
+void Server::stop_on_signals() {
+    impl_->signals_->add(SIGINT);
+    impl_->signals_->add(SIGTERM);
+    impl_->signals_->async_wait([impl = impl_.get()](const error_code& ec, int) {
+        if (!ec) impl->begin_stop();
+    });
+}
+std::string Server::url() const {
+    return (impl_->tls_ ? "https://" : "http://") + impl_->address_.text();
+}
+std::uint16_t Server::port() const { return impl_->address_.port; }
+std::string Server::tls_fingerprint() const {
+    return impl_->tls_ ? impl_->tls_->fingerprint : std::string();
+}
+access::AccessControl& Server::access() { return *impl_->access_; }
+
+}  // namespace pulseline::server

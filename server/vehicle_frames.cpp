@@ -1,0 +1,1 @@
+#include "server/vehicle_frames.hpp"

@@ -1,0 +1,312 @@
+#include "server/vehicle_gateway.hpp"
+
+#include <algorithm>
+
+#include "api/http/problem.hpp"
+#include "server/await.hpp"
+#include "server/vehicle_frames.hpp"
+
+namespace pulseline::server {
+namespace {
+
+constexpr const char* kSubprotocol = "vda5050.v2.json";
+constexpr auto kTakeoverWindow = std::chrono::seconds(60);
+constexpr std::size_t kMostTakeovers = 3;
+// Silence is counted in seconds, so the fleet need not hear of every frame.
+constexpr auto kTellHeard = std::chrono::milliseconds(250);
+constexpr auto kShowRefused = std::chrono::seconds(60);
+
+bool offers_subprotocol(const std::string& header) {
+    std::size_t at = 0;
+    while (at <= header.size()) {
+        const auto comma = std::min(header.find(',', at), header.size());
+        auto part = header.substr(at, comma - at);
+        part.erase(0, part.find_first_not_of(' '));
+        part.erase(part.find_last_not_of(' ') + 1);
+        if (part == kSubprotocol) return true;
+        at = comma + 1;
+    }
+    return false;
+}
+
+struct Path {
+    std::string manufacturer;
+    std::string serial;
+};
+std::optional<Path> parse_path(const std::string& path) {
+    const std::string_view rest =
+        std::string_view(path).substr(std::string_view("/vehicles/").size());
+    const auto slash = rest.find('/');
+    if (slash == std::string_view::npos || rest.find('/', slash + 1) != std::string_view::npos) {
+        return std::nullopt;
+    }
+    const auto manufacturer = api::percent_decoded(rest.substr(0, slash), false);
+    const auto serial = api::percent_decoded(rest.substr(slash + 1), false);
+    if (!manufacturer || !serial || manufacturer->empty() || serial->empty()) return std::nullopt;
+    return Path{*manufacturer, *serial};
+}
+
+tl::unexpected<api::Response> refuse(const api::Request& request, int status, Errc code,
+                                     const char* reason, std::string what) {
+    return tl::unexpected<api::Response>(
+        api::problem(status, Error{code, {reason, {}}, std::move(what), {}}, request));
+}
+
+}  // namespace
+
+net::awaitable<tl::expected<plant::VehicleId, api::Response>> VehicleGateway::admit(
+    api::Request& request, bool upgrade) {
+    const auto path = parse_path(request.path);
+    if (!path) {
+        co_return refuse(request, 404, Errc::kNotFound, "not_found",
+                         "Vehicles connect to /vehicles/{manufacturer}/{serialNumber}.");
+    }
+    request.identity = ports_.access.identify(request.headers, ports_.clock.now());
+    const auto identity = ports_.access.vehicle_for_token(request.header("authorization"),
+                                                          path->manufacturer, path->serial);
+    if (!identity) {
+        if (request.identity.kind == access::Identity::Kind::kAnonymous) {
+            co_return refuse(request, 401, Errc::kForbidden, "not_signed_in",
+                             "Send the vehicle's token as Authorization: Bearer; `pulseline token "
+                             "create --vehicle MAKER/SERIAL` makes one.");
+        }
+        co_return refuse(request, 403, Errc::kForbidden, "not_this_vehicle",
+                         "This token belongs to somebody else; use the token of " +
+                             path->manufacturer + "/" + path->serial + ".");
+    }
+    request.identity = *identity;
+    const auto* vehicle = plant::find_vehicle(ports_.plant, path->manufacturer, path->serial);
+    if (!vehicle) {
+        co_return refuse(request, 404, Errc::kNotFound, "unknown_vehicle",
+                         "The plant has no vehicle " + path->manufacturer + "/" + path->serial +
+                             "; add it to the plant model.");
+    }
+    if (!upgrade) {
+        co_return refuse(request, 426, Errc::kInvalid, "upgrade_required",
+                         "This address speaks WebSocket only.");
+    }
+    if (!offers_subprotocol(request.header("sec-websocket-protocol"))) {
+        co_return refuse(request, 400, Errc::kInvalid, "subprotocol_missing",
+                         "Offer the WebSocket subprotocol vda5050.v2.json.");
+    }
+    const auto id = vehicle->id;
+    const std::function<void(Done<bool>)> begin = [this, id](Done<bool> done) {
+        ports_.runtime.read(
+            [id](fleet::Fleet& fleet, Time) { return fleet.connection_refused(id); },
+            std::move(done));
+    };
+    const auto refused = co_await callback<bool>(begin);
+    if (!refused) co_return tl::unexpected<api::Response>(api::unavailable(request));
+    if (*refused) {
+        co_return refuse(request, 409, Errc::kConflict, "identity_conflict",
+                         "Two programs claim to be " + id.str() +
+                             ". Stop one of them, then let a person resume the vehicle.");
+    }
+    co_return id;
+}
+
+void VehicleGateway::opened(const plant::VehicleId& id,
+                            const std::shared_ptr<VehicleSocket>& socket) {
+    Row& row = rows_[id];
+    const auto now = Steady::now();
+    if (row.socket) {
+        ++ports_.metrics.vehicle_takeovers;
+        row.takeovers.push_back(now);
+        while (now - row.takeovers.front() > kTakeoverWindow) row.takeovers.pop_front();
+        row.socket->close(4409, "replaced by a newer connection");
+        log::warn("vehicle_taken_over", {{"vehicle", id.str()}});
+        if (row.takeovers.size() >= kMostTakeovers) {
+            row.takeovers.clear();
+            row.socket = nullptr;
+            --ports_.metrics.vehicle_sockets;
+            socket->close(4409, "identity conflict");
+            log::error("vehicle_identity_conflict", {{"vehicle", id.str()}});
+            ports_.runtime.input([id](fleet::Fleet& fleet, Time at) {
+                fleet.vehicle_identity_conflict(id, at);
+                fleet.vehicle_disconnected(id, at);
+            });
+            return;
+        }
+    } else {
+        ++ports_.metrics.vehicle_sockets;
+    }
+    row.socket = socket;
+    row.malformed_in_a_row = 0;
+    row.said_offline = false;
+    row.told_heard = now;
+    row.last_state.reset();
+    log::info("vehicle_connected", {{"vehicle", id.str()}});
+    ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
+}
+
+VehicleGateway::Row* VehicleGateway::current(const plant::VehicleId& id,
+                                             const VehicleSocket* socket) {
+    const auto found = rows_.find(id);
+    return found != rows_.end() && found->second.socket.get() == socket ? &found->second : nullptr;
+}
+
+void VehicleGateway::closed(const plant::VehicleId& id, const VehicleSocket* socket) {
+    Row* row = current(id, socket);
+    if (!row) return;  // a newer one took its place
+    row->socket = nullptr;
+    --ports_.metrics.vehicle_sockets;
+    if (!row->said_offline) keep_connection(id, *row, "CONNECTIONBROKEN");  // the last will
+    log::info("vehicle_disconnected", {{"vehicle", id.str()}});
+    ports_.runtime.input(
+        [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
+}
+
+void VehicleGateway::heard(const plant::VehicleId& id, const VehicleSocket* socket) {
+    Row* row = current(id, socket);
+    const auto now = Steady::now();
+    if (!row || now - row->told_heard < kTellHeard) return;
+    row->told_heard = now;
+    ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_heard(id, at); });
+}
+
+void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socket,
+                          std::string_view frame) {
+    Row* row = current(id, socket);
+    if (!row) return;
+    ++ports_.metrics.vehicle_messages_in;
+    heard(id, socket);
+    auto decoded = decode_frame(frame, *plant::find_vehicle(ports_.plant, id));
+    if (!decoded) {
+        malformed(id, *row, decoded.error());
+        return;
+    }
+    row->malformed_in_a_row = 0;
+    if (decoded->retain) row->retained[decoded->topic] = decoded->payload;
+    if (auto* state = std::get_if<fleet::StateMessage>(&decoded->message)) {
+        if (state->pose) {
+            ports_.poses.put(id, *state->pose, state->velocity_mps, ports_.clock.now());
+        }
+        pass_state(id, *row, std::move(*state));
+    } else if (const auto* seen = std::get_if<fleet::VisualizationMessage>(&decoded->message)) {
+        if (seen->position_initialized) {
+            ports_.poses.put(id, seen->pose, seen->velocity_mps, ports_.clock.now());
+        }
+    } else if (auto* factsheet = std::get_if<fleet::Factsheet>(&decoded->message)) {
+        ports_.runtime.input([id, sheet = std::move(*factsheet)](fleet::Fleet& fleet, Time at) {
+            fleet.vehicle_factsheet(id, sheet, at);
+        });
+    } else if (const auto* link = std::get_if<fleet::ConnectionState>(&decoded->message)) {
+        row->said_offline = *link == fleet::ConnectionState::kOffline;
+    }
+}
+
+void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state) {
+    row.last_state = state;
+    if (row.refused && Steady::now() - row.refused_at < kShowRefused) {
+        state.errors.push_back(*row.refused);
+    }
+    const std::lock_guard lock(row.state->mutex);
+    // A state says all there is to say: one that waits is overtaken by the next.
+    const bool waits = row.state->waiting.has_value();
+    row.state->waiting = std::move(state);
+    if (waits) return;
+    ports_.runtime.input([id, slot = row.state](fleet::Fleet& fleet, Time at) {
+        std::optional<fleet::StateMessage> newest;
+        {
+            const std::lock_guard inner(slot->mutex);
+            newest = std::exchange(slot->waiting, std::nullopt);
+        }
+        if (newest) fleet.vehicle_state(id, *newest, at);
+    });
+}
+
+void VehicleGateway::malformed(const plant::VehicleId& id, Row& row, const Error& error) {
+    ++ports_.metrics.vehicle_messages_malformed;
+    ++row.malformed_in_a_row;
+    log::warn("vehicle_message_refused", {{"vehicle", id.str()},
+                                          {"field", error.field},
+                                          {"code", error.reason.code},
+                                          {"what", error.what}});
+    const bool fresh = !row.refused || row.refused->description != error.what ||
+                       Steady::now() - row.refused_at >= kShowRefused;
+    row.refused = fleet::VehicleError{
+        "messageRefused", false, error.what, {{"field", error.field}, {"code", error.reason.code}}};
+    row.refused_at = Steady::now();
+    if (row.malformed_in_a_row >= ports_.limits.vehicle_malformed_in_a_row) {
+        row.socket->close(1008, "too many malformed messages in a row");
+    } else if (fresh && row.last_state) {
+        // People see it at once, not only with the vehicle's next good state.
+        pass_state(id, row, *row.last_state);
+    }
+}
+
+void VehicleGateway::binary(const plant::VehicleId& id, const VehicleSocket* socket,
+                            std::string_view frame) {
+    Row* row = current(id, socket);
+    if (!row) return;
+    ++ports_.metrics.vehicle_messages_in;
+    heard(id, socket);
+    auto picture = decode_picture(frame);
+    if (!picture) {
+        malformed(id, *row, picture.error());
+        return;
+    }
+    const auto* vehicle = plant::find_vehicle(ports_.plant, id);
+    const auto* type = plant::find_vehicle_type(ports_.plant, vehicle->type);
+    // Only cameras of the plant are kept, else a vehicle could fill the memory with names.
+    const bool known = type && std::ranges::any_of(type->cameras, [&](const auto& camera) {
+                           return camera.name == picture->camera;
+                       });
+    if (!known) {
+        malformed(id, *row,
+                  Error{Errc::kInvalid,
+                        {"unknown_camera", {}},
+                        "The vehicle's type has no camera of that name; add it to the plant.",
+                        "/camera"});
+        return;
+    }
+    row->malformed_in_a_row = 0;
+    ports_.images.put(id, picture->camera,
+                      {std::move(picture->mime), std::string(picture->bytes), ports_.clock.now()});
+}
+
+void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
+    for (const auto& message : messages) {
+        const auto found = rows_.find(message.vehicle);
+        if (found == rows_.end() || !found->second.socket) continue;
+        Row& row = found->second;
+        const auto* vehicle = plant::find_vehicle(ports_.plant, message.vehicle);
+        if (!vehicle) continue;
+        const auto socket = row.socket;  // close() inside send() must not end it under us
+        const Time now = ports_.clock.now();
+        if (message.order) {
+            ++ports_.metrics.vehicle_messages_out;
+            socket->send(encode_order(*message.order, *vehicle, row.order_header_id++, now));
+        }
+        if (message.instant_actions) {
+            ++ports_.metrics.vehicle_messages_out;
+            socket->send(
+                encode_actions(*message.instant_actions, *vehicle, row.actions_header_id++, now));
+        }
+    }
+}
+
+void VehicleGateway::introduce_all() {
+    for (auto& [id, row] : rows_) {
+        if (!row.socket) continue;
+        ports_.runtime.input(
+            [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
+        if (row.last_state) pass_state(id, row, *row.last_state);
+    }
+}
+
+void VehicleGateway::keep_connection(const plant::VehicleId& id, Row& row, const char* state) {
+    const auto* vehicle = plant::find_vehicle(ports_.plant, id);
+    if (vehicle) {
+        row.retained["connection"] = encode_connection(state, *vehicle, ports_.clock.now());
+    }
+}
+
+std::string VehicleGateway::retained(const plant::VehicleId& id, const std::string& topic) const {
+    const auto row = rows_.find(id);
+    if (row == rows_.end()) return {};
+    const auto found = row->second.retained.find(topic);
+    return found == row->second.retained.end() ? std::string() : found->second;
+}
+
+}  // namespace pulseline::server

@@ -1,0 +1,101 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "api/access/access_control.hpp"
+#include "api/http/message.hpp"
+#include "server/camera_store.hpp"
+#include "server/fleet_runtime.hpp"
+#include "server/metrics.hpp"
+#include "server/net.hpp"
+#include "server/options.hpp"
+#include "server/pose_table.hpp"
+
+namespace pulseline::server {
+
+/// One open socket of a vehicle, as the gateway sees it.
+class VehicleSocket {
+public:
+    virtual ~VehicleSocket() = default;
+    virtual void send(std::string frame) = 0;
+    virtual void close(std::uint16_t code, const char* reason) = 0;
+};
+
+/// Between the vehicles' sockets and the fleet: who may connect as whom, what a frame means, what
+/// is kept of a vehicle while it is away. Decides nothing about driving.
+/// Thread safety: none, the network thread owns it.
+class VehicleGateway {
+public:
+    struct Ports {
+        const plant::Plant& plant;
+        const Limits& limits;
+        const Clock& clock;
+        FleetRuntime& runtime;
+        access::AccessControl& access;
+        Metrics& metrics;
+        CameraStore& images;
+        PoseTable& poses;
+    };
+    explicit VehicleGateway(Ports ports) : ports_(ports) {}
+
+    /// The vehicle a request may connect as, or the answer that refuses it.
+    net::awaitable<tl::expected<plant::VehicleId, api::Response>> admit(api::Request& request,
+                                                                        bool upgrade);
+
+    void opened(const plant::VehicleId& id, const std::shared_ptr<VehicleSocket>& socket);
+    void closed(const plant::VehicleId& id, const VehicleSocket* socket);
+    void heard(const plant::VehicleId& id, const VehicleSocket* socket);
+    void text(const plant::VehicleId& id, const VehicleSocket* socket, std::string_view frame);
+    void binary(const plant::VehicleId& id, const VehicleSocket* socket, std::string_view frame);
+
+    /// Committed messages of the fleet. A vehicle without a socket gets none: the fleet sends
+    /// again until it sees them in the vehicle's state.
+    void send(const std::vector<fleet::VehicleMessage>& messages);
+    /// Tells a rebuilt fleet who is connected and what each one said last.
+    void introduce_all();
+
+    /// Newest retained payload of "connection" or "factsheet"; empty before the first.
+    std::string retained(const plant::VehicleId& id, const std::string& topic) const;
+
+private:
+    using Steady = std::chrono::steady_clock;
+    /// Newest state on its way to the fleet: one waits at most, a newer one takes its place.
+    struct StateSlot {
+        std::mutex mutex;
+        std::optional<fleet::StateMessage> waiting;
+    };
+    struct Row {
+        std::shared_ptr<VehicleSocket> socket;
+        std::deque<Steady::time_point> takeovers;
+        Steady::time_point told_heard{};
+        std::map<std::string, std::string> retained;  // by topic
+        std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
+        std::optional<fleet::StateMessage> last_state;
+        std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors
+        Steady::time_point refused_at{};
+        int malformed_in_a_row = 0;
+        std::int64_t order_header_id = 0;
+        std::int64_t actions_header_id = 0;
+        bool said_offline = false;
+    };
+
+    Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
+    void malformed(const plant::VehicleId& id, Row& row, const Error& error);
+    void pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state);
+    void keep_connection(const plant::VehicleId& id, Row& row, const char* state);
+
+    Ports ports_;
+    std::map<plant::VehicleId, Row> rows_;
+};
+
+}  // namespace pulseline::server

@@ -1,0 +1,119 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/access/access.hpp"
+#include "core/fleet/ports.hpp"
+
+/// Stores in memory that can be told to fail, for tests of what the server does around them.
+namespace pulseline::server::testing {
+
+class MemoryStore : public fleet::Store, public fleet::History {
+public:
+    std::atomic<bool> fails{false};
+    std::atomic<int> commits{0};
+
+    fleet::StoredFleet load() override {
+        const std::lock_guard lock(mutex_);
+        fleet::StoredFleet stored;
+        for (const auto& [id, order] : orders_) {
+            stored.orders.push_back(order);
+            stored.last_order_number = std::max(stored.last_order_number, order.number);
+        }
+        for (const auto& [id, vehicle] : vehicles_) stored.vehicles.push_back(vehicle);
+        stored.idempotency = idempotency_;
+        if (!events_.empty()) {
+            stored.last_event_seq = events_.back().seq;
+            stored.last_time = events_.back().at;
+        }
+        return stored;
+    }
+    void commit(const fleet::Records& records) override {
+        if (fails) throw std::runtime_error("disk full (by the test)");
+        const std::lock_guard lock(mutex_);
+        for (const auto& order : records.orders) orders_[order.id] = order;
+        for (const auto& vehicle : records.vehicles) vehicles_[vehicle.id] = vehicle;
+        for (const auto& event : records.events) {
+            if (event.seq != (events_.empty() ? 0 : events_.back().seq) + 1) {
+                throw std::runtime_error("gap in the event sequence");
+            }
+            events_.push_back(event);
+        }
+        stops_.insert(stops_.end(), records.stops.begin(), records.stops.end());
+        idempotency_.insert(idempotency_.end(), records.idempotency.begin(),
+                            records.idempotency.end());
+        ++commits;
+    }
+
+    std::vector<fleet::StopRecord> stops(const fleet::StopQuery&) override {
+        const std::lock_guard lock(mutex_);
+        return {stops_.rbegin(), stops_.rend()};
+    }
+    std::optional<fleet::StopRecord> stop(fleet::StopRecordId) override { return std::nullopt; }
+    std::vector<fleet::JobOrder> orders(const fleet::OrderQuery&) override {
+        const std::lock_guard lock(mutex_);
+        std::vector<fleet::JobOrder> all;
+        for (const auto& [id, order] : orders_) all.push_back(order);
+        std::ranges::reverse(all);
+        return all;
+    }
+    std::optional<fleet::JobOrder> order(fleet::JobOrderId id) override {
+        const std::lock_guard lock(mutex_);
+        const auto found = orders_.find(id);
+        return found == orders_.end() ? std::nullopt : std::optional(found->second);
+    }
+    std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override {
+        const std::lock_guard lock(mutex_);
+        std::vector<fleet::Event> page;
+        for (const auto& event : events_) {
+            if (event.seq > seq && page.size() < static_cast<std::size_t>(limit)) {
+                page.push_back(event);
+            }
+        }
+        return page;
+    }
+    fleet::StopStatistics statistics(const std::vector<plant::VehicleId>&, plant::MotionMode,
+                                     int) override {
+        return {};
+    }
+    std::size_t order_count() {
+        const std::lock_guard lock(mutex_);
+        return orders_.size();
+    }
+    std::size_t event_count() {
+        const std::lock_guard lock(mutex_);
+        return events_.size();
+    }
+
+private:
+    std::mutex mutex_;
+    std::map<fleet::JobOrderId, fleet::JobOrder> orders_;
+    std::map<plant::VehicleId, fleet::VehicleRecord> vehicles_;
+    std::vector<fleet::IdempotencyRecord> idempotency_;
+    std::vector<fleet::Event> events_;
+    std::vector<fleet::StopRecord> stops_;
+};
+
+class MemoryAccess : public access::Store {
+public:
+    std::vector<access::User> users() override { return users_; }
+    std::vector<access::Session> sessions() override { return sessions_; }
+    std::vector<access::Token> tokens() override { return tokens_; }
+    void put(const access::User& user) override { users_.push_back(user); }
+    void put(const access::Session& session) override { sessions_.push_back(session); }
+    void remove_session(const std::string&) override {}
+    void put(const access::Token& token) override { tokens_.push_back(token); }
+
+private:
+    std::vector<access::User> users_;
+    std::vector<access::Session> sessions_;
+    std::vector<access::Token> tokens_;
+};
+
+}  // namespace pulseline::server::testing

@@ -1,0 +1,71 @@
+#include <gtest/gtest.h>
+
+#include "tests/server/tcp_client.hpp"
+#include "tests/server/test_server.hpp"
+#include "tests/server/ws_client.hpp"
+
+namespace pulseline::server::testing {
+namespace {
+
+TEST(StoreFailure, AnswersUnavailableAndTellsNobody) {
+    TestServer server;
+    const auto headers = server.operator_token();
+    const auto events = server.store().event_count();
+    WsClient dashboard(server.port(), "/api/v1/stream", headers);
+    ASSERT_TRUE(dashboard.read());
+
+    server.store().fails = true;
+    const auto refused = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto reading = request(server.port(), "GET", "/api/v1/fleet", headers);
+    server.store().fails = false;
+
+    EXPECT_EQ(refused.status, 503);
+    EXPECT_NE(refused.body.find("store_unavailable"), std::string::npos);
+    EXPECT_EQ(server.store().event_count(), events);
+    EXPECT_EQ(reading.status, 200) << reading.body;
+    EXPECT_NE(reading.body.find("\"paused\":false"), std::string::npos) << reading.body;
+
+    // Once the store works again so does the fleet, and the sequence has no gap (the store checks).
+    HttpAnswer accepted;
+    for (int i = 0; i < 400 && accepted.status != 202; ++i) {
+        accepted = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    }
+    EXPECT_EQ(accepted.status, 202) << accepted.body;
+    EXPECT_GT(server.store().event_count(), events);
+    const auto told = dashboard.read_until("\"type\":\"event\"");
+    ASSERT_TRUE(told);
+    EXPECT_NE(told->find("\"seq\":" + std::to_string(events + 1)), std::string::npos) << *told;
+}
+
+TEST(StoreFailure, LosesNoAcknowledgedOrder) {
+    TestServer server;
+    const auto headers = server.operator_token();
+    const std::string body = R"({"steps":[{"station":2}]})";
+
+    int stored = 0;
+    for (int i = 0; i < 20; ++i) {
+        server.store().fails = i % 3 == 1;
+        const auto answer = request(server.port(), "POST", "/api/v1/job-orders", headers, body);
+        if (answer.status == 201) ++stored;
+    }
+
+    EXPECT_GT(stored, 0);
+    EXPECT_EQ(server.store().order_count(), static_cast<std::size_t>(stored));
+}
+
+TEST(StoreFailure, IsNotReadyWhileItLasts) {
+    TestServer server;
+    const auto headers = server.operator_token();
+    ASSERT_EQ(request(server.port(), "GET", "/readyz").status, 200);
+
+    server.store().fails = true;
+    request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto not_ready = request(server.port(), "GET", "/readyz");
+    const auto alive = request(server.port(), "GET", "/healthz");
+
+    EXPECT_EQ(not_ready.status, 503);
+    EXPECT_EQ(alive.status, 200);
+}
+
+}  // namespace
+}  // namespace pulseline::server::testing

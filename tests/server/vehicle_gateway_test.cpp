@@ -1,0 +1,160 @@
+#include <gtest/gtest.h>
+
+#include "tests/server/tcp_client.hpp"
+#include "tests/server/test_server.hpp"
+#include "tests/server/ws_client.hpp"
+
+namespace pulseline::server::testing {
+namespace {
+
+const std::string kPath = "/vehicles/ACME/0001";
+
+std::map<std::string, std::string> vehicle_headers(const std::string& secret) {
+    return {{"Authorization", "Bearer " + secret}, {"Sec-WebSocket-Protocol", "vda5050.v2.json"}};
+}
+
+std::string state_frame(int header_id, const std::string& extra = "") {
+    return R"({"topic":"state","retain":false,"payload":{"headerId":)" + std::to_string(header_id) +
+           R"(,"timestamp":"2026-01-01T00:00:00.000Z","version":"2.1.0","manufacturer":"ACME",)"
+           R"("serialNumber":"0001","orderId":"","orderUpdateId":0,"lastNodeId":"",)"
+           R"("lastNodeSequenceId":0,"driving":false,"paused":false,"nodeStates":[],)"
+           R"("edgeStates":[],"actionStates":[],"batteryState":{"batteryCharge":80,)"
+           R"("charging":false},"operatingMode":"AUTOMATIC","errors":[],"safetyState":)"
+           R"({"eStop":"NONE","fieldViolation":false},"agvPosition":{"x":5,"y":5,"theta":0,)"
+           R"("mapId":"hall","positionInitialized":true})" +
+           extra + "}}";
+}
+
+TEST(VehicleGateway, LetsOnlyTheBoundTokenIn) {
+    TestServer server;
+    const auto own = server.vehicle_token();
+    const auto other = server.vehicle_token("0002");
+
+    WsClient good(server.port(), kPath, vehicle_headers(own));
+    WsClient foreign(server.port(), kPath, vehicle_headers(other));
+    WsClient unknown(server.port(), kPath, vehicle_headers("plv_nonsense"));
+    WsClient missing(server.port(), kPath, {{"Sec-WebSocket-Protocol", "vda5050.v2.json"}});
+    WsClient no_protocol(server.port(), kPath, {{"Authorization", "Bearer " + own}});
+    WsClient not_in_plant(server.port(), "/vehicles/ACME/0002", vehicle_headers(other));
+
+    EXPECT_EQ(good.status(), 101);
+    EXPECT_EQ(foreign.status(), 403);
+    EXPECT_EQ(unknown.status(), 401);
+    EXPECT_EQ(missing.status(), 401);
+    EXPECT_EQ(no_protocol.status(), 400);
+    EXPECT_EQ(not_in_plant.status(), 404);
+}
+
+TEST(VehicleGateway, ShowsWhatTheVehicleReports) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+
+    vehicle.send(state_frame(1));
+    const auto pose = dashboard.read_until("\"type\":\"poses\"");
+
+    ASSERT_TRUE(pose);
+    EXPECT_NE(pose->find("\"V1\""), std::string::npos);
+    const auto answer = request(server.port(), "GET", "/api/v1/vehicles/V1", server.viewer_token());
+    EXPECT_NE(answer.body.find("\"link\":\"live\""), std::string::npos) << answer.body;
+}
+
+TEST(VehicleGateway, NewestConnectionReplacesTheOlder) {
+    TestServer server;
+    const auto headers = vehicle_headers(server.vehicle_token());
+    WsClient first(server.port(), kPath, headers);
+
+    WsClient second(server.port(), kPath, headers);
+
+    EXPECT_EQ(first.close_code(), 4409);
+    second.send(state_frame(1));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+}
+
+TEST(VehicleGateway, RefusesBothAfterThreeTakeovers) {
+    TestServer server;
+    const auto headers = vehicle_headers(server.vehicle_token());
+    WsClient first(server.port(), kPath, headers);
+    WsClient second(server.port(), kPath, headers);
+    WsClient third(server.port(), kPath, headers);
+
+    WsClient fourth(server.port(), kPath, headers);
+    EXPECT_EQ(third.close_code(), 4409);
+    EXPECT_EQ(fourth.close_code(), 4409);
+    WsClient fifth(server.port(), kPath, headers);
+
+    EXPECT_EQ(fifth.status(), 409);
+    const auto resumed = request(server.port(), "POST", "/api/v1/fleet/resume",
+                                 server.operator_token(), R"({"vehicles":["V1"]})");
+    EXPECT_EQ(resumed.status, 202) << resumed.body;
+    WsClient sixth(server.port(), kPath, headers);
+    EXPECT_EQ(sixth.status(), 101);
+}
+
+TEST(VehicleGateway, ReportsAMalformedMessageAndKeepsTheSocket) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    vehicle.send(state_frame(1));
+    ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+
+    vehicle.send(R"({"topic":"state","payload":{"headerId":"one"}})");
+
+    EXPECT_TRUE(dashboard.read_until("messageRefused"));
+    vehicle.send(state_frame(2));
+    EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+}
+
+TEST(VehicleGateway, ClosesAfterTwentyMalformedMessagesInARow) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+
+    for (int i = 0; i < 20; ++i) vehicle.send("[");
+
+    EXPECT_EQ(vehicle.close_code(), 1008);
+}
+
+TEST(VehicleGateway, KeepsTheNewestPictureOfAKnownCamera) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    const auto picture = [](const std::string& camera, const std::string& bytes) {
+        const std::string head = R"({"camera":")" + camera +
+                                 R"(","timestamp":"2026-01-01T00:00:00Z","mime":"image/jpeg"})";
+        std::string frame;
+        for (int i = 0; i < 4; ++i) frame += static_cast<char>((head.size() >> (8 * i)) & 0xFFU);
+        return frame + head + bytes;
+    };
+    const auto viewer = server.viewer_token();
+    const std::string path = "/api/v1/vehicles/V1/cameras/front";
+    EXPECT_EQ(request(server.port(), "GET", path, viewer).status, 404);
+
+    vehicle.send_binary(picture("front", "old"));
+    vehicle.send_binary(picture("front", "new"));
+    vehicle.send_binary(picture("cellar", "x"));
+    vehicle.send(state_frame(1));
+    WsClient dashboard(server.port(), "/api/v1/stream", viewer);
+    ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+
+    const auto answer = request(server.port(), "GET", path, viewer);
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(answer.headers.at("content-type"), "image/jpeg");
+    EXPECT_EQ(answer.body, "new");
+}
+
+TEST(VehicleGateway, SaysThatTheVehicleIsGoneWhenItsSocketDies) {
+    TestServer server;
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    ASSERT_TRUE(dashboard.read());
+    {
+        WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+        vehicle.send(state_frame(1));
+        ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+        vehicle.cut();
+    }
+
+    EXPECT_TRUE(dashboard.read_until("vehicle.disconnected"));
+}
+
+}  // namespace
+}  // namespace pulseline::server::testing
