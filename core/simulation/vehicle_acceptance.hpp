@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fleet/vehicle_messages.hpp"
+
+/// Which orders a vehicle takes (VDA 5050 2.1 section 6.6.4, guide figure 8). Pure functions.
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// What the vehicle knows when an order arrives.
+struct OrderContext {
+    std::string order_id;  // of the last accepted order; empty: none
+    std::int64_t order_update_id = 0;
+    bool idle = true;        // nothing left to drive or to do
+    bool cancelled = false;  // that order was cancelled, or is being cancelled
+    bool cancelling = false;
+    std::string stitch_node_id;  // last node of the base
+    std::int64_t stitch_sequence_id = 0;
+    std::optional<Pose2> pose;  // believed; nullopt while it is not initialised
+    std::string map_id;
+};
+
+struct OrderDecision {
+    enum class Kind { kNewOrder, kUpdate, kDuplicate, kRejected };
+    Kind kind = Kind::kRejected;
+    fleet::VehicleError error;  // when rejected
+};
+
+OrderDecision decide_order(const fleet::OrderMessage& order, const OrderContext& context);
+
+/// Types of action the vehicle can run at a node, and as instant actions.
+const std::vector<std::string>& node_action_types();
+const std::vector<std::string>& instant_action_types();
+
+fleet::VehicleError order_error(std::string type, std::string description,
+                                const fleet::OrderMessage& order);
+
+}  // namespace pulseline::simulation

@@ -1,0 +1,240 @@
+#include "core/simulation/vehicle_executor.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace pulseline::simulation {
+namespace {
+
+using fleet::Action;
+using fleet::ActionState;
+using fleet::ActionStatus;
+using fleet::VehicleError;
+
+// The base is asked for this long before braking for its end would begin.
+constexpr double kAskForBase_s = 1.0;
+
+}  // namespace
+
+VehicleExecutor::VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id)
+    : motion_(motion), procedure_(motion, sensing), map_id_(std::move(map_id)) {
+    segments_seen_ = motion.segments_done();
+}
+
+OrderContext VehicleExecutor::context() const {
+    OrderContext context;
+    context.order_id = order_id_;
+    context.order_update_id = order_update_id_;
+    context.idle = order_done() && !procedure_.running();
+    context.cancelled = cancelled_;
+    context.cancelling = !cancel_id_.empty();
+    context.stitch_node_id = base_end_.node_id;
+    context.stitch_sequence_id = base_end_.sequence_id;
+    if (position_initialized_) context.pose = motion_.believed_pose();
+    context.map_id = map_id_;
+    return context;
+}
+
+void VehicleExecutor::report(VehicleError error) {
+    std::erase_if(errors_, [&](const VehicleError& old) {
+        return old.type == error.type && old.references == error.references;
+    });
+    errors_.push_back(std::move(error));
+    changed_ = true;
+}
+
+void VehicleExecutor::handle(const fleet::OrderMessage& order) {
+    const OrderDecision decision = decide_order(order, context());
+    switch (decision.kind) {
+        case OrderDecision::Kind::kDuplicate:
+            changed_ = true;  // the sender has not seen our answer yet
+            return;
+        case OrderDecision::Kind::kRejected:
+            report(decision.error);
+            return;
+        case OrderDecision::Kind::kNewOrder:
+            start_order(order);
+            return;
+        case OrderDecision::Kind::kUpdate:
+            extend_order(order);
+            return;
+    }
+}
+
+void VehicleExecutor::start_order(const fleet::OrderMessage& order) {
+    order_id_ = order.order_id;
+    order_update_id_ = order.order_update_id;
+    cancelled_ = false;
+    errors_.clear();
+    order_actions_.clear();
+    const auto& first = order.nodes.front();
+    base_end_ = {first.node_id, first.sequence_id, true};
+    for (const auto& action : first.actions) add_action(action, ActionStatus::kWaiting);
+    append(order);
+    traverse(first);
+}
+
+void VehicleExecutor::extend_order(const fleet::OrderMessage& order) {
+    order_update_id_ = order.order_update_id;
+    errors_.clear();
+    drop_horizon();
+    append(order);
+    changed_ = true;
+}
+
+/// Everything of the message behind its first node, which the vehicle has or stands on.
+void VehicleExecutor::append(const fleet::OrderMessage& order) {
+    for (std::size_t i = 1; i < order.nodes.size(); ++i) {
+        const auto& node = order.nodes[i];
+        edges_.push_back(order.edges[i - 1]);
+        nodes_.push_back(node);
+        for (const auto& action : node.actions) add_action(action, ActionStatus::kWaiting);
+        if (node.released) base_end_ = {node.node_id, node.sequence_id, true};
+    }
+}
+
+void VehicleExecutor::drop_horizon() {
+    while (!nodes_.empty() && !nodes_.back().released) {
+        for (const auto& action : nodes_.back().actions) {
+            std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
+        }
+        nodes_.pop_back();
+        edges_.pop_back();
+    }
+}
+
+void VehicleExecutor::traverse(const fleet::OrderNode& node) {
+    last_node_id_ = node.node_id;
+    last_node_sequence_id_ = node.sequence_id;
+    waiting_.insert(waiting_.end(), node.actions.begin(), node.actions.end());
+    changed_ = true;
+}
+
+void VehicleExecutor::step(double dt_s) {
+    if (paused_ || !cancel_id_.empty()) {
+        motion_.hold();
+    } else {
+        motion_.release();
+    }
+    motion_.step(dt_s);
+    take_traversals();
+    run_actions(dt_s);
+    finish_cancel();
+    finish_pause();
+    queue_edges();
+    note_motion();
+}
+
+void VehicleExecutor::take_traversals() {
+    for (; segments_seen_ < motion_.segments_done(); ++segments_seen_) {
+        const fleet::OrderNode node = std::move(nodes_.front());
+        nodes_.pop_front();
+        edges_.pop_front();
+        --queued_edges_;
+        traverse(node);
+    }
+}
+
+/// Hands the motion all released edges up to the next node where it has to stop for actions.
+void VehicleExecutor::queue_edges() {
+    if (!waiting_.empty() || procedure_.running() || !cancel_id_.empty()) return;
+    const auto stops_at = [&](std::size_t i) { return !nodes_[i].actions.empty(); };
+    if (queued_edges_ > 0 && stops_at(queued_edges_ - 1)) return;
+    while (queued_edges_ < edges_.size() && edges_[queued_edges_].released) {
+        const auto& edge = edges_[queued_edges_];
+        motion_.append(edge.segment, edge.max_speed_mps);
+        ++queued_edges_;
+        if (stops_at(queued_edges_ - 1)) return;
+    }
+}
+
+/// Node actions one after the other, standing: all that we announce are HARD or treated so.
+void VehicleExecutor::run_actions(double dt_s) {
+    if (procedure_.running()) {
+        if (const auto outcome = procedure_.step(dt_s)) finish_stop(*outcome);
+        return;
+    }
+    if (waiting_.empty() || paused_ || !cancel_id_.empty() || !motion_.idle()) return;
+    const Action& action = waiting_.front();
+    running_stop_ = action.id;
+    set_action(action.id, ActionStatus::kRunning);
+    procedure_.start(*action.stop_target, action.type == "adjustToMarker");
+}
+
+void VehicleExecutor::finish_stop(const StopProcedure::Outcome& outcome) {
+    if (ActionState* state = find_action(running_stop_)) {
+        state->measurement = outcome.measurement;
+        if (!outcome.succeeded) state->measurement.reset();
+    }
+    set_action(running_stop_, outcome.succeeded ? ActionStatus::kFinished : ActionStatus::kFailed,
+               outcome.why_not);
+    if (outcome.measurement) position_initialized_ = true;
+    if (!waiting_.empty() && waiting_.front().id == running_stop_) waiting_.pop_front();
+    running_stop_.clear();
+}
+
+void VehicleExecutor::finish_cancel() {
+    if (cancel_id_.empty() || !motion_.standing() || procedure_.running()) return;
+    motion_.clear();
+    motion_.release();
+    nodes_.clear();
+    edges_.clear();
+    waiting_.clear();  // of nodes passed while braking
+    queued_edges_ = 0;
+    set_action(cancel_id_, ActionStatus::kFinished);
+    cancel_id_.clear();
+}
+
+void VehicleExecutor::finish_pause() {
+    if (pause_id_.empty() || !motion_.standing()) return;
+    set_action(pause_id_, ActionStatus::kFinished);
+    pause_id_.clear();
+}
+
+void VehicleExecutor::note_motion() {
+    const bool driving = !motion_.standing();
+    const bool horizon = !nodes_.empty() && !nodes_.back().released;
+    const double ask_m = motion_.braking_m() + std::abs(motion_.velocity_mps()) * kAskForBase_s;
+    const bool base_queued = queued_edges_ == edges_.size() || !edges_[queued_edges_].released;
+    const bool ask = horizon && base_queued && motion_.remaining_m() <= ask_m;
+    changed_ |= driving != driving_ || ask != new_base_request_;
+    driving_ = driving;
+    new_base_request_ = ask;
+}
+
+bool VehicleExecutor::take_changed() { return std::exchange(changed_, false); }
+
+bool VehicleExecutor::take_factsheet_request() {
+    return std::exchange(factsheet_requested_, false);
+}
+
+void VehicleExecutor::write_state(fleet::StateMessage& state) const {
+    state.order_id = order_id_;
+    state.order_update_id = order_update_id_;
+    state.last_node_id = last_node_id_;
+    state.last_node_sequence_id = last_node_sequence_id_;
+    state.node_states.clear();
+    state.edge_states.clear();
+    for (const auto& node : nodes_) {
+        state.node_states.push_back({node.node_id, node.sequence_id, node.released});
+    }
+    for (const auto& edge : edges_) {
+        state.edge_states.push_back({edge.edge_id, edge.sequence_id, edge.released});
+    }
+    state.driving = driving_;
+    state.paused = paused_;
+    state.new_base_request = new_base_request_;
+    state.distance_since_last_node_m = motion_.distance_on_segment_m();
+    state.position_initialized = position_initialized_;
+    state.map_id = map_id_;
+    state.pose.reset();
+    if (position_initialized_) state.pose = motion_.believed_pose();
+    state.velocity_mps = motion_.velocity_mps();
+    state.turn_rate_radps = motion_.turn_rate_radps();
+    state.action_states = order_actions_;
+    state.action_states.insert(state.action_states.end(), instant_actions_.begin(),
+                               instant_actions_.end());
+    state.errors = errors_;
+}
+
+}  // namespace pulseline::simulation

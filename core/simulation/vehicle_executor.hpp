@@ -1,0 +1,101 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/simulation/vehicle_acceptance.hpp"
+#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/vehicle_stop.hpp"
+
+namespace pulseline::simulation {
+
+/// Obeys orders and instant actions as VDA 5050 2.1 asks: takes or rejects them, drives the base
+/// and never past it, reports nodes, runs actions. Its state lives in memory only: a restarted
+/// vehicle knows no order and no pose. Thread safety: none. No clock: time passes by step().
+class VehicleExecutor {
+public:
+    VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id);
+
+    void handle(const fleet::OrderMessage& order);
+    void handle(const fleet::InstantActionsMessage& message);
+    /// A message that could not be understood, or a fault of the vehicle; reported until the next
+    /// accepted order.
+    void report(fleet::VehicleError error);
+    void step(double dt_s);
+
+    /// Order, action, drive and pose fields of the state.
+    void write_state(fleet::StateMessage& state) const;
+    /// True once after anything happened that must be reported at once.
+    bool take_changed();
+    bool take_factsheet_request();
+
+    bool position_initialized() const { return position_initialized_; }
+    const std::string& order_id() const { return order_id_; }
+    std::int64_t last_node_sequence_id() const { return last_node_sequence_id_; }
+    /// sequenceId of the last released node: the vehicle never drives past it.
+    std::int64_t base_end_sequence_id() const { return base_end_.sequence_id; }
+    bool acting() const { return procedure_.running(); }
+
+private:
+    void start_order(const fleet::OrderMessage& order);
+    void extend_order(const fleet::OrderMessage& order);
+    void append(const fleet::OrderMessage& order);
+    void drop_horizon();
+    void traverse(const fleet::OrderNode& node);
+    void take_traversals();
+    void queue_edges();
+    void run_actions(double dt_s);
+    void finish_stop(const StopProcedure::Outcome& outcome);
+    void finish_cancel();
+    void finish_pause();
+    void note_motion();
+
+    void handle_instant(const fleet::Action& action);
+    void cancel_order(const fleet::Action& action);
+    void init_position(const fleet::Action& action);
+    void instant_stop(const fleet::Action& action);
+
+    OrderContext context() const;
+    bool order_done() const { return nodes_.empty() && waiting_.empty(); }
+    fleet::ActionState* find_action(const std::string& id);
+    void add_action(const fleet::Action& action, fleet::ActionStatus status,
+                    std::string result = {});
+    void set_action(const std::string& id, fleet::ActionStatus status, std::string result = {});
+    void forget_old_instant_actions();
+
+    VehicleMotion& motion_;
+    StopProcedure procedure_;
+    std::string map_id_;
+
+    std::string order_id_;
+    std::int64_t order_update_id_ = 0;
+    // What is still ahead, horizon included; edges_[i] leads to nodes_[i].
+    std::deque<fleet::OrderNode> nodes_;
+    std::deque<fleet::OrderEdge> edges_;
+    std::size_t queued_edges_ = 0;  // first of edges_ that the motion already has
+    std::size_t segments_seen_ = 0;
+    std::string last_node_id_;
+    std::int64_t last_node_sequence_id_ = 0;
+    fleet::NodeState base_end_;
+
+    std::deque<fleet::Action> waiting_;  // of the node it stands on, first one running
+    std::string running_stop_;           // id of the action in the procedure
+    std::string cancel_id_;              // of the cancelOrder at work
+    bool cancelled_ = false;
+    std::string pause_id_;
+    bool paused_ = false;
+
+    std::vector<fleet::ActionState> order_actions_;
+    std::vector<fleet::ActionState> instant_actions_;
+    std::vector<fleet::VehicleError> errors_;
+    bool position_initialized_ = false;
+    bool driving_ = false;
+    bool new_base_request_ = false;
+    bool changed_ = true;
+    bool factsheet_requested_ = false;
+};
+
+}  // namespace pulseline::simulation
