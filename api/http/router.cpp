@@ -95,8 +95,9 @@ std::optional<Response> check_cross_site(const Route& route, const Request& requ
                       "A page of another origin may not change anything here; use the dashboard.",
                       request.header("origin").empty() ? "Sec-Fetch-Site" : "Origin");
     }
+    const std::string& csrf = request.identity.csrf_token;
     if (request.identity.by_cookie() && route.least &&
-        !access::same_secret(request.header("x-pulseline-csrf"), request.identity.csrf_token)) {
+        (csrf.empty() || !access::same_secret(request.header("x-pulseline-csrf"), csrf))) {
         return refuse(403, request, "csrf_token_wrong",
                       "Send the csrf_token of GET /api/v1/session as X-Pulseline-CSRF.",
                       "X-Pulseline-CSRF");
