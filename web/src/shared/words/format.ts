@@ -1,8 +1,49 @@
-import { deg, duration, fixed, kNone, kThin, mass } from "@/shared/i18n/format";
-
-export { age, duration, kNone, kThin, mass, timeOfDay } from "@/shared/i18n/format";
+/** Numbers as a person on the floor reads them: millimetres, degrees, real minus sign, fixed decimals. */
+export const kMinus = "\u2212";
+export const kThin = "\u2009";
+export const kNone = "\u2013"; // never received
 
 const finite = (value: number | undefined): value is number => value !== undefined && Number.isFinite(value);
+const two = (n: number) => String(n).padStart(2, "0");
+
+/** Fixed decimals, real minus sign, never "-0.0". */
+export function fixed(value: number | undefined, decimals: number): string {
+  if (!finite(value)) return kNone;
+  const text = Math.abs(value).toFixed(decimals);
+  return value < 0 && Number(text) !== 0 ? kMinus + text : text;
+}
+
+/** Duration as m:ss, from an hour on h:mm:ss. */
+export function duration(s: number | undefined): string {
+  if (!finite(s)) return kNone;
+  const total = Math.max(0, Math.round(s));
+  const hours = Math.floor(total / 3600);
+  const minutes = Math.floor((total % 3600) / 60);
+  return hours > 0 ? `${hours}:${two(minutes)}:${two(total % 60)}` : `${minutes}:${two(total % 60)}`;
+}
+
+/** Age of a value: tenths below ten seconds, whole seconds below a minute, then m:ss. */
+export function age(s: number | undefined): string {
+  if (!finite(s)) return kNone;
+  const value = Math.max(0, s);
+  if (value < 9.95) return `${fixed(value, 1)}${kThin}s`;
+  if (value < 59.5) return `${Math.round(value)}${kThin}s`;
+  return duration(value);
+}
+
+/** Wall-clock time hh:mm:ss of this panel. */
+export function timeOfDay(when: string | number | Date | undefined): string {
+  if (when === undefined) return kNone;
+  const date = when instanceof Date ? when : new Date(when);
+  if (Number.isNaN(date.getTime())) return kNone;
+  return `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
+}
+
+/** Mass: kilograms below a tonne, else tonnes. */
+export function mass(kg: number | undefined): string {
+  if (!finite(kg)) return kNone;
+  return kg >= 1000 ? `${fixed(kg / 1000, 1)}${kThin}t` : `${fixed(kg, 0)}${kThin}kg`;
+}
 
 export interface NumberStyle {
   decimals?: number;
@@ -50,15 +91,12 @@ export function kilonewtons(value_n: number | undefined, decimals = 1): string {
   return number(finite(value_n) ? value_n / 1000 : undefined, { decimals });
 }
 
-/** Whether two times are of one day here decides if the date is shown too. */
+/** Time of day; with the date before it when it is not of the same day as `now_ms`. */
 export function dateTime(at: string | undefined, now_ms: number): string {
-  if (at === undefined) return kNone;
-  const date = new Date(at);
+  const date = new Date(at ?? NaN);
   if (Number.isNaN(date.getTime())) return kNone;
-  const two = (n: number) => String(n).padStart(2, "0");
-  const time = `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
-  if (date.toDateString() === new Date(now_ms).toDateString()) return time;
-  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ${time}`;
+  if (date.toDateString() === new Date(now_ms).toDateString()) return timeOfDay(date);
+  return `${date.getFullYear()}-${two(date.getMonth() + 1)}-${two(date.getDate())} ${timeOfDay(date)}`;
 }
 
 /** Seconds since `at`, never negative: clocks of two machines differ a little. */
@@ -70,8 +108,10 @@ export function secondsSince(at: string | undefined, now_ms: number): number | u
 
 /** One parameter of a check, the unit read from its name. Places and vehicles are named before. */
 export function parameter(name: string, value: number): string {
+  if (name.endsWith("_m2")) return `${number(value)}${kThin}m²`;
+  if (name.endsWith("_mps")) return `${fixed(value, 2)}${kThin}m/s`;
   if (name.endsWith("_m")) return length(value);
-  if (name.endsWith("_rad")) return deg(value, 2);
+  if (name.endsWith("_rad")) return `${degrees(value, { decimals: 2 })}°`;
   if (name.endsWith("_s")) return value < 60 ? `${fixed(value, 1)}${kThin}s` : duration(value);
   if (name.endsWith("_n")) return `${kilonewtons(value)}${kThin}kN`;
   if (name.endsWith("_kg")) return mass(value);
