@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/result.hpp"
+#include "server/fleet_runtime.hpp"
 #include "server/log.hpp"
 #include "server/net.hpp"
 
@@ -36,6 +37,8 @@ net::awaitable<Result<R>> on(net::thread_pool& pool, net::io_context& home, std:
             std::optional<Result<R>> result;
             try {
                 result = f();
+            } catch (const StoreUnavailable& e) {
+                result = fail(Errc::kUnavailable, "store_unavailable", e.what());
             } catch (const std::exception& e) {
                 log::error("task_threw", {{"what", e.what()}});
                 result = fail(Errc::kUnavailable, "internal", "The server met a fault of its own.");

@@ -63,6 +63,7 @@ net::awaitable<Response> on_worker(Context& context, const api::Route& route,
     };
     auto result = co_await on<Response>(context.workers, context.io, job);
     --context.workers_waiting;
+    context.hub.wake_all();  // a sign-out ends that session's open streams at once
     co_return result ? std::move(*result) : refused(result.error(), request);
 }
 

@@ -1,7 +1,6 @@
 #include "server/fleet_runtime.hpp"
 
 #include <future>
-#include <stdexcept>
 
 #include "server/log.hpp"
 
@@ -119,7 +118,10 @@ void FleetRuntime::input(std::function<void(fleet::Fleet&, Time)> f) {
 }
 
 void FleetRuntime::write(Job job) {
-    if (const auto error = write_and_wait(std::move(job))) std::rethrow_exception(error);
+    const auto error = write_and_wait(std::move(job));
+    if (!error) return;
+    log::error("write_failed", {{"what", what(error)}});
+    throw StoreUnavailable(what(error));
 }
 
 void FleetRuntime::fleet_loop() {

@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -18,6 +19,11 @@
 #include "server/metrics.hpp"
 
 namespace pulseline::server {
+
+/// The database did not take a write; nothing of it was kept.
+struct StoreUnavailable : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
 
 /// Owns the fleet. One thread handles what is asked of it in batches, one thread commits what the
 /// batches put out; nothing of a batch is answered, sent or shown before its COMMIT, and all of it
@@ -70,8 +76,8 @@ public:
     }
     /// What a vehicle reports; nobody waits for it.
     void input(std::function<void(fleet::Fleet&, Time)> f);
-    /// Any other write to the database: runs on the commit thread, blocks until it is done and
-    /// throws what it threw. Not for the network thread.
+    /// Any other write to the database: runs on the commit thread, blocks until it is done. Throws
+    /// StoreUnavailable. Not for the network thread.
     void write(Job job);
 
 private:

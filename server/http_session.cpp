@@ -53,19 +53,19 @@ net::awaitable<Incoming> read_request(Context& context, Stream& stream, beast::f
     co_return in;
 }
 
-/// Ends the connection so that the client still gets the last answer: a close with unread bytes
-/// would reset it.
+/// Ends the connection. With `linger` what the client still sends is read and dropped: a close with
+/// unread bytes would reset the connection and take our last answer with it.
 template <class Stream>
-net::awaitable<void> close_gently(Stream& stream) {
+net::awaitable<void> close_gently(Stream& stream, bool linger) {
     auto& socket = beast::get_lowest_layer(stream);
     error_code ec;
-    socket.expires_after(std::chrono::seconds(2));
+    socket.expires_after(std::chrono::seconds(1));
     if constexpr (kIsTls<Stream>) co_await stream.async_shutdown(into(ec));
     socket.socket().shutdown(tcp::socket::shutdown_send, ec);
     std::array<char, 8192> sink{};
     std::size_t total = 0;
     socket.expires_after(std::chrono::seconds(2));
-    while (!ec && total < (1U << 20U)) {
+    while (linger && !ec && total < (1U << 20U)) {
         total += co_await socket.async_read_some(net::buffer(sink), into(ec));
     }
     socket.socket().close(ec);
@@ -153,6 +153,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
     const Limits& limits = context.options.limits;
     beast::flat_buffer buffer(limits.header_bytes + 64 * 1024);
     bool keep = true;
+    bool linger = false;
     for (int count = 0; keep && count < limits.requests_per_connection; ++count) {
         Parser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits.header_bytes));
@@ -169,6 +170,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             partial.request_id = request_id(parser.get()["X-Request-Id"]);
             const auto response = answer_to(in.ec, partial, limits);
             if (response) {
+                linger = true;
                 note(context, partial, "unreadable", response->status, start);
                 co_await write_response(context, stream, partial, *response, 11, false);
             }
@@ -187,6 +189,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             partial.request_id = request_id(message["X-Request-Id"]);
             const auto response =
                 api::bad_request(partial, read.error().reason.code, read.error().what);
+            linger = true;
             note(context, partial, "unreadable", response.status, start);
             co_await write_response(context, stream, partial, response, version, false);
             break;
@@ -227,7 +230,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
         keep = co_await write_response(context, stream, request, out.response, version, keep,
                                        out.asset);
     }
-    co_await close_gently(stream);
+    co_await close_gently(stream, linger);
 }
 
 template net::awaitable<void> http_session(Context&, PlainStream, std::string);

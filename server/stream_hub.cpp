@@ -114,6 +114,11 @@ void StreamHub::resubscribe_all(const events::Snapshot& snapshot) {
     }
 }
 
+void StreamHub::wake_all() {
+    for (auto* client : clients_) client->wake();
+    for (const auto& [id, wake] : std::exchange(waiters_, {})) wake();
+}
+
 void StreamHub::fill(StreamClient& client, const events::Snapshot& snapshot) {
     client.subscribed = true;
     client.changes.clear();

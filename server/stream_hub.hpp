@@ -57,6 +57,8 @@ public:
     static events::Snapshot take(fleet::Fleet& fleet, Time now);
     /// Everybody gets a new snapshot, since changes were lost with the fleet.
     void resubscribe_all(const events::Snapshot& snapshot);
+    /// Every stream looks again whether it may go on: somebody's rights may have changed.
+    void wake_all();
     /// Next frame to write; null when there is none.
     Frame next(StreamClient& client);
 

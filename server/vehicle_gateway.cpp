@@ -3,6 +3,10 @@
 #include <algorithm>
 
 #include "api/http/problem.hpp"
+#include "api/vehicle/connection.hpp"
+#include "api/vehicle/frame.hpp"
+#include "api/vehicle/instant_actions.hpp"
+#include "api/vehicle/order.hpp"
 #include "server/await.hpp"
 #include "server/vehicle_frames.hpp"
 
@@ -150,7 +154,7 @@ void VehicleGateway::closed(const plant::VehicleId& id, const VehicleSocket* soc
     if (!row) return;  // a newer one took its place
     row->socket = nullptr;
     --ports_.metrics.vehicle_sockets;
-    if (!row->said_offline) keep_connection(id, *row, "CONNECTIONBROKEN");  // the last will
+    if (!row->said_offline) play_last_will(id, *row);
     log::info("vehicle_disconnected", {{"vehicle", id.str()}});
     ports_.runtime.input(
         [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
@@ -170,13 +174,13 @@ void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socke
     if (!row) return;
     ++ports_.metrics.vehicle_messages_in;
     heard(id, socket);
-    auto decoded = decode_frame(frame, *plant::find_vehicle(ports_.plant, id));
+    auto decoded = read_vehicle_frame(frame, *plant::find_vehicle(ports_.plant, id));
     if (!decoded) {
         malformed(id, *row, decoded.error());
         return;
     }
     row->malformed_in_a_row = 0;
-    if (decoded->retain) row->retained[decoded->topic] = decoded->payload;
+    if (!decoded->retained.empty()) row->retained[decoded->topic] = decoded->retained;
     if (auto* state = std::get_if<fleet::StateMessage>(&decoded->message)) {
         if (state->pose) {
             ports_.poses.put(id, *state->pose, state->velocity_mps, ports_.clock.now());
@@ -241,7 +245,7 @@ void VehicleGateway::binary(const plant::VehicleId& id, const VehicleSocket* soc
     if (!row) return;
     ++ports_.metrics.vehicle_messages_in;
     heard(id, socket);
-    auto picture = decode_picture(frame);
+    const auto picture = vda5050::decode_camera_frame(frame);
     if (!picture) {
         malformed(id, *row, picture.error());
         return;
@@ -262,7 +266,7 @@ void VehicleGateway::binary(const plant::VehicleId& id, const VehicleSocket* soc
     }
     row->malformed_in_a_row = 0;
     ports_.images.put(id, picture->camera,
-                      {std::move(picture->mime), std::string(picture->bytes), ports_.clock.now()});
+                      {picture->mime, std::string(picture->bytes), ports_.clock.now()});
 }
 
 void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
@@ -270,20 +274,31 @@ void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
         const auto found = rows_.find(message.vehicle);
         if (found == rows_.end() || !found->second.socket) continue;
         Row& row = found->second;
-        const auto* vehicle = plant::find_vehicle(ports_.plant, message.vehicle);
-        if (!vehicle) continue;
         const auto socket = row.socket;  // close() inside send() must not end it under us
-        const Time now = ports_.clock.now();
-        if (message.order) {
+        using vda5050::Topic;
+        const auto put = [&](Topic topic, const std::string& payload) {
             ++ports_.metrics.vehicle_messages_out;
-            socket->send(encode_order(*message.order, *vehicle, row.order_header_id++, now));
+            socket->send(vda5050::encode_frame(topic, false, payload));
+        };
+        if (message.order) {
+            const auto header = next_header(message.vehicle, row, Topic::kOrder);
+            put(Topic::kOrder, vda5050::encode_order(*message.order, header));
         }
         if (message.instant_actions) {
-            ++ports_.metrics.vehicle_messages_out;
-            socket->send(
-                encode_actions(*message.instant_actions, *vehicle, row.actions_header_id++, now));
+            const auto header = next_header(message.vehicle, row, Topic::kInstantActions);
+            put(Topic::kInstantActions,
+                vda5050::encode_instant_actions(*message.instant_actions, header));
         }
     }
+}
+
+vda5050::Header VehicleGateway::next_header(const plant::VehicleId& id, Row& row,
+                                            vda5050::Topic topic) {
+    if (!row.headers) {
+        const auto* vehicle = plant::find_vehicle(ports_.plant, id);
+        row.headers.emplace(vehicle->manufacturer, vehicle->serial_number);
+    }
+    return row.headers->next(topic, ports_.clock.now());
 }
 
 void VehicleGateway::introduce_all() {
@@ -295,14 +310,13 @@ void VehicleGateway::introduce_all() {
     }
 }
 
-void VehicleGateway::keep_connection(const plant::VehicleId& id, Row& row, const char* state) {
-    const auto* vehicle = plant::find_vehicle(ports_.plant, id);
-    if (vehicle) {
-        row.retained["connection"] = encode_connection(state, *vehicle, ports_.clock.now());
-    }
+void VehicleGateway::play_last_will(const plant::VehicleId& id, Row& row) {
+    row.retained[vda5050::Topic::kConnection] =
+        vda5050::encode_connection(fleet::ConnectionState::kConnectionBroken,
+                                   next_header(id, row, vda5050::Topic::kConnection));
 }
 
-std::string VehicleGateway::retained(const plant::VehicleId& id, const std::string& topic) const {
+std::string VehicleGateway::retained(const plant::VehicleId& id, vda5050::Topic topic) const {
     const auto row = rows_.find(id);
     if (row == rows_.end()) return {};
     const auto found = row->second.retained.find(topic);

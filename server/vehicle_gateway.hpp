@@ -14,6 +14,7 @@
 
 #include "api/access/access_control.hpp"
 #include "api/http/message.hpp"
+#include "api/vehicle/header.hpp"
 #include "server/camera_store.hpp"
 #include "server/fleet_runtime.hpp"
 #include "server/metrics.hpp"
@@ -64,8 +65,8 @@ public:
     /// Tells a rebuilt fleet who is connected and what each one said last.
     void introduce_all();
 
-    /// Newest retained payload of "connection" or "factsheet"; empty before the first.
-    std::string retained(const plant::VehicleId& id, const std::string& topic) const;
+    /// Newest retained payload of connection or factsheet; empty before the first.
+    std::string retained(const plant::VehicleId& id, vda5050::Topic topic) const;
 
 private:
     using Steady = std::chrono::steady_clock;
@@ -78,21 +79,21 @@ private:
         std::shared_ptr<VehicleSocket> socket;
         std::deque<Steady::time_point> takeovers;
         Steady::time_point told_heard{};
-        std::map<std::string, std::string> retained;  // by topic
+        std::map<vda5050::Topic, std::string> retained;
         std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
         std::optional<fleet::StateMessage> last_state;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors
         Steady::time_point refused_at{};
         int malformed_in_a_row = 0;
-        std::int64_t order_header_id = 0;
-        std::int64_t actions_header_id = 0;
+        std::optional<vda5050::HeaderSource> headers;
         bool said_offline = false;
     };
 
     Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
     void malformed(const plant::VehicleId& id, Row& row, const Error& error);
     void pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state);
-    void keep_connection(const plant::VehicleId& id, Row& row, const char* state);
+    void play_last_will(const plant::VehicleId& id, Row& row);
+    vda5050::Header next_header(const plant::VehicleId& id, Row& row, vda5050::Topic topic);
 
     Ports ports_;
     std::map<plant::VehicleId, Row> rows_;

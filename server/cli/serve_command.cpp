@@ -1,0 +1,124 @@
+#include "server/cli/serve_command.hpp"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <memory>
+#include <set>
+
+#include "api/plant/plant_file.hpp"
+#include "core/plant/validate.hpp"
+#include "server/cli/storage.hpp"
+#include "server/config_file.hpp"
+#include "server/log.hpp"
+#include "server/server.hpp"
+
+namespace pulseline::server::cli {
+namespace {
+
+int failed(const Error& error) {
+    fmt::print(stderr, "pulseline: {}\n", error.what);
+    const bool usage = error.code == Errc::kInvalid || error.reason.code == "address_in_use";
+    return usage ? kUsage : kFailed;
+}
+
+/// The stored plant; into an empty database the plant file is imported first.
+Result<plant::Plant> load_plant(Storage& storage, const Options& options) {
+    auto stored = storage.plant();
+    if (stored) return std::move(*stored);
+    if (options.plant_file.empty()) {
+        return fail(Errc::kInvalid, "plant_missing",
+                    "the database holds no plant yet; name a plant file with --plant");
+    }
+    auto plant = plant::load_plant_file(options.plant_file);
+    if (!plant) return plant;
+    const auto faults = plant::validate(*plant);
+    if (!faults.empty()) {
+        const auto& first = faults.front();
+        return fail(
+            Errc::kInvalid, "plant_invalid",
+            fmt::format("{}: {}: {}; {} ({} faults in all, `pulseline plant validate` "
+                        "lists them)",
+                        options.plant_file, first.element, first.what, first.remedy, faults.size()),
+            first.element);
+    }
+    if (const auto imported = storage.import_plant(*plant); !imported) {
+        return fail(imported.error());
+    }
+    return plant;
+}
+
+int serve(const Options& options) {
+    const auto begin = std::chrono::steady_clock::now();
+    log::start(options.log_json);
+    if (options.database.empty()) {
+        fmt::print(stderr, "pulseline: name the database file with --db\n");
+        return kUsage;
+    }
+    auto storage = open_storage(options.database, "stop that server first, or use its address");
+    if (!storage) return failed(storage.error());
+    const auto plant = load_plant(**storage, options);
+    if (!plant) return failed(plant.error());
+    Server server(options,
+                  {*plant, (*storage)->fleet(), (*storage)->history(), (*storage)->access()});
+    if (const auto started = server.start(); !started) return failed(started.error());
+    server.stop_on_signals();
+    const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(
+        std::chrono::steady_clock::now() - begin);
+    if (!server.tls_fingerprint().empty()) {
+        fmt::print("certificate SHA-256 {}\n", server.tls_fingerprint());
+    }
+    fmt::print("pulseline {} serves {} ready in {} ms\n", kVersion, server.url(), took.count());
+    std::fflush(stdout);
+    server.run();
+    log::flush();
+    return 0;
+}
+
+/// Options given on the command line, by their names in the configuration file.
+std::set<std::string> given_options(const CLI::App& command) {
+    std::set<std::string> given;
+    for (const auto* option : command.get_options()) {
+        if (option->count() == 0) continue;
+        std::string name = option->get_single_name();
+        for (char& c : name) {
+            if (c == '-') c = '_';
+        }
+        given.insert(name == "allow_origin" ? "allow_origins" : name);
+    }
+    return given;
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, int& exit_code) {
+    const auto options = std::make_shared<Options>();
+    const auto config = std::make_shared<std::string>();
+    auto* serve_command = app.add_subcommand("serve", "Run the server");
+    serve_command->add_option("--db", options->database, "Database file, made when missing");
+    serve_command->add_option("--listen", options->listen, "Address and port");
+    serve_command->add_option("--plant", options->plant_file,
+                              "Plant file, imported into an empty database");
+    serve_command->add_option("--tls-cert", options->tls_cert, "PEM certificate chain");
+    serve_command->add_option("--tls-key", options->tls_key, "PEM key of the certificate");
+    serve_command->add_flag("--tls-self-signed", options->tls_self_signed,
+                            "Make a certificate; its fingerprint is printed");
+    serve_command->add_flag("--behind-proxy", options->behind_proxy,
+                            "A proxy in front ends TLS; its X-Forwarded headers are believed");
+    serve_command->add_option("--allow-origin", options->allow_origins,
+                              "Further origin of pages that may sign in, exact");
+    serve_command->add_option("--config", *config, "TOML file; options on the command line win");
+    serve_command->add_flag("--log-json", options->log_json, "Log one JSON object a line");
+    serve_command->callback([options, config, serve_command, &exit_code] {
+        if (!config->empty()) {
+            const auto read = read_config_file(*config, given_options(*serve_command), *options);
+            if (!read) {
+                exit_code = failed(read.error());
+                return;
+            }
+        }
+        exit_code = serve(*options);
+    });
+}
+
+}  // namespace pulseline::server::cli

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/access/access.hpp"
+#include "core/base/result.hpp"
+#include "core/fleet/ports.hpp"
+#include "core/plant/plant.hpp"
+
+namespace pulseline::server::cli {
+
+/// An open, locked database with its stores. Throws db::Error when it breaks under way.
+class Storage {
+public:
+    virtual ~Storage() = default;
+    virtual fleet::Store& fleet() = 0;
+    virtual fleet::History& history() = 0;
+    virtual access::Store& access() = 0;
+    virtual std::optional<plant::Plant> plant() = 0;  // nothing: none was imported
+    virtual Status import_plant(const plant::Plant& plant) = 0;
+};
+
+/// Fails when another process holds the file (the error ends with `instead`), when it cannot be
+/// written or is no database of ours.
+Result<std::unique_ptr<Storage>> open_storage(const std::string& path, const std::string& instead);
+
+}  // namespace pulseline::server::cli
