@@ -1,0 +1,310 @@
+#include "tests/core/fleet/fleet_world.hpp"
+
+#include <algorithm>
+
+namespace pulseline::fleet::testing {
+namespace {
+
+constexpr double kCamera_m = 1.2;  // cameras ahead of and behind the centre
+
+plant::VehicleType small_type() {
+    plant::VehicleType type;
+    type.id = plant::VehicleTypeId("small");
+    type.name = "Small carrier";
+    type.footprint = geometry::rectangle(3.0, 1.2);
+    type.max_speed_mps = 1.0;
+    type.max_accel_mps2 = 0.5;
+    type.max_turn_rate_radps = 0.5;
+    type.max_turn_accel_radps2 = 0.5;
+    type.clearance_m = 0.3;
+    type.motion_modes = {plant::MotionMode::kLinear, plant::MotionMode::kFixedAxisRotation,
+                         plant::MotionMode::kSelfRotation};
+    for (const auto& [name, x_m] : {std::pair{"front", kCamera_m}, std::pair{"back", -kCamera_m}}) {
+        plant::Camera camera;
+        camera.name = name;
+        camera.body_from_camera = {x_m, 0, 0};
+        type.cameras.push_back(camera);
+    }
+    type.max_load_kg = 500;
+    return type;
+}
+
+}  // namespace
+
+plant::Plant small_plant() {
+    plant::Plant plant;
+    plant.id = "small";
+    plant.name = "Small hall";
+    plant::Hall hall;
+    hall.id = plant::HallId("h1");
+    hall.name = "Hall 1";
+    hall.outline = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
+    plant.halls.push_back(hall);
+    plant.vehicle_types.push_back(small_type());
+    for (int number = 1; number <= 4; ++number) {
+        plant::Station station;
+        station.id = plant::StationId("s" + std::to_string(number));
+        station.number = number;
+        station.name = "Station " + std::to_string(number);
+        station.hall = hall.id;
+        station.pose = {12.0 * number, 20, 0};
+        station.node = plant::NodeId("n" + std::to_string(number));
+        for (const auto& [side, x_m] : {std::pair{"F", kCamera_m}, std::pair{"B", -kCamera_m}}) {
+            plant::Marker marker;
+            marker.payload = "ST0" + std::to_string(number) + "-" + side;
+            marker.id = plant::MarkerId(marker.payload);
+            marker.hall = hall.id;
+            marker.pose = {station.pose.x_m + x_m, station.pose.y_m, 0};
+            station.markers.push_back(marker.id);
+            plant.markers.push_back(marker);
+        }
+        plant.nodes.push_back({station.node, hall.id, station.pose.position()});
+        plant.stations.push_back(station);
+    }
+    for (int i = 1; i < 4; ++i) {
+        for (const auto& [from, to] : {std::pair{i, i + 1}, std::pair{i + 1, i}}) {
+            plant::RoadmapEdge edge;
+            edge.from = plant::NodeId("n" + std::to_string(from));
+            edge.to = plant::NodeId("n" + std::to_string(to));
+            edge.id = plant::EdgeId(edge.from.str() + edge.to.str());
+            plant.edges.push_back(edge);
+        }
+    }
+    for (const auto& [name, home] : {std::pair{"V1", "s1"}, std::pair{"V2", "s4"}}) {
+        plant::Vehicle vehicle;
+        vehicle.id = plant::VehicleId(name);
+        vehicle.type = plant::VehicleTypeId("small");
+        vehicle.manufacturer = "test";
+        vehicle.serial_number = name;
+        vehicle.home = plant::StationId(home);
+        plant.vehicles.push_back(vehicle);
+    }
+    return plant;
+}
+
+void MemoryStore::commit(const Records& records) {
+    for (const auto& order : records.orders) orders[order.id] = order;
+    for (const auto& vehicle : records.vehicles) vehicles[vehicle.id] = vehicle;
+    stops.insert(stops.end(), records.stops.begin(), records.stops.end());
+    events.insert(events.end(), records.events.begin(), records.events.end());
+    idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());
+}
+
+StoredFleet MemoryStore::load() const {
+    StoredFleet stored;
+    for (const auto& [id, order] : orders) {
+        stored.orders.push_back(order);
+        stored.last_order_number = std::max(stored.last_order_number, order.number);
+    }
+    for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
+    stored.idempotency = idempotency;
+    if (!events.empty()) {
+        stored.last_event_seq = events.back().seq;
+        stored.last_time = events.back().at;
+    }
+    return stored;
+}
+
+FakeVehicle::FakeVehicle(const plant::Plant& plant, plant::VehicleId id, Pose2 pose)
+    : plant_(plant), id_(std::move(id)) {
+    state.pose = pose;
+    state.map_id = "h1";
+    see_codes();
+}
+
+void FakeVehicle::see_codes() {
+    state.cameras.clear();
+    const auto* vehicle = plant::find_vehicle(plant_, id_);
+    for (const auto& camera : plant::find_vehicle_type(plant_, vehicle->type)->cameras) {
+        CameraReading reading;
+        reading.camera = camera.name;
+        for (const auto& marker : plant_.markers) {
+            const auto in_body = geometry::inverse(*state.pose) * marker.pose;
+            if (geometry::distance(in_body.position(), camera.body_from_camera.position()) > 0.05) {
+                continue;
+            }
+            reading.found = sees_codes;
+            reading.payload = marker.payload;
+            reading.code = in_body.position();
+            reading.angle_rad = in_body.heading_rad;
+            reading.sigma_m = 1e-5;
+        }
+        state.cameras.push_back(reading);
+    }
+}
+
+void FakeVehicle::receive(const VehicleMessage& message) {
+    if (message.instant_actions) {
+        for (const auto& action : message.instant_actions->actions) {
+            const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
+                                           [&](const auto& a) { return a.id == action.id; });
+            if (known) continue;  // a doubled message
+            state.action_states.push_back({action.id, action.type, ActionStatus::kFinished, {}, {}});
+            if (action.type == "startPause") state.paused = true;
+            if (action.type == "stopPause") state.paused = false;
+            if (action.type == "initPosition") {
+                state.pose = action.init_position->pose;
+                state.position_initialized = true;
+            }
+            if (action.type == "cancelOrder" && order_) {
+                order_.reset();
+                state.node_states.clear();
+                state.edge_states.clear();
+                state.driving = false;
+            }
+        }
+    }
+    if (!message.order) return;
+    ++orders_received;
+    const OrderMessage& order = *message.order;
+    if (state.order_id == order.order_id && order.order_update_id <= state.order_update_id) return;
+    if (order_ && state.order_id == order.order_id) {
+        const auto& stitch = order.nodes.front();
+        while (!order_->nodes.empty() && order_->nodes.back().sequence_id >= stitch.sequence_id) {
+            order_->nodes.pop_back();
+        }
+        while (!order_->edges.empty() && order_->edges.back().sequence_id > stitch.sequence_id) {
+            order_->edges.pop_back();
+        }
+        order_->nodes.insert(order_->nodes.end(), order.nodes.begin(), order.nodes.end());
+        order_->edges.insert(order_->edges.end(), order.edges.begin(), order.edges.end());
+    } else {
+        order_ = order;
+        at_ = 0;
+        state.action_states.clear();
+        state.last_node_id = order.nodes.front().node_id;
+        state.last_node_sequence_id = 0;
+    }
+    state.order_id = order.order_id;
+    state.order_update_id = order.order_update_id;
+    for (const auto& action : order_->nodes.back().actions) {
+        const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
+                                       [&](const auto& a) { return a.id == action.id; });
+        if (!known) state.action_states.push_back({action.id, action.type, ActionStatus::kWaiting, {}, {}});
+    }
+}
+
+bool FakeVehicle::step() {
+    if (!order_ || state.paused) {
+        see_codes();
+        return false;
+    }
+    if (at_ + 1 < order_->nodes.size()) {
+        const auto& next = order_->nodes[at_ + 1];
+        if (!next.released) {
+            state.driving = false;
+            return false;
+        }
+        ++at_;
+        ++node_steps;
+        state.driving = at_ + 1 < order_->nodes.size() && order_->nodes[at_ + 1].released;
+        state.pose = next.pose;
+        state.last_node_id = next.node_id;
+        state.last_node_sequence_id = next.sequence_id;
+        see_codes();
+        return true;
+    }
+    state.driving = false;
+    for (auto& action : state.action_states) {
+        if (action.status != ActionStatus::kWaiting) continue;
+        if (action.type == "measureStop" && measure_fails) {
+            action.status = ActionStatus::kFailed;
+            action.result_description = *measure_fails;
+            return true;
+        }
+        action.status = ActionStatus::kFinished;
+        if (action.type == "measureStop") {
+            const Pose2 station = order_->nodes.back().actions.back().stop_target->target;
+            action.measurement = StopMeasurement{};
+            action.measurement->pose = {station.x_m + stop_error.x_m, station.y_m + stop_error.y_m,
+                                        station.heading_rad + stop_error.heading_rad};
+            action.measurement->method = "dual_camera";
+            state.pose = action.measurement->pose;
+        }
+        return true;
+    }
+    order_.reset();
+    return false;
+}
+
+void FakeVehicle::restart() {
+    order_.reset();
+    const Pose2 pose = *state.pose;
+    state = {};
+    state.pose = pose;
+    state.map_id = "h1";
+    see_codes();
+}
+
+World::World() : World(small_plant()) {}
+
+World::World(plant::Plant p) : plant(std::move(p)) {
+    fleet = std::make_unique<Fleet>(plant, store.load(), seed, now);
+    for (const auto& vehicle : plant.vehicles) {
+        const Pose2 home = plant::find_station(plant, vehicle.home)->pose;
+        vehicles.emplace(vehicle.id, FakeVehicle(plant, vehicle.id, home));
+        connected[vehicle.id] = false;
+    }
+}
+
+void World::connect_all() {
+    for (auto& [id, is_connected] : connected) {
+        is_connected = true;
+        fleet->vehicle_connected(id, now);
+    }
+    run(1);
+}
+
+void World::settle() {
+    for (int round = 0; round < 10; ++round) {
+        Outputs out = fleet->take_outputs(now);
+        if (out.records.empty() && out.messages.empty()) return;
+        store.commit(out.records);
+        for (const auto& message : out.messages) {
+            if (connected[message.vehicle]) vehicles.at(message.vehicle).receive(message);
+        }
+    }
+}
+
+void World::run(double duration_s) {
+    const Time end = now + from_seconds(duration_s);
+    while (now < end) {
+        now += std::chrono::milliseconds(100);
+        for (auto& [id, vehicle] : vehicles) {
+            if (vehicles_move) vehicle.step();
+            if (!connected[id]) continue;
+            fleet->vehicle_state(id, vehicle.state, now);
+            settle();
+        }
+        fleet->tick(now);
+        settle();
+    }
+}
+
+void World::crash_server() {
+    fleet = std::make_unique<Fleet>(plant, store.load(), ++seed, now);
+    for (auto& [id, is_connected] : connected) {
+        if (is_connected) fleet->vehicle_connected(id, now);
+    }
+    settle();
+}
+
+Result<Created> World::order(const std::string& vehicle, std::vector<int> stations,
+                             plant::MotionMode mode) {
+    NewOrder request;
+    request.vehicle = plant::VehicleId(vehicle);
+    request.actor = "tester";
+    for (const int station : stations) request.steps.push_back({station, mode});
+    auto created = fleet->create(request, now);
+    settle();
+    return created;
+}
+
+JobOrder World::only_order() const { return store.orders.begin()->second; }
+
+int World::count_events(const std::string& type) const {
+    return static_cast<int>(std::count_if(store.events.begin(), store.events.end(),
+                                          [&](const Event& e) { return e.type == type; }));
+}
+
+}  // namespace pulseline::fleet::testing

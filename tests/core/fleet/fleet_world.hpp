@@ -1,0 +1,88 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/fleet/fleet.hpp"
+#include "core/plant/plant.hpp"
+
+/// A hall, obedient vehicles and a store in memory, so that tests can crash the fleet at any record.
+namespace pulseline::fleet::testing {
+
+/// 60 x 40 m hall; stations 1..4 on a line 12 m apart facing east, each with two codes; vehicles
+/// "V1" and "V2" (3 x 1.2 m, linear, fixed axis and self rotation) at home on stations 1 and 4.
+plant::Plant small_plant();
+
+/// Applies committed records, as the database does.
+class MemoryStore {
+public:
+    void commit(const Records& records);
+    StoredFleet load() const;
+
+    std::map<JobOrderId, JobOrder> orders;
+    std::map<plant::VehicleId, VehicleRecord> vehicles;
+    std::vector<StopRecord> stops;
+    std::vector<Event> events;
+    std::vector<IdempotencyRecord> idempotency;
+};
+
+/// Obeys VDA 5050: drives released nodes one by one, measures stops, answers instant actions.
+class FakeVehicle {
+public:
+    FakeVehicle(const plant::Plant& plant, plant::VehicleId id, Pose2 pose);
+
+    void receive(const VehicleMessage& message);
+    /// One more released node, one action or one standstill; true when something changed.
+    bool step();
+    /// Power cycle: forgets order and pose.
+    void restart();
+
+    StateMessage state;
+    Pose2 stop_error;               // added to the next measured stops
+    std::optional<std::string> measure_fails;
+    bool sees_codes = true;         // reports the codes below its cameras while standing on them
+    int orders_received = 0;
+    int node_steps = 0;
+
+private:
+    void see_codes();
+
+    const plant::Plant& plant_;
+    plant::VehicleId id_;
+    std::optional<OrderMessage> order_;
+    std::size_t at_ = 0;
+};
+
+/// Fleet + vehicles + store on one virtual clock.
+class World {
+public:
+    World();
+    explicit World(plant::Plant plant);
+
+    /// Lets `seconds` pass in ticks of 0.1 s; vehicles take one step per tick.
+    void run(double seconds);
+    /// Commits what the fleet put out and delivers its messages.
+    void settle();
+    /// Server dies without warning before anything uncommitted left it, and starts again.
+    void crash_server();
+    void connect_all();
+
+    FakeVehicle& vehicle(const std::string& id) { return vehicles.at(plant::VehicleId(id)); }
+    Result<Created> order(const std::string& vehicle, std::vector<int> stations,
+                          plant::MotionMode mode = plant::MotionMode::kAuto);
+    JobOrder only_order() const;
+    int count_events(const std::string& type) const;
+
+    plant::Plant plant;
+    MemoryStore store;
+    Time now = time_from_ns(1'800'000'000'000'000'000);
+    std::unique_ptr<Fleet> fleet;
+    std::map<plant::VehicleId, FakeVehicle> vehicles;
+    std::map<plant::VehicleId, bool> connected;
+    bool vehicles_move = true;
+    std::uint64_t seed = 1;
+};
+
+}  // namespace pulseline::fleet::testing
