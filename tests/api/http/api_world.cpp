@@ -139,6 +139,7 @@ Answer ApiWorld::call(const std::string& method, const std::string& target, cons
     request.method = method;
     request.body = body;
     request.headers = headers;
+    if (!body.empty()) request.headers.emplace("content-type", "application/json");
     request.request_id = "r-1";
     request.peer = peer;
     request.secure = secure;
