@@ -1,0 +1,146 @@
+// Starts the real programs for tests: server and agents as child processes, each test in a directory of its own.
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, openSync, readFileSync, existsSync } from "node:fs";
+import { createServer } from "node:net";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+
+export const ROOT = resolve(import.meta.dirname, "../..");
+export const BUILD = process.env.PULSELINE_BUILD ?? join(ROOT, "build");
+const SERVER = join(BUILD, "pulseline");
+const AGENT = join(BUILD, "pulseline-agent");
+
+/** Waits for a condition by looking again every few milliseconds; fails loudly, never silently. */
+export async function until(what, condition, { timeout_s = 30, every_ms = 20 } = {}) {
+  const end = Date.now() + timeout_s * 1000;
+  for (;;) {
+    const value = await condition();
+    if (value) return value;
+    if (Date.now() > end) throw new Error(`waited ${timeout_s} s in vain for: ${typeof what === "function" ? await what() : what}`);
+    await new Promise((done) => setTimeout(done, every_ms));
+  }
+}
+
+/** A port nobody listens on now. */
+export async function freePort() {
+  const probe = createServer();
+  await new Promise((done) => probe.listen(0, "127.0.0.1", done));
+  const { port } = probe.address();
+  await new Promise((done) => probe.close(done));
+  return port;
+}
+
+export class Plant {
+  constructor(name) {
+    this.file = name.includes("/") ? name : join(ROOT, "db/plants", `${name}.json`);
+    this.model = JSON.parse(readFileSync(this.file, "utf8"));
+  }
+  vehicle(id) {
+    return this.model.vehicles.find((v) => v.id === id);
+  }
+  station(number) {
+    return this.model.stations.find((s) => s.number === number);
+  }
+}
+
+/** One server with its database, users and vehicle tokens, and any number of agents. */
+export class System {
+  constructor(plant, directory) {
+    this.plant = plant;
+    this.directory = directory;
+    this.database = join(directory, "pulseline.db");
+    this.tokens = new Map();
+    this.passwords = new Map();
+    this.agents = new Map();
+    this.children = new Set();
+  }
+
+  static async create(plantName, { users = ["operator", "viewer"] } = {}) {
+    const system = new System(new Plant(plantName), mkdtempSync(join(tmpdir(), "pulseline-test-")));
+    system.port = await freePort();
+    system.cli(["plant", "import", system.plant.file]);
+    for (const role of users) {
+      const password = `test-password-of-${role}`;
+      system.cli(["user", "add", role, "--role", role, "--password-stdin"], password);
+      system.passwords.set(role, password);
+    }
+    system.apiToken = system.cli(["token", "create", "--role", "operator", "--scope", "api"]).trim();
+    return system;
+  }
+
+  cli(args, input = "") {
+    return execFileSync(SERVER, [...args, "--db", this.database], { input, encoding: "utf8" });
+  }
+
+  get url() {
+    return `http://127.0.0.1:${this.port}`;
+  }
+  get truthLog() {
+    return join(this.directory, "truth.jsonl");
+  }
+
+  start(program, args, name) {
+    const log = openSync(join(this.directory, `${name}.log`), "a");
+    const child = spawn(program, args, { stdio: ["ignore", log, log], cwd: ROOT });
+    this.children.add(child);
+    child.ended = new Promise((done) => child.on("exit", (code, signal) => { child.over = { code, signal }; this.children.delete(child); done(child.over); }));
+    return child;
+  }
+
+  async startServer(extra = []) {
+    this.server = this.start(SERVER, ["serve", "--db", this.database, "--listen", `127.0.0.1:${this.port}`, ...extra], "server");
+    await until(() => `server ready; its log:\n${this.log("server")}`, async () => {
+      if (this.server.over) throw new Error(`the server ended: ${JSON.stringify(this.server.over)}\n${this.log("server")}`);
+      try { return (await fetch(`${this.url}/readyz`)).ok; } catch { return false; }
+    }, { timeout_s: 20, every_ms: 10 });
+    return this.server;
+  }
+
+  tokenOf(id) {
+    if (!this.tokens.has(id)) {
+      const { manufacturer, serial_number } = this.plant.vehicle(id);
+      this.tokens.set(id, this.cli(["token", "create", "--vehicle", `${manufacturer}/${serial_number}`]).trim());
+    }
+    return this.tokens.get(id);
+  }
+
+  /** Tokens are made before the server holds the database. */
+  prepareVehicles(ids) {
+    for (const id of ids) this.tokenOf(id);
+  }
+
+  startAgent(id, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
+    const { manufacturer, serial_number } = this.plant.vehicle(id);
+    const agent = this.start(AGENT, ["--server", `ws://127.0.0.1:${this.port}`, "--vehicle", `${manufacturer}/${serial_number}`, "--token", this.tokenOf(id),
+      "--world", this.plant.file, "--seed", String(seed), "--truth-log", `${this.truthLog}.${id}`, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], `agent-${id}`);
+    this.agents.set(id, agent);
+    return agent;
+  }
+
+  /** The true movement of a vehicle, as the simulated world wrote it down. */
+  truth(id) {
+    const file = `${this.truthLog}.${id}`;
+    if (!existsSync(file)) return [];
+    return readFileSync(file, "utf8").split("\n").filter((line) => line.endsWith("}")).map((line) => JSON.parse(line));
+  }
+  lastTruth(id) {
+    return this.truth(id).at(-1);
+  }
+
+  log(name) {
+    const file = join(this.directory, `${name}.log`);
+    return existsSync(file) ? readFileSync(file, "utf8").slice(-4000) : "";
+  }
+
+  async kill(child) {
+    child.kill("SIGKILL");
+    await child.ended;
+  }
+
+  async stop() {
+    for (const child of this.children) child.kill("SIGTERM");
+    const patience = setTimeout(() => { for (const child of this.children) child.kill("SIGKILL"); }, 5000);
+    await Promise.all([...this.children].map((child) => child.ended));
+    clearTimeout(patience);
+  }
+}
