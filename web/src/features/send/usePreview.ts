@@ -49,7 +49,7 @@ export function usePreview(question: PreviewQuestion | undefined): { preview: Pr
       const asked = latest.current;
       if (asked === undefined) return;
       const turn = newest.next();
-      const body = { vehicle: asked.vehicle, steps: [{ station: asked.station, motion_mode: asked.mode }] };
+      const body = { vehicle: asked.vehicle, priority: 0, steps: [{ station: asked.station, motion_mode: asked.mode }] };
       call(api.POST("/api/v1/job-orders", { params: { query: { dryRun: true } }, body }))
         .then((data): Preview => ({ kind: "ready", data: data as DryRun }), failure)
         .then((preview) => {
