@@ -1,0 +1,85 @@
+// ./dev bench main: how long an order takes to be accepted (committed) and to be with the agent, and what the
+// server weighs. "With the agent" is seen as the event leg.accepted: the agent has reported the order back, so
+// the figure includes the way back and a second commit.
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Client } from "../harness/client.mjs";
+import { BUILD, System, until } from "../harness/processes.mjs";
+import { manyVehicles } from "./many_vehicles.mjs";
+
+const ORDERS = Number(process.argv[2] ?? 200);
+const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
+const percentile = (values, p) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.ceil(p * values.length) - 1)];
+const summary = (values) => ({ n: values.length, p50_ms: +percentile(values, 0.5).toFixed(2), p99_ms: +percentile(values, 0.99).toFixed(2), max_ms: +Math.max(...values).toFixed(2) });
+
+/** Follows the event stream; resolves waits for (type, order). */
+async function follow(client) {
+  const seen = new Map(), abort = new AbortController();
+  const { last_event_seq } = await client.get("/api/v1/fleet");
+  const response = await fetch(`${client.url}/api/v1/events?after=${last_event_seq}`, { headers: { Authorization: `Bearer ${client.token}` }, signal: abort.signal });
+  (async () => {
+    let text = "";
+    const decoder = new TextDecoder();
+    for await (const chunk of response.body) {
+      text += decoder.decode(chunk, { stream: true });
+      for (let end; (end = text.indexOf("\n\n")) >= 0; text = text.slice(end + 2)) {
+        const data = text.slice(0, end).split("\n").filter((l) => l.startsWith("data:")).map((l) => l.slice(5)).join("");
+        if (!data) continue;
+        const event = JSON.parse(data);
+        if (event.type === "leg.accepted") seen.set(event.order, performance.now());
+      }
+    }
+  })().catch(() => {});
+  return { seen, stop: () => abort.abort() };
+}
+
+async function measure(count) {
+  const file = join(mkdtempSync(join(tmpdir(), "pulseline-bench-")), "plant.json");
+  writeFileSync(file, JSON.stringify(manyVehicles(count)));
+  const system = await System.create(file);
+  const ids = system.plant.model.vehicles.map((v) => v.id);
+  system.prepareVehicles(ids);
+  const begin = performance.now();
+  await system.startServer();
+  const start_ms = performance.now() - begin;
+  const client = new Client(system.url, system.apiToken);
+  await new Promise((done) => setTimeout(done, 1000));
+  const rss_rest_kb = rss_kb(system.server.pid);
+  const list = join(system.directory, "vehicles");
+  writeFileSync(list, ids.map((id) => { const v = system.plant.vehicle(id); return `${v.manufacturer}/${v.serial_number} ${system.tokenOf(id)}\n`; }).join(""));
+  system.start(join(BUILD, "pulseline-agent"), ["--server", `ws://127.0.0.1:${system.port}`, "--vehicles", list, "--world", file, "--seed", "1", "--time-factor", "10", "--sensing", "analytic"], "agents");
+  await until("all agents are ready", async () => (await client.get("/api/v1/vehicles")).items.every((v) => v.link === "live" && v.pose_known), { timeout_s: 60, every_ms: 200 });
+  const rss_agents_kb = rss_kb(system.server.pid);
+  const events = await follow(client);
+  const accept = [], dispatch = [];
+  const at = new Map(ids.map((id) => [id, 0]));
+  let left = ORDERS;
+  await Promise.all(Array.from({ length: Math.min(8, count) }, async (_, worker) => {
+    for (let i = worker; left > 0; i += Math.min(8, count)) {
+      --left;
+      const id = ids[i % count], index = ids.indexOf(id);
+      at.set(id, 1 - at.get(id));
+      const t0 = performance.now();
+      const order = await client.order(id, [2 * index + at.get(id) + 1]);
+      const accepted = performance.now();
+      accept.push(accepted - t0);
+      await until("the agent has the order", () => events.seen.has(order.id), { timeout_s: 20, every_ms: 1 });
+      dispatch.push(Math.max(0, events.seen.get(order.id) - accepted));
+      await client.untilEnded(order.id, 60);
+    }
+  }));
+  const rss_end_kb = rss_kb(system.server.pid);
+  events.stop();
+  await system.stop();
+  return { agents: count, start_to_ready_ms: Math.round(start_ms), accept: summary(accept), dispatch: summary(dispatch), rss_rest_mb: +(rss_rest_kb / 1024).toFixed(1), rss_agents_mb: +(rss_agents_kb / 1024).toFixed(1), rss_end_mb: +(rss_end_kb / 1024).toFixed(1), kb_per_agent: +((rss_end_kb - rss_rest_kb) / count).toFixed(1) };
+}
+
+const results = [];
+for (const count of [1, 10, 100]) {
+  const result = await measure(count);
+  results.push(result);
+  console.log(JSON.stringify(result));
+}
+mkdirSync(join(BUILD, "bench"), { recursive: true });
+writeFileSync(join(BUILD, "bench/main.json"), JSON.stringify({ date: new Date().toISOString(), orders: ORDERS, results }, null, 2));
