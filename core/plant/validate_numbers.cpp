@@ -1,0 +1,153 @@
+#include <cmath>
+
+#include "core/plant/validate_parts.hpp"
+
+namespace pulseline::plant::detail {
+namespace {
+
+/// Checks the numbers of one element.
+class Numbers {
+public:
+    Numbers(std::string element, Faults& faults) : element_(std::move(element)), faults_(faults) {}
+
+    bool finite(const char* field, double value) {
+        if (std::isfinite(value)) return true;
+        faults_.add(element_ + field, "not_finite", "The value is no finite number.",
+                    "Write a number.");
+        return false;
+    }
+    void positive(const char* field, double value) {
+        if (!finite(field, value) || value > 0) return;
+        faults_.add(element_ + field, "not_positive", "The value must be greater than 0.",
+                    "Write the real one.");
+    }
+    void not_negative(const char* field, double value) {
+        if (!finite(field, value) || value >= 0) return;
+        faults_.add(element_ + field, "negative", "The value must not be negative.",
+                    "Write 0 or more.");
+    }
+    void point(const std::string& field, Point2 p) {
+        finite((field + "/x_m").c_str(), p.x_m);
+        finite((field + "/y_m").c_str(), p.y_m);
+    }
+    void pose(const std::string& field, const Pose2& p) {
+        point(field, p.position());
+        finite((field + "/heading_rad").c_str(), p.heading_rad);
+    }
+    void fault(const char* field, const char* code, const char* what, const char* remedy) {
+        faults_.add(element_ + field, code, what, remedy);
+    }
+
+private:
+    std::string element_;
+    Faults& faults_;
+};
+
+void check_camera(const Camera& c, Numbers n) {
+    n.pose("/body_from_camera", c.body_from_camera);
+    n.positive("/height_m", c.height_m);
+    n.positive("/f_px", c.f_px);
+    n.positive("/width_px", c.width_px);
+    n.positive("/height_px", c.height_px);
+    n.finite("/cu_px", c.cu_px);
+    n.finite("/cv_px", c.cv_px);
+    n.finite("/k1", c.k1);
+}
+
+void check_type(const VehicleType& t, const std::string& element, Faults& faults) {
+    Numbers n(element, faults);
+    n.positive("/max_speed_mps", t.max_speed_mps);
+    n.positive("/max_accel_mps2", t.max_accel_mps2);
+    n.positive("/max_turn_rate_radps", t.max_turn_rate_radps);
+    n.positive("/max_turn_accel_radps2", t.max_turn_accel_radps2);
+    n.not_negative("/min_turn_radius_m", t.min_turn_radius_m);
+    n.positive("/max_arc_radius_m", t.max_arc_radius_m);
+    n.not_negative("/clearance_m", t.clearance_m);
+    n.not_negative("/mass_kg", t.mass_kg);
+    n.not_negative("/max_load_kg", t.max_load_kg);
+    if (t.max_arc_radius_m <= t.min_turn_radius_m) {
+        n.fault("/max_arc_radius_m", "arc_radii", "No arc lies between least and largest radius.",
+                "Make max_arc_radius_m greater than min_turn_radius_m.");
+    }
+    for (std::size_t i = 0; i < t.wheels.size(); ++i) {
+        Numbers wheel(element + "/wheels/" + std::to_string(i), faults);
+        wheel.point("/position", t.wheels[i].position);
+        wheel.positive("/diameter_m", t.wheels[i].diameter_m);
+    }
+    for (std::size_t i = 0; i < t.cameras.size(); ++i) {
+        check_camera(t.cameras[i], {element + "/cameras/" + std::to_string(i), faults});
+    }
+    for (std::size_t i = 0; i < t.brackets.size(); ++i) {
+        Numbers(element + "/brackets/" + std::to_string(i), faults)
+            .point("/position", t.brackets[i].position);
+    }
+}
+
+void check_grid(const OccupancyGrid& grid, Numbers n) {
+    if (grid.empty()) return;
+    n.positive("", grid.resolution_m);
+    n.point("", grid.origin);
+    if (grid.width <= 0 || grid.height <= 0 ||
+        grid.occupied.size() !=
+            static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height)) {
+        n.fault("", "grid_size", "The grid does not have width x height cells.",
+                "Load it again from its image.");
+    }
+}
+
+void check_routing(const RoutingCost& r, Numbers n) {
+    n.positive("/k_same", r.k_same);
+    n.positive("/reference_step_m", r.reference_step_m);
+    n.not_negative("/turn_threshold_rad", r.turn_threshold_rad);
+    if (n.finite("/k_diff", r.k_diff) && r.k_diff < r.k_same) {
+        n.fault("/k_diff", "turns_cheaper", "A change of direction would be cheaper than none.",
+                "Make k_diff at least k_same.");
+    }
+}
+
+}  // namespace
+
+void check_numbers(const Plant& plant, Faults& faults) {
+    for (std::size_t i = 0; i < plant.halls.size(); ++i) {
+        check_grid(plant.halls[i].grid, {at("halls", i, "/occupancy_yaml"), faults});
+    }
+    for (std::size_t i = 0; i < plant.stations.size(); ++i) {
+        const Station& s = plant.stations[i];
+        Numbers n(at("stations", i), faults);
+        n.pose("/pose", s.pose);
+        n.positive("/tolerance/dx_m", s.tolerance.dx_m);
+        n.positive("/tolerance/dy_m", s.tolerance.dy_m);
+        n.positive("/tolerance/dheading_rad", s.tolerance.dheading_rad);
+        n.not_negative("/number", s.number);
+    }
+    for (std::size_t i = 0; i < plant.markers.size(); ++i) {
+        const Marker& m = plant.markers[i];
+        Numbers n(at("markers", i), faults);
+        n.pose("/pose", m.pose);
+        n.positive("/size_m", m.size_m);
+        n.positive("/sigma_xy_m", m.sigma_xy_m);
+        n.positive("/sigma_heading_rad", m.sigma_heading_rad);
+    }
+    for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
+        check_type(plant.vehicle_types[i], at("vehicle_types", i), faults);
+    }
+    for (std::size_t i = 0; i < plant.vehicles.size(); ++i) {
+        Numbers(at("vehicles", i), faults).not_negative("/load_kg", plant.vehicles[i].load_kg);
+        const VehicleType* type = find_vehicle_type(plant, plant.vehicles[i].type);
+        if (type != nullptr && plant.vehicles[i].load_kg > type->max_load_kg) {
+            faults.add(at("vehicles", i, "/load_kg"), "overloaded",
+                       "The load is more than its type may carry.",
+                       "Lower load_kg or correct max_load_kg of the type.");
+        }
+    }
+    for (std::size_t i = 0; i < plant.nodes.size(); ++i) {
+        Numbers(at("roadmap/nodes", i), faults).point("/position", plant.nodes[i].position);
+    }
+    for (std::size_t i = 0; i < plant.edges.size(); ++i) {
+        Numbers(at("roadmap/edges", i), faults)
+            .not_negative("/max_speed_mps", plant.edges[i].max_speed_mps);
+    }
+    check_routing(plant.routing, {"/routing", faults});
+}
+
+}  // namespace pulseline::plant::detail
