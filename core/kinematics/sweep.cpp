@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/kinematics/motion.hpp"
+
+// Each step's hull holds, for every corner, its place before and after and, when the body turns,
+// the point where the tangents of its circular path meet: the path lies inside that triangle, so
+// the hull holds the body at every moment in between and not just at the samples.
+namespace pulseline::kinematics {
+namespace {
+
+using geometry::Polygon;
+
+constexpr double kMaxStep_rad = radians(3.0);
+constexpr double kMaxExcess_m = 0.005;  // how far the tangent points may stand out
+
+int steps_of(const Segment& segment, double reach_m) {
+    // excess = r (1 / cos(step / 2) - 1), about r step^2 / 8
+    const double step =
+        std::min(kMaxStep_rad, std::sqrt(8 * kMaxExcess_m / std::max(reach_m, 1e-3)));
+    return std::max(1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) / step - 1e-9)));
+}
+
+void sweep_straight(const Polygon& piece, const Segment& segment, std::vector<Polygon>& swept) {
+    std::vector<Point2> points = geometry::transformed(segment.start, piece);
+    const Polygon after = geometry::transformed(segment.end, piece);
+    points.insert(points.end(), after.begin(), after.end());
+    swept.push_back(geometry::convex_hull(std::move(points)));
+}
+
+void sweep_turn(const Polygon& piece, const Segment& segment, std::vector<Polygon>& swept) {
+    const Point2 centre =
+        segment.kind == Segment::Kind::kArc ? segment.centre : segment.start.position();
+    const Polygon first = geometry::transformed(segment.start, piece);
+    double reach = 0;
+    for (const Point2& p : first) reach = std::max(reach, geometry::distance(p, centre));
+    const int steps = steps_of(segment, reach);
+    const double step = segment.turn_rad / steps;
+    const double stretch = 1 / std::cos(step / 2);
+
+    Polygon before = first;
+    for (int i = 1; i <= steps; ++i) {
+        const Pose2 turned{centre.x_m, centre.y_m, i * step};
+        const Pose2 halfway{centre.x_m, centre.y_m, (i - 0.5) * step};
+        Polygon after;
+        std::vector<Point2> points = before;
+        for (const Point2& p : first) {
+            after.push_back(turned * (p - centre));
+            points.push_back(halfway * (stretch * (p - centre)));
+        }
+        points.insert(points.end(), after.begin(), after.end());
+        swept.push_back(geometry::convex_hull(std::move(points)));
+        before = std::move(after);
+    }
+}
+
+}  // namespace
+
+std::vector<Polygon> sweep(const std::vector<Polygon>& body, const std::vector<Segment>& segments) {
+    std::vector<Polygon> swept;
+    for (const Segment& segment : segments) {
+        for (const Polygon& piece : body) {
+            if (segment.kind == Segment::Kind::kStraight) {
+                sweep_straight(piece, segment, swept);
+            } else {
+                sweep_turn(piece, segment, swept);
+            }
+        }
+    }
+    return swept;
+}
+
+}  // namespace pulseline::kinematics

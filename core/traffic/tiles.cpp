@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "core/traffic/tile_map.hpp"
+
+// A piece grown by the margin (a polygon around the rounded shape) is convex, so its tiles in one
+// row are one run: between the least and the greatest x of the piece within the row.
+namespace pulseline::traffic {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+
+constexpr int kCoordinateBits = 24;  // +-4,194 km in tiles of 0.5 m
+constexpr std::int64_t kOffset = std::int64_t{1} << (kCoordinateBits - 1);
+constexpr std::uint64_t kMask = (std::uint64_t{1} << kCoordinateBits) - 1;
+constexpr double kTouch_m = 1e-9;  // rounding: touching counts
+constexpr int kCorners = 16;       // of the polygon around the margin's circle: 2 % too large
+
+TileId tile_id(std::size_t hall, std::int64_t col, std::int64_t row) {
+    const auto place = [](std::int64_t index) {
+        return static_cast<std::uint64_t>(
+            std::clamp(index + kOffset, std::int64_t{0}, static_cast<std::int64_t>(kMask)));
+    };
+    return static_cast<TileId>(hall) << (2 * kCoordinateBits) | place(row) << kCoordinateBits |
+           place(col);
+}
+
+std::int64_t index_of(double coordinate_m) {
+    return static_cast<std::int64_t>(std::floor(coordinate_m / kTile_m));
+}
+
+Polygon grown(const Polygon& piece, double margin_m) {
+    if (margin_m <= 0) return piece;
+    const double radius = margin_m / std::cos(kPi / kCorners);
+    std::vector<Point2> points;
+    points.reserve(piece.size() * kCorners);
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = 2 * kPi * i / kCorners;
+        const Point2 offset{radius * std::cos(angle), radius * std::sin(angle)};
+        for (const Point2& p : piece) points.push_back(p + offset);
+    }
+    return geometry::convex_hull(std::move(points));
+}
+
+struct Run {
+    double min_m = std::numeric_limits<double>::infinity();
+    double max_m = -std::numeric_limits<double>::infinity();
+    void add(double x_m) {
+        min_m = std::min(min_m, x_m);
+        max_m = std::max(max_m, x_m);
+    }
+};
+
+/// Rows of a piece with the run of x that the piece has in each.
+std::vector<Run> runs_of(const Polygon& piece, std::int64_t first_row, std::int64_t last_row) {
+    std::vector<Run> runs(static_cast<std::size_t>(last_row - first_row + 1));
+    const auto add = [&](std::int64_t row, double x_m) {
+        if (row >= first_row && row <= last_row) {
+            runs[static_cast<std::size_t>(row - first_row)].add(x_m);
+        }
+    };
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+        Point2 a = piece[i];
+        Point2 b = piece[(i + 1) % piece.size()];
+        if (a.y_m > b.y_m) std::swap(a, b);
+        for (const Point2& p : {a, b}) {
+            for (std::int64_t row = index_of(p.y_m - kTouch_m); row <= index_of(p.y_m + kTouch_m);
+                 ++row) {
+                add(row, p.x_m);
+            }
+        }
+        // Where the edge crosses from a row into the next, both have that x.
+        for (std::int64_t row = index_of(a.y_m) + 1; row <= index_of(b.y_m); ++row) {
+            const double y = static_cast<double>(row) * kTile_m;
+            const double x = a.x_m + (y - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m);
+            add(row - 1, x);
+            add(row, x);
+        }
+    }
+    return runs;
+}
+
+}  // namespace
+
+TileSet tiles_under(std::size_t hall_index, const std::vector<Polygon>& pieces, double margin_m) {
+    TileSet tiles;
+    for (const Polygon& piece : pieces) {
+        if (piece.empty()) continue;
+        const Polygon area = grown(piece, margin_m);
+        const geometry::Box box = geometry::bounding_box(area);
+        const std::int64_t first_row = index_of(box.min.y_m - kTouch_m);
+        const std::int64_t last_row = index_of(box.max.y_m + kTouch_m);
+        const auto runs = runs_of(area, first_row, last_row);
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            if (runs[i].min_m > runs[i].max_m) continue;
+            const std::int64_t last = index_of(runs[i].max_m + kTouch_m);
+            for (std::int64_t col = index_of(runs[i].min_m - kTouch_m); col <= last; ++col) {
+                tiles.push_back(tile_id(hall_index, col, first_row + static_cast<std::int64_t>(i)));
+            }
+        }
+    }
+    std::sort(tiles.begin(), tiles.end());
+    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
+    return tiles;
+}
+
+geometry::Box tile_box(TileId tile) {
+    const auto index = [](TileId bits) {
+        return static_cast<double>(static_cast<std::int64_t>(bits & kMask) - kOffset);
+    };
+    const Point2 min{kTile_m * index(tile), kTile_m * index(tile >> kCoordinateBits)};
+    return {min, {min.x_m + kTile_m, min.y_m + kTile_m}};
+}
+
+TileSet merge(const TileSet& a, const TileSet& b) {
+    TileSet result;
+    result.reserve(a.size() + b.size());
+    std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    return result;
+}
+
+}  // namespace pulseline::traffic
