@@ -1,0 +1,111 @@
+import { useEffect, useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import { age, timeOfDay } from "@/shared/i18n/format";
+import {
+  alarms,
+  silent,
+  useFleet,
+  useLink,
+  useMayCommand,
+  useServerNow,
+  useVehicles,
+  type Alarm,
+} from "@/shared/live";
+import { navigate } from "@/shared/router";
+import { Banner, Button } from "@/shared/ui";
+
+/** A cut shorter than this is not worth a word: a page that just loaded, a reconnect. */
+const kGraceMs = 300;
+
+function useShownAfter(on: boolean, ms: number): boolean {
+  const [shown, setShown] = useState(false);
+  useEffect(() => {
+    if (!on) {
+      setShown(false);
+      return;
+    }
+    const timer = setTimeout(() => setShown(true), ms);
+    return () => clearTimeout(timer);
+  }, [on, ms]);
+  return on && shown;
+}
+
+/** The most urgent thing, and below it who waits for a person. Always at the top of the page. */
+export function Banners({ onResume }: { onResume: () => void }) {
+  const link = useLink();
+  const vehicles = useVehicles();
+  const all = useMemo(() => alarms(vehicles), [vehicles]);
+  const urgent = all.find((alarm) => alarm.priority !== "low");
+  const lost = useShownAfter(link.state.kind === "lost", kGraceMs);
+  return (
+    <>
+      {lost ? <LinkLost /> : urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />}
+      <WaitingBanner onResume={onResume} />
+    </>
+  );
+}
+
+function LinkLost() {
+  const { t } = useTranslation();
+  const link = useLink();
+  const now = useServerNow(500);
+  const time = link.ageS === undefined ? timeOfDay(undefined) : timeOfDay(now - link.ageS * 1000);
+  return (
+    <Banner
+      priority="critical"
+      word={t("link.lost_word")}
+      what={<b>{t("link.lost_banner", { age: age(link.ageS) })}</b>}
+      todo={t("link.lost_todo", { time })}
+    />
+  );
+}
+
+function AlarmBanner({ alarm, more }: { alarm: Alarm; more: number }) {
+  const { t } = useTranslation();
+  const vehicle = useVehicles().find((v) => v.id === alarm.vehicle);
+  const now = useServerNow(500);
+  const silentFor = vehicle?.last_heard_at === undefined ? undefined : (now - Date.parse(vehicle.last_heard_at)) / 1000;
+  const params = { type: alarm.type ?? "", age: age(silentFor) };
+  const todo = alarm.kind === "field" || alarm.kind === "silent" ? t(`alarm.todo_${alarm.kind}`) : t("alarm.todo_error");
+  return (
+    <Banner
+      priority={alarm.priority}
+      what={
+        <>
+          <b>{vehicle?.name ?? alarm.vehicle}</b> {t(`alarm.${alarm.kind}`, params)}
+          {more > 0 && <span className="lab"> {t("alarm.more", { count: more })}</span>}
+        </>
+      }
+      todo={todo}
+      {...(alarm.kind === "silent" && { age: age(silentFor) })}
+      actions={
+        <Button onPress={() => navigate(`/map?vehicle=${encodeURIComponent(alarm.vehicle)}`)}>{t("alarm.show")}</Button>
+      }
+    />
+  );
+}
+
+/** Vehicles that a person must allow to move; hidden while the fleet is paused, where the corner says it. */
+function WaitingBanner({ onResume }: { onResume: () => void }) {
+  const { t } = useTranslation();
+  const fleet = useFleet();
+  const vehicles = useVehicles();
+  const link = useLink();
+  const may = useMayCommand();
+  const waiting = vehicles.filter((v) => v.needs_resume && !silent(v));
+  if (waiting.length === 0 || fleet?.paused) return null;
+  const names = waiting.map((v) => v.name).join(", ");
+  return (
+    <Banner
+      priority="high"
+      word={t("resume.word")}
+      what={<b>{t("resume.waits", { count: waiting.length, names })}</b>}
+      todo={t("resume.why")}
+      actions={
+        <Button onPress={onResume} disabled={!link.live || !may}>
+          {t("resume.action")}
+        </Button>
+      }
+    />
+  );
+}
