@@ -1,0 +1,323 @@
+import { useEffect, useRef, useState, type CSSProperties } from "react";
+import { useTranslation } from "react-i18next";
+import type { ModeOption, Plant, Point, Pose, Ring, StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import { number } from "@/shared/words/format";
+import {
+  inView,
+  linePath,
+  placed,
+  ringPath,
+  toShare,
+  turnArc,
+  viewOf,
+  wayOf,
+  type View,
+} from "./previewView";
+
+export interface PreviewMapProps {
+  plant: Plant;
+  vehicles: readonly Vehicle[];
+  states: readonly StationState[];
+  vehicle: Vehicle | undefined;
+  target: number | undefined;
+  option: ModeOption | undefined;
+  /** Whole hall with stations to press. */
+  picking: boolean;
+  onPick: (station: number) => void;
+}
+
+const kTurnArc_m = 3.6;
+const kNamedTurn_rad = 0.5 * (Math.PI / 180);
+
+/** Plan view of the previewed move to scale: swept area hatched, way, target ghost, dimensions. */
+export function PreviewMap(props: PreviewMapProps) {
+  const { t } = useTranslation("send");
+  const box = useRef<HTMLDivElement>(null);
+  const size = useSize(box);
+  const scene = sceneOf(props);
+  const view = size && viewOf(scene.fit, size.width / size.height, props.picking ? 0.03 : 0.12);
+  return (
+    <div className="mapbox pmap" ref={box}>
+      {view && size && (
+        <>
+          <svg className="m" viewBox={`0 0 ${view.width} ${view.height}`} role="img" aria-label={t("preview.map")}>
+            <defs>
+              <pattern
+                id="hsw"
+                width={9 / (size.width / view.width)}
+                height={9 / (size.width / view.width)}
+                patternUnits="userSpaceOnUse"
+                patternTransform="rotate(45)"
+              >
+                <path
+                  d={`M0 0V${9 / (size.width / view.width)}`}
+                  stroke="var(--swept-hatch)"
+                  strokeWidth="2.5"
+                />
+              </pattern>
+            </defs>
+            <g transform={`translate(${-view.left} ${view.height + view.bottom}) scale(1 -1)`}>
+              <Drawing {...props} scene={scene} />
+            </g>
+          </svg>
+          <Labels {...props} scene={scene} view={view} />
+        </>
+      )}
+    </div>
+  );
+}
+
+interface Scene {
+  type: VehicleType | undefined;
+  swept: Ring[];
+  ghost: Ring[];
+  way: Point[];
+  end: Pose | undefined;
+  turn: Point[];
+  turn_rad: number;
+  fit: Ring[];
+  hall: string | undefined;
+}
+
+function sceneOf({ plant, vehicle, target, option, picking }: PreviewMapProps): Scene {
+  const station = plant.stations.find((s) => s.number === target);
+  const type = plant.vehicle_types.find((v) => v.id === vehicle?.type);
+  const segments = option?.segments ?? [];
+  const end = segments.at(-1)?.end ?? station?.pose;
+  const swept = option?.swept ?? [];
+  const bodies = type ? [type.footprint, ...(isLoaded(vehicle) ? [type.load_footprint] : [])] : [];
+  const ghost = end ? bodies.filter((b) => b.length > 2).map((b) => placed(b, end)) : [];
+  const turn = [...segments].reverse().find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
+  const hall = vehicle?.hall ?? station?.hall ?? plant.halls[0]?.id;
+  const outline = plant.halls.find((h) => h.id === hall)?.outline ?? [];
+  const own = vehicle?.pose && type ? [placed(type.footprint, vehicle.pose)] : [];
+  const about = [...swept, ...ghost, ...own];
+  return {
+    type,
+    swept,
+    ghost,
+    way: wayOf(segments),
+    end,
+    turn: turn ? turnArc(turn, kTurnArc_m) : [],
+    turn_rad: turn?.turn_rad ?? 0,
+    fit: picking || !station || about.length === 0 ? [outline] : about,
+    hall,
+  };
+}
+
+function isLoaded(vehicle: Vehicle | undefined): boolean {
+  return vehicle !== undefined && (vehicle.load_kg > 0 || vehicle.load_name !== "");
+}
+
+function Drawing({ plant, vehicles, vehicle, option, scene }: PreviewMapProps & { scene: Scene }) {
+  const hall = plant.halls.find((h) => h.id === scene.hall);
+  const areas = plant.areas.filter((a) => a.hall === scene.hall);
+  const areaClass = { zone: "zone", lane: "lane", no_go: "zone", obstacle: "wall" } as const;
+  const nodes = new Map(plant.roadmap.nodes.map((n) => [n.id, n]));
+  const lanes = plant.roadmap.edges.flatMap((e) => {
+    const a = nodes.get(e.from);
+    const b = nodes.get(e.to);
+    return a && b && a.hall === scene.hall ? [linePath([a.position, b.position])] : [];
+  });
+  return (
+    <>
+      {hall && <path className="floor" d={ringPath([hall.outline])} />}
+      {hall && <path className="grid10" d={gridPath(hall.outline, 10)} />}
+      {areas.map((a) => (
+        <path key={a.id} className={areaClass[a.kind]} d={ringPath([a.outline])} />
+      ))}
+      {hall && <path className="hallw" d={ringPath([hall.outline])} />}
+      <path className="pfroute" d={lanes.join("")} />
+      {plant.stations
+        .filter((s) => s.hall === scene.hall)
+        .map((s) => (
+          <StationMark key={s.id} pose={s.pose} />
+        ))}
+      {vehicles
+        .filter((v) => v.id !== vehicle?.id && v.pose && v.hall === scene.hall)
+        .map((v) => (
+          <Body key={v.id} vehicle={v} plant={plant} />
+        ))}
+      {scene.swept.length > 0 && <path className="swept" d={ringPath(scene.swept)} />}
+      {scene.end && option && <GhostBody scene={scene} />}
+      {vehicle?.pose && <Body vehicle={vehicle} plant={plant} selected />}
+      {scene.way.length > 1 && <path className="prevline" d={linePath(scene.way)} />}
+      {scene.turn.length > 1 && <TurnArc points={scene.turn} />}
+    </>
+  );
+}
+
+function gridPath(outline: Ring, step_m: number): string {
+  const xs = outline.map((p) => p.x_m);
+  const ys = outline.map((p) => p.y_m);
+  const [x0, x1] = [Math.min(...xs), Math.max(...xs)];
+  const [y0, y1] = [Math.min(...ys), Math.max(...ys)];
+  let d = "";
+  for (let x = Math.ceil(x0 / step_m) * step_m; x < x1; x += step_m) d += `M${x} ${y0}V${y1}`;
+  for (let y = Math.ceil(y0 / step_m) * step_m; y < y1; y += step_m) d += `M${x0} ${y}H${x1}`;
+  return d;
+}
+
+/** Corner brackets of the station, as in the map. */
+function StationMark({ pose }: { pose: Pose }) {
+  const deg = (pose.heading_rad * 180) / Math.PI;
+  return (
+    <path
+      className="stn"
+      transform={`translate(${pose.x_m} ${pose.y_m}) rotate(${deg})`}
+      d="M-5.6 -1V-1.6H-5M5 -1.6H5.6V-1M5.6 1V1.6H5M-5 1.6H-5.6V1M-.5 0H.5M0 -.5V.5"
+    />
+  );
+}
+
+function Body({ vehicle, plant, selected }: { vehicle: Vehicle; plant: Plant; selected?: boolean }) {
+  const type = plant.vehicle_types.find((v) => v.id === vehicle.type);
+  if (!type || !vehicle.pose) return null;
+  const pose = vehicle.pose;
+  const nose = Math.max(...type.footprint.map((p) => p.x_m));
+  const arrow = Math.min(1, nose * 0.4);
+  const stale = vehicle.link !== "live";
+  return (
+    <g className={selected ? "sel" : stale ? "stl" : ""}>
+      {isLoaded(vehicle) && type.load_footprint.length > 2 && (
+        <path className={`load ${selected ? "sel" : ""}`} d={ringPath([placed(type.load_footprint, pose)])} />
+      )}
+      <path className="veh-b" d={ringPath([placed(type.footprint, pose)])} />
+      <path
+        className="veh-h"
+        transform={`translate(${pose.x_m} ${pose.y_m}) rotate(${(pose.heading_rad * 180) / Math.PI})`}
+        d={`M${nose - 0.3} 0L${nose - 0.3 - arrow} ${arrow * 0.65}L${nose - 0.3 - arrow * 0.7} 0L${nose - 0.3 - arrow} ${-arrow * 0.65}Z`}
+      />
+    </g>
+  );
+}
+
+function GhostBody({ scene }: { scene: Scene }) {
+  if (!scene.end || !scene.type) return null;
+  const nose = Math.max(...scene.type.footprint.map((p) => p.x_m));
+  const deg = (scene.end.heading_rad * 180) / Math.PI;
+  const [body, ...loads] = scene.ghost;
+  return (
+    <>
+      {loads.length > 0 && <path className="ghost" d={ringPath(loads)} />}
+      {body && <path className="goal" d={ringPath([body])} />}
+      <path
+        className="goal"
+        transform={`translate(${scene.end.x_m} ${scene.end.y_m}) rotate(${deg})`}
+        d={`M${nose - 1.8} -.62L${nose - 0.8} 0L${nose - 1.8} .62`}
+      />
+    </>
+  );
+}
+
+function TurnArc({ points }: { points: readonly Point[] }) {
+  const tip = points[points.length - 1];
+  const before = points[Math.max(0, points.length - 3)];
+  if (!tip || !before) return null;
+  const angle = (Math.atan2(tip.y_m - before.y_m, tip.x_m - before.x_m) * 180) / Math.PI;
+  return (
+    <>
+      <path className="prevline solid" d={linePath(points)} />
+      <path
+        className="granthead"
+        transform={`translate(${tip.x_m} ${tip.y_m}) rotate(${angle})`}
+        d="M.35 0L-.55 .4V-.4Z"
+      />
+    </>
+  );
+}
+
+function Labels(props: PreviewMapProps & { scene: Scene; view: View }) {
+  const { plant, vehicles, states, vehicle, target, option, picking, scene, view, onPick } = props;
+  const { t } = useTranslation("send");
+  const at = (p: Point): CSSProperties => {
+    const s = toShare(view, p);
+    return { left: `${s.x * 100}%`, top: `${s.y * 100}%` };
+  };
+  const stateOf = (id: string) => states.find((s) => s.station === id);
+  const drive = scene.way.length === 2 ? scene.way : undefined;
+  return (
+    <>
+      {plant.stations
+        .filter((s) => s.hall === scene.hall && inView(view, s.pose))
+        .map((s) => {
+          const state = stateOf(s.id);
+          const look = s.number === target ? "goal" : state?.occupied_by ? "occ" : state?.reserved_by ? "res" : "";
+          const place = plate(s.pose, view);
+          return picking ? (
+            <button
+              key={s.id}
+              type="button"
+              className={`tag big pickable ${look}`}
+              style={at(s.pose)}
+              onClick={() => onPick(s.number)}
+              aria-label={`${s.number}, ${s.name}`}
+            >
+              {s.number}
+            </button>
+          ) : (
+            <span key={s.id} className={`tag big ${look}`} style={at(place)}>
+              {s.number}
+            </span>
+          );
+        })}
+      {vehicles
+        .filter((v) => v.pose && v.hall === scene.hall && inView(view, v.pose))
+        .map((v) => {
+          const own = v.id === vehicle?.id;
+          if (!v.pose) return null;
+          const below = { x_m: v.pose.x_m, y_m: v.pose.y_m - Math.max(2.6, view.height * 0.06) };
+          return (
+            <span key={v.id} className={`vt ${own ? "sel" : v.link === "live" ? "" : "stl"}`} style={at(below)}>
+              {v.name} {v.load_name && <em>{v.load_name}</em>}
+            </span>
+          );
+        })}
+      {drive && option?.length_m !== undefined && (
+        <span className="lb dimt" style={at(middle(drive))}>
+          {t("preview.metres", { value: number(option.length_m, { decimals: 3 }) })}
+        </span>
+      )}
+      {scene.turn.length > 1 && (
+        <span className="lb dimt acc" style={at(outside(scene.turn, scene.end))}>
+          {number((Math.abs(scene.turn_rad) * 180) / Math.PI, { decimals: 1 })}°
+        </span>
+      )}
+    </>
+  );
+}
+
+/** The number plate stands off the station's corner, so that it covers no body. */
+function plate(pose: Pose, view: View): Point {
+  const off = Math.max(1.4, view.height * 0.035);
+  const s = Math.sin(pose.heading_rad);
+  const c = Math.cos(pose.heading_rad);
+  return { x_m: pose.x_m - 4.4 * c - (1.6 + off) * s, y_m: pose.y_m - 4.4 * s + (1.6 + off) * c };
+}
+
+function middle(way: readonly Point[]): Point {
+  const [a, b] = way;
+  if (!a || !b) return { x_m: 0, y_m: 0 };
+  return { x_m: (a.x_m + b.x_m) / 2, y_m: (a.y_m + b.y_m) / 2 };
+}
+
+function outside(arc: readonly Point[], centre: Point | undefined): Point {
+  const mid = arc[Math.floor(arc.length / 2)];
+  if (!mid || !centre) return { x_m: 0, y_m: 0 };
+  return { x_m: centre.x_m + (mid.x_m - centre.x_m) * 1.35, y_m: centre.y_m + (mid.y_m - centre.y_m) * 1.35 };
+}
+
+function useSize(ref: React.RefObject<HTMLDivElement | null>): { width: number; height: number } | undefined {
+  const [size, setSize] = useState<{ width: number; height: number }>();
+  useEffect(() => {
+    const element = ref.current;
+    if (!element) return;
+    const observer = new ResizeObserver(([entry]) => {
+      const box = entry?.contentRect;
+      if (box && box.width > 0 && box.height > 0) setSize({ width: box.width, height: box.height });
+    });
+    observer.observe(element);
+    return () => observer.disconnect();
+  }, [ref]);
+  return size;
+}

@@ -1,0 +1,108 @@
+import type { Point, Pose, Ring } from "@/shared/api/types";
+
+/** A window on the hall, in metres; y grows north. */
+export interface View {
+  left: number;
+  bottom: number;
+  width: number;
+  height: number;
+}
+
+export function boundsOf(rings: readonly Ring[]): { min: Point; max: Point } | undefined {
+  const min = { x_m: Infinity, y_m: Infinity };
+  const max = { x_m: -Infinity, y_m: -Infinity };
+  for (const ring of rings) {
+    for (const p of ring) {
+      min.x_m = Math.min(min.x_m, p.x_m);
+      min.y_m = Math.min(min.y_m, p.y_m);
+      max.x_m = Math.max(max.x_m, p.x_m);
+      max.y_m = Math.max(max.y_m, p.y_m);
+    }
+  }
+  return min.x_m <= max.x_m ? { min, max } : undefined;
+}
+
+/** The smallest window of the given shape that shows all rings with a margin round them. */
+export function viewOf(rings: readonly Ring[], aspect: number, margin = 0.12, least_m = 12): View | undefined {
+  const box = boundsOf(rings);
+  if (!box || !(aspect > 0)) return undefined;
+  let width = Math.max(least_m, box.max.x_m - box.min.x_m) * (1 + 2 * margin);
+  let height = Math.max(least_m / aspect, box.max.y_m - box.min.y_m) * (1 + 2 * margin);
+  if (width / height < aspect) width = height * aspect;
+  else height = width / aspect;
+  const cx = (box.min.x_m + box.max.x_m) / 2;
+  const cy = (box.min.y_m + box.max.y_m) / 2;
+  return { left: cx - width / 2, bottom: cy - height / 2, width, height };
+}
+
+/** Place in the window as shares from its left and top edge. */
+export function toShare(view: View, p: Point): { x: number; y: number } {
+  return { x: (p.x_m - view.left) / view.width, y: 1 - (p.y_m - view.bottom) / view.height };
+}
+
+export function inView(view: View, p: Point): boolean {
+  const s = toShare(view, p);
+  return s.x > 0.01 && s.x < 0.99 && s.y > 0.01 && s.y < 0.99;
+}
+
+/** SVG path of rings; y is flipped by the drawing's transform, not here. */
+export function ringPath(rings: readonly Ring[]): string {
+  return rings
+    .filter((ring) => ring.length > 2)
+    .map((ring) => `M${ring.map((p) => `${round(p.x_m)} ${round(p.y_m)}`).join("L")}Z`)
+    .join("");
+}
+
+export function linePath(points: readonly Point[]): string {
+  return points.length < 2 ? "" : `M${points.map((p) => `${round(p.x_m)} ${round(p.y_m)}`).join("L")}`;
+}
+
+/** A body outline at a pose of the hall. */
+export function placed(ring: Ring, pose: Pose): Ring {
+  const c = Math.cos(pose.heading_rad);
+  const s = Math.sin(pose.heading_rad);
+  return ring.map((p) => ({
+    x_m: pose.x_m + c * p.x_m - s * p.y_m,
+    y_m: pose.y_m + s * p.x_m + c * p.y_m,
+  }));
+}
+
+interface Segment {
+  kind: "rotate" | "straight" | "arc";
+  start: Pose;
+  end: Pose;
+  turn_rad: number;
+  centre?: Point | undefined;
+}
+
+/** Way of the body's centre; arcs as short chords. */
+export function wayOf(segments: readonly Segment[]): Point[] {
+  const way: Point[] = [];
+  for (const s of segments) {
+    if (s.kind === "rotate") continue;
+    if (way.length === 0) way.push({ x_m: s.start.x_m, y_m: s.start.y_m });
+    if (s.kind === "arc" && s.centre) {
+      const { x_m: cx, y_m: cy } = s.centre;
+      const radius = Math.hypot(s.start.x_m - cx, s.start.y_m - cy);
+      const from = Math.atan2(s.start.y_m - cy, s.start.x_m - cx);
+      const steps = Math.max(2, Math.ceil(Math.abs(s.turn_rad) / (Math.PI / 60)));
+      for (let i = 1; i < steps; ++i) {
+        const angle = from + (s.turn_rad * i) / steps;
+        way.push({ x_m: cx + radius * Math.cos(angle), y_m: cy + radius * Math.sin(angle) });
+      }
+    }
+    way.push({ x_m: s.end.x_m, y_m: s.end.y_m });
+  }
+  return way;
+}
+
+/** Arc of a turn on the spot, drawn at `radius_m` round the body's centre. */
+export function turnArc(s: Segment, radius_m: number): Point[] {
+  const steps = Math.max(2, Math.ceil(Math.abs(s.turn_rad) / (Math.PI / 60)));
+  return Array.from({ length: steps + 1 }, (_, i) => {
+    const angle = s.start.heading_rad + (s.turn_rad * i) / steps;
+    return { x_m: s.start.x_m + radius_m * Math.cos(angle), y_m: s.start.y_m + radius_m * Math.sin(angle) };
+  });
+}
+
+const round = (v: number): number => Math.round(v * 1000) / 1000;
