@@ -1,0 +1,54 @@
+#pragma once
+
+#include <array>
+#include <opencv2/core/mat.hpp>
+#include <span>
+#include <string>
+
+#include "core/geometry/pose2.hpp"
+#include "core/plant/plant.hpp"
+#include "core/simulation/image_conditions.hpp"
+#include "core/vision/optics.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// A QR code glued to the simulated floor: its true place, heading = direction of its "up" edge.
+struct FloorCode {
+    std::string payload;
+    Pose2 pose;
+    double size_m = 0.060;
+    bool mirrored = false;
+};
+
+inline constexpr int kQrModules = 21;
+using QrModules =
+    std::array<std::array<bool, kQrModules>, kQrModules>;  // true: dark; [row][column]
+
+/// Version 1, level Q. REQUIRES: a payload that fits (11 bytes or 16 capital letters, digits and
+/// dashes).
+QrModules qr_modules(const std::string& payload);
+
+/// The 8-bit grey image that `camera` takes at the true body pose: codes on white sheets with a
+/// quiet zone of 4 modules, printed edges sampled by exact pixel area, on a textured floor fixed to
+/// the hall. The same input gives the same image.
+cv::Mat render_floor(const plant::Camera& camera, const Pose2& hall_from_body,
+                     std::span<const FloorCode> codes, const ImageConditions& conditions);
+
+/// True projection of floor points, tilt and height error included (what `render_floor` draws).
+class FloorProjection {
+public:
+    FloorProjection(const plant::Camera& camera, const ImageConditions& conditions);
+
+    /// Camera floor frame (x along +u, y to the left of it) from an image point and back.
+    geometry::Point2 floor_from_image(vision::Pixel image) const;
+    vision::Pixel image_from_floor(geometry::Point2 floor) const;
+
+private:
+    plant::Camera camera_;
+    double height_m_;
+    std::array<double, 9> floor_from_ray_;  // rotation of the optical axis by the tilts
+};
+
+}  // namespace pulseline::simulation

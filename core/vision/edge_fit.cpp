@@ -1,0 +1,178 @@
+#include "core/vision/edge_fit.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/vision/sample.hpp"
+
+namespace pulseline::vision {
+namespace {
+
+// Half lengths of the profiles in px, wide at first to catch the decoder's truncated corners.
+constexpr std::array<int, 4> kReach_px{7, 5, 4, 4};
+constexpr std::array<double, 3> kAlong{-0.25, 0, 0.25};  // places on an edge, in modules
+constexpr int kFewestProfiles = 150;
+constexpr double kTukey = 4.685;  // 95 % efficiency for Gaussian residuals
+// Profiles at 0.25 module and the samples in them share pixels, so they are not independent.
+constexpr double kCorrelation = 1.5;
+
+/// A printed edge: between module (row, column) and its neighbour to the right or below.
+struct Edge {
+    double a = 0;  // middle, module coordinates
+    double b = 0;
+    bool vertical = false;  // the edge runs along b; its normal is +a
+    float before = 0;       // grey level on the side of smaller a (or b)
+    float after = 0;
+};
+
+struct Observation {
+    double a = 0;
+    double b = 0;
+    bool vertical = false;
+    double offset_px = 0;  // image edge minus model, along the normal
+};
+
+std::vector<Edge> printed_edges(const ModuleGrid& modules) {
+    const double half = (kModules - 1) / 2.0;
+    const float least = 0.35F * modules.contrast();
+    std::vector<Edge> edges;
+    const auto add = [&](int row, int column, int row2, int column2) {
+        if (!modules.valid(row, column) || !modules.valid(row2, column2)) return;
+        if (modules.dark(row, column) == modules.dark(row2, column2)) return;
+        const float before = modules.level(row, column);
+        const float after = modules.level(row2, column2);
+        if (std::abs(after - before) < least) return;
+        edges.push_back({(column + column2) / 2.0 - half, (row + row2) / 2.0 - half, row == row2,
+                         before, after});
+    };
+    for (int row = -1; row <= kModules; ++row) {
+        for (int column = -1; column <= kModules; ++column) {
+            const bool inner_row = row >= 0 && row < kModules;
+            const bool inner_column = column >= 0 && column < kModules;
+            if (inner_row && column < kModules) add(row, column, row, column + 1);
+            if (inner_column && row < kModules) add(row, column, row + 1, column);
+        }
+    }
+    return edges;
+}
+
+/// Where the edge lies on the profile through (a, b), in px from the model; by the area under the
+/// profile between the levels of the two modules.
+std::optional<double> edge_offset(const cv::Mat& grey, const plant::Camera& camera, Pixel foot,
+                                  Pixel normal, const Edge& edge, int reach_px) {
+    double sum = 0;
+    for (int t = -reach_px; t <= reach_px; ++t) {
+        const Pixel p = distorted(camera, foot + static_cast<double>(t) * normal);
+        if (!sampleable(grey, p)) return std::nullopt;
+        const double weight = std::abs(t) == reach_px ? 0.5 : 1;
+        sum += weight * (static_cast<double>(sample(grey, p) - edge.before));
+    }
+    // Fully "after" over the whole profile gives 2 reach; the edge at 0 gives reach.
+    return reach_px - sum / static_cast<double>(edge.after - edge.before);
+}
+
+std::vector<Observation> observe(const cv::Mat& grey, const plant::Camera& camera,
+                                 const std::vector<Edge>& edges, const CodePlacement& placement,
+                                 int reach_px) {
+    const Pixel along_a{std::cos(placement.angle_rad), std::sin(placement.angle_rad)};
+    const Pixel along_b{-along_a.v, along_a.u};
+    std::vector<Observation> seen;
+    seen.reserve(edges.size() * kAlong.size());
+    for (const Edge& edge : edges) {
+        for (const double step : kAlong) {
+            const double a = edge.a + (edge.vertical ? 0 : step);
+            const double b = edge.b + (edge.vertical ? step : 0);
+            const auto offset = edge_offset(grey, camera, placement.at(a, b),
+                                            edge.vertical ? along_a : along_b, edge, reach_px);
+            if (offset && std::abs(*offset) < reach_px)
+                seen.push_back({a, b, edge.vertical, *offset});
+        }
+    }
+    return seen;
+}
+
+double median_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+struct Step {
+    Eigen::Vector4d change =
+        Eigen::Vector4d::Zero();  // along a px, along b px, angle, relative scale
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+    double rms_px = 0;
+    double inlier_share = 0;
+    int inliers = 0;
+};
+
+/// Iteratively reweighted least squares on the offsets along the normals.
+Step solve(const std::vector<Observation>& seen, double module_px) {
+    Step step;
+    std::vector<double> magnitude(seen.size());
+    const auto row = [&](const Observation& o) {
+        // A point (a, b) moves by angle x (-b, a) and scale x (a, b).
+        return o.vertical ? Eigen::Vector4d{1, 0, -o.b * module_px, o.a * module_px}
+                          : Eigen::Vector4d{0, 1, o.a * module_px, o.b * module_px};
+    };
+    for (int pass = 0; pass < 5; ++pass) {
+        for (std::size_t i = 0; i < seen.size(); ++i)
+            magnitude[i] = std::abs(seen[i].offset_px - row(seen[i]).dot(step.change));
+        const double scale = std::max(1.4826 * median_of(magnitude), 1e-3);
+        Eigen::Matrix4d normal = Eigen::Matrix4d::Zero();
+        Eigen::Vector4d right = Eigen::Vector4d::Zero();
+        double squares = 0;
+        double weights = 0;
+        step.inliers = 0;
+        for (const Observation& o : seen) {
+            const Eigen::Vector4d j = row(o);
+            const double r = o.offset_px - j.dot(step.change);
+            const double x = r / (kTukey * scale);
+            if (std::abs(x) >= 1) continue;
+            const double w = (1 - x * x) * (1 - x * x);
+            normal.selfadjointView<Eigen::Lower>().rankUpdate(j, w);
+            right += w * o.offset_px * j;
+            squares += w * r * r;
+            weights += w;
+            ++step.inliers;
+        }
+        step.information = normal.selfadjointView<Eigen::Lower>();
+        step.change = step.information.ldlt().solve(right);
+        step.rms_px = weights > 0 ? std::sqrt(squares / weights) : 0;
+    }
+    return step;
+}
+
+}  // namespace
+
+std::optional<EdgeFit> fit_edges(const cv::Mat& grey, const plant::Camera& camera,
+                                 const ModuleGrid& modules, const CodePlacement& start) {
+    const std::vector<Edge> edges = printed_edges(modules);
+    EdgeFit fit;
+    fit.placement = start;
+    fit.profiles = static_cast<int>(edges.size() * kAlong.size());
+    Step step;
+    for (const int reach_px : kReach_px) {
+        const auto seen = observe(grey, camera, edges, fit.placement, reach_px);
+        if (static_cast<int>(seen.size()) < kFewestProfiles) return std::nullopt;
+        step = solve(seen, fit.placement.module_px);
+        const double c = std::cos(fit.placement.angle_rad);
+        const double s = std::sin(fit.placement.angle_rad);
+        const double da = step.change[0];
+        const double db = step.change[1];
+        fit.placement.centre = fit.placement.centre + Pixel{c * da - s * db, s * da + c * db};
+        fit.placement.angle_rad += step.change[2];
+        fit.placement.module_px *= 1 + step.change[3];
+    }
+    const Eigen::Matrix4d covariance =
+        kCorrelation * step.rms_px * step.rms_px * step.information.inverse();
+    fit.sigma_px = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)));
+    fit.sigma_angle_rad = std::sqrt(covariance(2, 2));
+    fit.rms_px = step.rms_px;
+    fit.inlier_share = static_cast<double>(step.inliers) / fit.profiles;
+    return fit;
+}
+
+}  // namespace pulseline::vision
