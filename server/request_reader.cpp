@@ -90,14 +90,6 @@ std::optional<api::Response> answer_to(const error_code& ec, const api::Request&
                                   {}},
                             request);
     }
-    if (ec == beast::error::timeout) {
-        return api::problem(408,
-                            Error{Errc::kTimeout,
-                                  {"request_timeout", {}},
-                                  "The request did not arrive in time; send it faster.",
-                                  {}},
-                            request);
-    }
     if (ec == http::error::end_of_stream || ec == http::error::partial_message ||
         ec.category() != http::make_error_code(http::error::bad_method).category()) {
         return std::nullopt;

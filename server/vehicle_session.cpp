@@ -89,7 +89,10 @@ net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
     while (session->close_with == 0) {
         error_code ec;
         co_await session->socket.async_read(buffer, into(ec));
-        if (ec) break;
+        if (ec) {
+            session->ended = true;
+            break;
+        }
         const std::string_view frame(static_cast<const char*>(buffer.cdata().data()),
                                      buffer.size());
         if (!session->socket.got_text()) {
@@ -101,8 +104,7 @@ net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
         }
         buffer.clear();
     }
-    session->ended = true;
-    session->signal.set();
+    session->signal.set();  // the writer closes
 }
 
 void log_end(const std::exception_ptr& error) {

@@ -50,14 +50,23 @@ TEST(Events, ResumeBehindLastEventIdWithoutGapOrDouble) {
 }
 
 TEST(Events, ComeFromTheHistoryWhenTheyAreOlderThanTheServer) {
-    MemoryStore old;
-    TestServer server;
-    make_events(server, 3);
+    MemoryStore store;
+    fleet::Records records;
+    std::vector<std::int64_t> expected;
+    for (std::int64_t seq = 1; seq <= 1200; ++seq) {  // more than two pages
+        fleet::Event event;
+        event.seq = seq;
+        event.type = "test";
+        records.events.push_back(event);
+        expected.push_back(seq);
+    }
+    store.commit(records);
+    TestServer server({}, &store);
     TcpClient client(server.port());
 
     open_events(client, server, "Last-Event-ID: 0\r\n");
 
-    EXPECT_EQ(read_ids(client, 3), (std::vector<std::int64_t>{1, 2, 3}));
+    EXPECT_EQ(read_ids(client, expected.size()), expected);
 }
 
 TEST(Events, RefuseAnIdThatIsNoNumberOrNotYetReached) {
@@ -120,9 +129,10 @@ TEST(Stream, EndsWhenTheServerStops) {
     WsClient client(server.port(), "/api/v1/stream", server.viewer_token());
     ASSERT_TRUE(client.read());
 
-    server.stop();
+    std::thread stopper([&] { server.stop(); });
 
     EXPECT_EQ(client.close_code(), 1001);
+    stopper.join();
 }
 
 }  // namespace

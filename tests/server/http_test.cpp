@@ -60,8 +60,8 @@ TEST(Http, CutsAHeaderThatNeverEnds) {
 
     client.send("GET /healthz HTTP/1.1\r\nHost: x\r\nX-Slow: ");
 
-    EXPECT_EQ(client.read_answer().status, 408);
     EXPECT_TRUE(client.at_end());
+    EXPECT_EQ(request(server.port(), "GET", "/healthz").status, 200);
 }
 
 TEST(Http, RefusesAHeaderOverTheLimit) {

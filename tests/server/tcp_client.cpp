@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <stdexcept>
 
 namespace pulseline::server::testing {
@@ -38,7 +39,8 @@ bool TcpClient::fill() {
     std::array<char, 16384> chunk{};
     const auto n = ::recv(socket_, chunk.data(), chunk.size(), 0);
     if (n <= 0) {
-        ended_ = true;
+        // Giving up after 10 s is not an end.
+        ended_ = n == 0 || (errno != EAGAIN && errno != EWOULDBLOCK);
         return false;
     }
     buffer_.append(chunk.data(), static_cast<std::size_t>(n));

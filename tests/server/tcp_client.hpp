@@ -24,7 +24,7 @@ public:
     /// Up to and with `end`; what there is when the connection ends.
     std::string read_until(const std::string& end);
     HttpAnswer read_answer(bool head_only = false);
-    /// True when the other side closed.
+    /// Reads to the end; true when the other side closed, false when it keeps the connection.
     bool at_end();
 
 private:

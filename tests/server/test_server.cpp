@@ -57,10 +57,10 @@ plant::Plant small_plant() {
     return plant;
 }
 
-TestServer::TestServer(Options options) {
+TestServer::TestServer(Options options, MemoryStore* store) : store_(store ? store : &own_store_) {
     options.listen = "127.0.0.1:0";
     server_ = std::make_unique<Server>(std::move(options),
-                                       Server::Parts{plant_, store_, store_, access_});
+                                       Server::Parts{plant_, *store_, *store_, access_});
     if (const auto started = server_->start(); !started) {
         throw std::runtime_error(started.error().what);
     }

@@ -17,14 +17,15 @@ plant::Plant small_plant();
 /// A real server on a free port of the loopback, over stores in memory.
 class TestServer {
 public:
-    explicit TestServer(Options options = {});
+    /// `store`: one that holds something already, outlives the server; null: an empty one.
+    explicit TestServer(Options options = {}, MemoryStore* store = nullptr);
     ~TestServer();
 
     std::uint16_t port() const { return server_->port(); }
     std::map<std::string, std::string> operator_token();
     std::map<std::string, std::string> viewer_token();
     std::string vehicle_token(const std::string& serial = "0001");
-    MemoryStore& store() { return store_; }
+    MemoryStore& store() { return *store_; }
     Server& server() { return *server_; }
     /// Ends it as SIGTERM does.
     void stop();
@@ -33,7 +34,8 @@ private:
     std::map<std::string, std::string> token(access::Role role);
 
     plant::Plant plant_ = small_plant();
-    MemoryStore store_;
+    MemoryStore own_store_;
+    MemoryStore* store_;
     MemoryAccess access_;
     std::unique_ptr<Server> server_;
     std::thread thread_;
