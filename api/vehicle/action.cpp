@@ -1,0 +1,209 @@
+#include "api/vehicle/action.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+namespace pulseline::fleet {
+
+// Beside the type, so that the reader finds it.
+static const char* to_string(BlockingType type) {
+    switch (type) {
+        case BlockingType::kNone:
+            return "NONE";
+        case BlockingType::kSoft:
+            return "SOFT";
+        case BlockingType::kHard:
+            return "HARD";
+    }
+    return "";
+}
+
+}  // namespace pulseline::fleet
+
+namespace pulseline::vda5050 {
+namespace {
+
+using fleet::Action;
+using fleet::BlockingType;
+using geometry::Pose2;
+
+/// Parameters as name -> value.
+class Parameters {
+public:
+    Parameters(json::ObjectReader& action) : object_(Json::object()) {
+        action.items_if_any("actionParameters", {0, 100},
+                            [&](const Json& item, const std::string& pointer) {
+                                json::ObjectReader in(item, pointer, action.errors());
+                                const std::string key = in.text("key", {1, 200});
+                                const Json* value = in.required("value");
+                                if (value != nullptr) object_[key] = *value;
+                            });
+    }
+    const Json& object() const { return object_; }
+
+private:
+    Json object_;
+};
+
+Json pose_json(const Pose2& pose) {
+    return {{"x_m", finite(pose.x_m)},
+            {"y_m", finite(pose.y_m)},
+            {"heading_rad", finite(pose.heading_rad)}};
+}
+
+Json stop_parameters(const fleet::StopTarget& target) {
+    Json markers = Json::array();
+    for (const auto& marker : target.markers) {
+        markers.push_back({{"payload", marker.payload},
+                           {"kind", marker.kind},
+                           {"size_m", finite(marker.size_m)},
+                           {"x_m", finite(marker.pose.x_m)},
+                           {"y_m", finite(marker.pose.y_m)},
+                           {"angle_rad", finite(marker.pose.heading_rad)},
+                           {"sigma_m", finite(marker.sigma_m)}});
+    }
+    return {{"stationId", target.station_id},
+            {"stationNumber", target.station_number},
+            {"target", pose_json(target.target)},
+            {"tolerance",
+             {{"x_m", finite(target.tolerance_x_m)},
+              {"y_m", finite(target.tolerance_y_m)},
+              {"heading_rad", finite(target.tolerance_heading_rad)}}},
+            {"markers", std::move(markers)}};
+}
+
+fleet::StopTarget read_stop(json::ObjectReader& in) {
+    fleet::StopTarget target;
+    target.station_id = in.text("stationId", {0, 200});
+    target.station_number = static_cast<int>(in.integer("stationNumber", {0, 1'000'000}));
+    auto pose = in.object("target");
+    target.target = {pose.number("x_m"), pose.number("y_m"), pose.number("heading_rad")};
+    auto tolerance = in.object("tolerance");
+    target.tolerance_x_m = tolerance.number("x_m", {0, 10});
+    target.tolerance_y_m = tolerance.number("y_m", {0, 10});
+    target.tolerance_heading_rad = tolerance.number("heading_rad", {0, 4});
+    in.items("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
+        json::ObjectReader marker(item, pointer, in.errors());
+        fleet::StopTarget::SurveyedMarker read;
+        read.payload = marker.text("payload", {1, 200});
+        read.kind = marker.text("kind", {1, 64});
+        read.size_m = marker.number("size_m", {1e-3, 10});
+        read.pose = {marker.number("x_m"), marker.number("y_m"), marker.number("angle_rad")};
+        read.sigma_m = marker.number_or("sigma_m", 0, {0, 10});
+        target.markers.push_back(std::move(read));
+    });
+    return target;
+}
+
+/// A number, or its text: strings are seen in the wild for initPosition.
+double lenient_number(json::ObjectReader& in, const char* name) {
+    const Json* value = in.required(name);
+    if (value == nullptr) return 0;
+    const std::string pointer = json::child_pointer(in.pointer(), std::string_view(name));
+    if (!value->is_string()) return json::read_number(*value, pointer, in.errors());
+    const auto& text = value->get_ref<const std::string&>();
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) {
+        in.errors().add(pointer, {"wrong_type", {{"expected", std::string("number")}}},
+                        "the value of " + std::string(name) + " is no number");
+        return 0;
+    }
+    return number;
+}
+
+fleet::InitPosition read_init_position(json::ObjectReader& in) {
+    fleet::InitPosition init;
+    init.pose = {lenient_number(in, "x"), lenient_number(in, "y"),
+                 wrap(lenient_number(in, "theta"))};
+    init.map_id = in.text("mapId", {1, 200});
+    init.last_node_id = in.text_or("lastNodeId", "", {0, 200});
+    return init;
+}
+
+Json init_parameters(const fleet::InitPosition& init) {
+    return {{"x", finite(init.pose.x_m)},
+            {"y", finite(init.pose.y_m)},
+            {"theta", finite(init.pose.heading_rad)},
+            {"mapId", init.map_id},
+            {"lastNodeId", init.last_node_id}};
+}
+
+Params plain_parameters(const Json& object) {
+    Params params;
+    for (const auto& [key, value] : object.items()) {
+        if (value.is_boolean()) params.push_back({key, value.get<bool>()});
+        if (value.is_number_integer()) params.push_back({key, value.get<std::int64_t>()});
+        if (value.is_number_float()) params.push_back({key, value.get<double>()});
+        if (value.is_string()) params.push_back({key, value.get<std::string>()});
+    }
+    return params;
+}
+
+}  // namespace
+
+Json encode_action(const Action& action) {
+    Json object = Json::object();
+    for (const auto& param : action.params) {
+        std::visit([&](const auto& value) { object[param.name] = value; }, param.value);
+    }
+    if (action.stop_target) object.update(stop_parameters(*action.stop_target));
+    if (action.init_position) object.update(init_parameters(*action.init_position));
+    Json parameters = Json::array();
+    for (const auto& [key, value] : object.items()) {
+        parameters.push_back({{"key", key}, {"value", value}});
+    }
+    return {{"actionType", action.type},
+            {"actionId", action.id},
+            {"blockingType", to_string(action.blocking)},
+            {"actionParameters", std::move(parameters)}};
+}
+
+Action decode_action(const Json& value, const std::string& pointer, json::FieldErrors& errors) {
+    json::ObjectReader in(value, pointer, errors);
+    Action action;
+    action.type = in.text("actionType", {1, 200});
+    action.id = in.text("actionId", {1, 200});
+    action.blocking =
+        in.one_of("blockingType", {BlockingType::kNone, BlockingType::kSoft, BlockingType::kHard});
+    const Parameters parameters(in);
+    json::ObjectReader read(parameters.object(), pointer + "/actionParameters", errors);
+    if (action.type == "measureStop" || action.type == "adjustToMarker") {
+        action.stop_target = read_stop(read);
+    } else if (action.type == "initPosition") {
+        action.init_position = read_init_position(read);
+    } else {
+        action.params = plain_parameters(parameters.object());
+    }
+    return action;
+}
+
+std::string encode_measurement(const fleet::StopMeasurement& measurement) {
+    Json result = pose_json(measurement.pose);
+    result["sigma_xy_m"] = finite(measurement.sigma_xy_m);
+    result["sigma_heading_rad"] = finite(measurement.sigma_heading_rad);
+    result["method"] = measurement.method;
+    result["markers"] = measurement.markers;
+    return print(result);
+}
+
+Result<fleet::StopMeasurement> decode_measurement(std::string_view text) {
+    const auto parsed = json::parse_json(text);
+    if (!parsed) return fail(parsed.error());
+    json::FieldErrors errors;
+    json::ObjectReader in(*parsed, "", errors);
+    fleet::StopMeasurement found;
+    found.pose = {in.number("x_m"), in.number("y_m"), in.number("heading_rad")};
+    found.sigma_xy_m = in.number_or("sigma_xy_m", 0, {0, 100});
+    found.sigma_heading_rad = in.number_or("sigma_heading_rad", 0, {0, 4});
+    found.method = in.text_or("method", "", {0, 64});
+    in.items_if_any("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
+        found.markers.push_back(json::read_text(item, pointer, errors, {1, 200}));
+    });
+    if (auto status = errors.status(); !status) return fail(status.error());
+    return found;
+}
+
+}  // namespace pulseline::vda5050

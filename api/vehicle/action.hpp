@@ -1,0 +1,18 @@
+#pragma once
+
+#include "api/vehicle/header.hpp"
+#include "core/fleet/vehicle_messages.hpp"
+
+namespace pulseline::vda5050 {
+
+/// An action of an order or an instant action. Our own ones carry their target as parameters with
+/// object values, as 2.1 allows.
+Json encode_action(const fleet::Action& action);
+fleet::Action decode_action(const Json& value, const std::string& pointer,
+                            json::FieldErrors& errors);
+
+/// resultDescription of measureStop and adjustToMarker.
+std::string encode_measurement(const fleet::StopMeasurement& measurement);
+[[nodiscard]] Result<fleet::StopMeasurement> decode_measurement(std::string_view text);
+
+}  // namespace pulseline::vda5050

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/plant/plant.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// A floor code where it truly lies, which the survey only nearly knows.
+struct TrueMarker {
+    std::string payload;
+    plant::MarkerKind kind = plant::MarkerKind::kQr;
+    double size_m = 0;
+    plant::HallId hall;
+    Pose2 pose;
+};
+
+/// What the simulated hall is like in truth: the plant as drawn and the codes as they lie.
+struct World {
+    plant::Plant plant;
+    std::vector<TrueMarker> markers;
+};
+
+/// The codes' true poses are survey + an error of the survey's sigma, drawn from the seed. Every
+/// program with the same plant and seed sees the same world.
+World make_world(plant::Plant plant, std::uint64_t seed);
+
+/// A seed of its own for each thing of a world, from its name.
+std::uint64_t seed_for(std::uint64_t seed, const std::string& name);
+
+/// Where a vehicle's machine truly stands when the world begins: at home, placed by people to within
+/// 8 mm and 0.1 deg, so that both cameras see their codes. Error: not_found without a home station.
+Result<Pose2> placed_pose(const World& world, const plant::Vehicle& vehicle, std::uint64_t seed);
+
+}  // namespace pulseline::simulation
