@@ -1,0 +1,177 @@
+import { useTranslation } from "react-i18next";
+import type { JobOrder, StopRecord, Vehicle } from "@/shared/api/types";
+import { Link } from "@/shared/router";
+import { StatusSymbol } from "@/shared/ui";
+import { degrees, millimetres, timeOfDay } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { reached, type Milestone, type MoveProgress } from "./progress";
+
+const milestones: readonly Milestone[] = ["requested", "accepted", "confirmed", "arrived"];
+
+export interface MovePanelProps {
+  order: JobOrder | undefined;
+  vehicle: Vehicle | undefined;
+  progress: MoveProgress;
+  orderId: string;
+}
+
+/** The move under way, from the server's order and the vehicle's own reports only. */
+export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps) {
+  const { t } = useTranslation("send");
+  const words = useWords();
+  const step = order?.steps[Math.min(order.current_step, order.steps.length - 1)];
+  const name = order?.name ?? "";
+  const vehicleName = order?.vehicle ? words.vehicle(order.vehicle) : (vehicle?.name ?? "");
+  const done = reached(progress);
+  return (
+    <section className="card move" aria-label={t("move.steps")}>
+      <header>
+        <h2>{t("move.title", { order: name, vehicle: vehicleName, number: step?.number ?? "" })}</h2>
+        <span className="grow" />
+        {order?.expected_at && progress.kind !== "arrived" && (
+          <span className="cap nw">{t("move.expected", { time: timeOfDay(order.expected_at) })}</span>
+        )}
+      </header>
+      <div className="in">
+        <ol className="miles">
+          {milestones.map((m) => (
+            <li key={m} className={done.includes(m) ? "done" : ""} data-done={done.includes(m)}>
+              <span className="dot">{done.includes(m) && <StatusSymbol name="c-ok" />}</span>
+              <span>{t(`move.${m}`, { order: name, vehicle: vehicleName })}</span>
+            </li>
+          ))}
+        </ol>
+        <p className="now" role="status">
+          <StatusSymbol name={nowSymbol(progress, order)} />
+          <span>{sentence()}</span>
+        </p>
+        {(progress.kind === "moving" || progress.kind === "measuring") && (
+          <Bar progress={progress.kind === "moving" ? progress.progress : 1} granted={progress.kind === "moving" ? progress.granted : 1} />
+        )}
+        {progress.kind === "arrived" && <Arrival stop={progress.stop} />}
+        <p className="lab next">{next()}</p>
+        <div className="row links">
+          <Link className="btn" to={`/orders/${orderId}`}>
+            {t("move.to_order")}
+          </Link>
+          {order?.vehicle && (
+            <Link className="btn" to={`/vehicles/${encodeURIComponent(order.vehicle)}`}>
+              {t("move.to_vehicle")}
+            </Link>
+          )}
+          {progress.kind === "arrived" && progress.stop && (
+            <Link className="btn" to={`/records/${progress.stop.id}`}>
+              {t("move.to_record")}
+            </Link>
+          )}
+        </div>
+      </div>
+    </section>
+  );
+
+  function sentence(): string {
+    const reason = order?.reason ?? vehicle?.reason;
+    switch (progress.kind) {
+      case "stored":
+        return order?.reason ? words.reason(order.reason) : t("move.stored");
+      case "assigned":
+        return reason ? words.reason(reason) : t("move.assigned", { vehicle: vehicleName });
+      case "held":
+        return reason ? t("move.held", { why: words.reason(reason) }) : t("move.held_plain");
+      case "aborted":
+        return order?.reason ? t("move.aborted", { why: words.reason(order.reason) }) : t("move.aborted_plain");
+      case "arrived":
+        return progress.stop ? t(progress.stop.inside ? "move.inside" : "move.outside") : t("move.arrived");
+      default:
+        return t(`move.${progress.kind}`);
+    }
+  }
+  function next(): string {
+    if (progress.kind === "held" || progress.kind === "paused") return t("move.next_held");
+    if (progress.kind === "aborted") return t("move.next_aborted");
+    if (progress.kind === "arrived" && progress.stop && !progress.stop.inside) return t("move.next_outside");
+    return "";
+  }
+}
+
+function nowSymbol(progress: MoveProgress, order: JobOrder | undefined) {
+  switch (progress.kind) {
+    case "moving":
+      return "s-moving";
+    case "measuring":
+      return "s-measure";
+    case "held":
+    case "aborted":
+      return "a-2";
+    case "arrived":
+      return progress.stop && !progress.stop.inside ? "a-2" : "c-ok";
+    default:
+      return order ? "s-wait" : "s-stale";
+  }
+}
+
+function Bar({ progress, granted }: { progress: number; granted: number }) {
+  const { t } = useTranslation("send");
+  const percent = (v: number) => Math.round(v * 100);
+  return (
+    <div className="waybar">
+      <div
+        role="progressbar"
+        aria-label={t("move.progress")}
+        aria-valuenow={percent(progress)}
+        aria-valuemin={0}
+        aria-valuemax={100}
+        className="way"
+      >
+        <i className="grantpart" style={{ width: `${percent(granted)}%` }} />
+        <i className="drivenpart" style={{ width: `${percent(progress)}%` }} />
+      </div>
+      <div className="row">
+        <span className="cap">{t("move.driven", { percent: percent(progress) })}</span>
+        <span className="grow" />
+        <span className="cap">{t("move.granted", { percent: percent(granted) })}</span>
+      </div>
+    </div>
+  );
+}
+
+function Arrival({ stop }: { stop: StopRecord | undefined }) {
+  const { t } = useTranslation("send");
+  if (!stop) return <p className="lab">{t("move.no_record")}</p>;
+  const { tolerance } = stop;
+  return (
+    <div className="arrival">
+      <Deviation name="dx" text={millimetres(stop.dx_m, { decimals: 2, sign: true })} unit="mm" value={stop.dx_m} limit={tolerance.dx_m} limitText={millimetres(tolerance.dx_m)} />
+      <Deviation name="dy" text={millimetres(stop.dy_m, { decimals: 2, sign: true })} unit="mm" value={stop.dy_m} limit={tolerance.dy_m} limitText={millimetres(tolerance.dy_m)} />
+      <Deviation name="dθ" text={`${degrees(stop.dheading_rad, { sign: true })}°`} unit="" value={stop.dheading_rad} limit={tolerance.dheading_rad} limitText={degrees(tolerance.dheading_rad, { decimals: 1 })} />
+    </div>
+  );
+}
+
+/** A deviation on its tolerance band: the band is 5/6 of the width, so that outside can be seen. */
+function Deviation(props: { name: string; text: string; unit: string; value: number; limit: number; limitText: string }) {
+  const x = 50 + Math.max(-1.18, Math.min(1.18, props.value / props.limit)) * 41.67;
+  return (
+    <div className="dv">
+      <div className="dl">{props.name}</div>
+      <div className="val lg">
+        <b>{props.text}</b>
+        {props.unit && <u>{props.unit}</u>}
+      </div>
+      <div className="gw">
+        <svg className="gg" viewBox="0 0 100 28" preserveAspectRatio="none" aria-hidden="true">
+          <rect x="0" y="10" width="100" height="8" fill="var(--surface-3)" />
+          <rect x="8.33" y="6" width="83.33" height="16" fill="var(--band)" />
+          <path d="M8.33 2V26M91.67 2V26" stroke="var(--ink-2)" strokeWidth="1.5" vectorEffect="non-scaling-stroke" />
+          <path d="M50 6V22" stroke="var(--band-edge)" strokeWidth="1" vectorEffect="non-scaling-stroke" />
+          <path d={`M${x} 0V28`} stroke="var(--needle)" strokeWidth="4" vectorEffect="non-scaling-stroke" />
+        </svg>
+        <div className="gt">
+          <span style={{ left: "8.33%" }}>−{props.limitText}</span>
+          <span style={{ left: "50%" }}>0</span>
+          <span style={{ left: "91.67%" }}>+{props.limitText}</span>
+        </div>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,257 @@
+import { useCallback, useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { MotionMode, NewJobOrder } from "@/shared/api/types";
+import {
+  useCommandsEnabled,
+  useJobOrder,
+  useLive,
+  useMayCommand,
+  usePlant,
+  useStations,
+  useStopRecords,
+  useVehicle,
+  useVehicles,
+} from "@/shared/live";
+import { useLocation } from "@/shared/router";
+import { Button, PanelFailed } from "@/shared/ui";
+import { useNarrow } from "@/shared/ui/useNarrow";
+import { duration, number } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { ChecksStep, useChecksSummary } from "./ChecksStep";
+import { ModeStep } from "./ModeStep";
+import { MovePanel } from "./MovePanel";
+import { capitalise, moveWords } from "./moveWords";
+import { chosenOption, previewKey, readiness } from "./preview";
+import { PreviewMap } from "./PreviewMap";
+import { Measures } from "./PreviewPanel";
+import { moveProgress } from "./progress";
+import { StartBar } from "./StartBar";
+import { lookUpStation, stationOf } from "./stationEntry";
+import { StationStep } from "./StationStep";
+import { Step } from "./Step";
+import { usePreview, type PreviewQuestion } from "./usePreview";
+import { useStart } from "./useStart";
+import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
+import "./send.css";
+
+/** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
+export function SendPage() {
+  const { t } = useTranslation("send");
+  const words = useWords();
+  const place = usePlace();
+  const summary = useChecksSummary();
+  const narrow = useNarrow();
+  const { query } = useLocation();
+  const plant = usePlant().data;
+  const allVehicles = useVehicles();
+  const vehicles = useMemo(() => sortForSending(allVehicles, plant), [allVehicles, plant]);
+  const stations = useStations();
+  const states = useMemo(() => stations.flatMap((s) => (s.state ? [s.state] : [])), [stations]);
+  const stops = useStopRecords();
+  const linkUp = useCommandsEnabled();
+  const mayCommand = useMayCommand();
+  const streamReady = useLive((s) => s.ready);
+
+  const [vehicleId, setVehicleId] = useState(query.get("vehicle") ?? undefined);
+  const [digits, setDigits] = useState(query.get("station") ?? "");
+  const [mode, setMode] = useState<MotionMode>("auto");
+  const [choosing, setChoosing] = useState(false);
+  const [picking, setPicking] = useState(false);
+  const [openStep, setOpenStep] = useState<number>();
+
+  const vehicle = useVehicle(vehicleId ?? (vehicles.length === 1 ? vehicles[0]?.id : undefined));
+  const entry = lookUpStation(digits, plant, states, vehicle);
+  const station = stationOf(entry);
+  const asks = vehicle !== undefined && station !== undefined && entry.kind !== "wrong_type" && linkUp;
+  const question: PreviewQuestion | undefined = asks
+    ? {
+        key: previewKey({
+          vehicle: vehicle.id,
+          station: station.number,
+          mode,
+          pose: vehicle.pose,
+          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}`,
+          stationsKey: states.map((s) => `${s.occupied_by}/${s.reserved_by}`).join(","),
+        }),
+        vehicle: vehicle.id,
+        station: station.number,
+        mode,
+      }
+    : undefined;
+  const { preview, retry } = usePreview(question);
+  const data = preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
+  const step = data?.steps[0];
+  const option = chosenOption(step, mode);
+  const feasible = option?.feasible ? option : undefined;
+  const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview });
+
+  const body = useMemo<NewJobOrder | undefined>(
+    () =>
+      canStart.kind === "ready" && vehicle && station && feasible
+        ? { vehicle: vehicle.id, priority: 0, steps: [{ station: station.number, motion_mode: feasible.mode }] }
+        : undefined,
+    [canStart.kind, vehicle, station, feasible],
+  );
+  const start = useStart(body);
+  const { command } = start;
+
+  const orderId = command.kind === "accepted" ? command.orderId : undefined;
+  const order = useJobOrder(orderId);
+  const mover = useVehicle(order?.vehicle || (command.kind === "accepted" ? command.vehicle : "") || undefined);
+  const progress = moveProgress(order, mover, stops);
+
+  const selectVehicle = useCallback((id: string) => {
+    setVehicleId(id);
+    setChoosing(false);
+    setMode("auto");
+    setOpenStep(undefined);
+  }, []);
+  const enter = useCallback((next: string) => {
+    setDigits(next);
+    setMode("auto");
+  }, []);
+  const pick = useCallback((stationNumber: number) => {
+    setDigits(String(stationNumber));
+    setMode("auto");
+    setPicking(false);
+    setOpenStep(undefined);
+  }, []);
+
+  const current = openStep ?? (!vehicle ? 1 : !station ? 2 : 4);
+  const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
+  const unreachable = noWay ? step.options.find((o) => o.reason)?.reason : undefined;
+  const target = orderId ? order?.steps[order.current_step]?.number : station?.number;
+
+  const title =
+    vehicle && station
+      ? vehicle.load_name
+        ? t("say.carries", { vehicle: vehicle.name, load: vehicle.load_name, number: station.number })
+        : t("say.drives", { vehicle: vehicle.name, number: station.number })
+      : t("say.choose");
+  const what = feasible
+    ? `${capitalise(moveWords(feasible.segments ?? [], (k, p) => t(k, p), t("words.join")))}${t("say.stop")} ${t("say.people")}`
+    : "";
+
+  const steps = (
+    <>
+      <div className="c1">
+        <Step
+          number={1}
+          title={t("vehicle.title")}
+          answer={vehicle && t("vehicle.answer", { vehicle: vehicle.name, where: place(vehicle) })}
+          open={current === 1}
+          onOpen={() => setOpenStep(1)}
+        >
+          <VehicleStep
+            vehicles={vehicles}
+            selected={vehicle}
+            choosing={choosing || (narrow && openStep === 1)}
+            onChoose={() => setChoosing(true)}
+            onSelect={selectVehicle}
+          />
+        </Step>
+        <Step
+          number={2}
+          title={t("station.title")}
+          answer={station && t("station.answer", { number: station.number, place: station.name })}
+          open={current === 2}
+          onOpen={() => setOpenStep(2)}
+        >
+          <StationStep
+            digits={digits}
+            entry={entry}
+            plant={plant}
+            unreachable={unreachable}
+            picking={picking}
+            onDigits={(next) => {
+              enter(next);
+              if (narrow) setOpenStep(2);
+            }}
+            onPick={() => setPicking((on) => !on)}
+          />
+          {narrow && station && (
+            <Button className="wide" onPress={() => setOpenStep(undefined)}>
+              {t("station.next")}
+            </Button>
+          )}
+        </Step>
+      </div>
+      <div className="c2">
+        <Step
+          number={3}
+          title={t("mode.title")}
+          answer={
+            feasible && t("mode.answer", { mode: words.mode(feasible.mode), time: duration(feasible.duration_s) })
+          }
+          open={current === 3}
+          onOpen={() => setOpenStep(3)}
+        >
+          <ModeStep
+            preview={preview}
+            step={step}
+            mode={mode}
+            onMode={(next) => {
+              setMode(next);
+              setOpenStep(undefined);
+            }}
+          />
+        </Step>
+        <Step number={4} title={t("checks.title")} right={summary(data?.checks)} open={current === 4}>
+          {preview.kind === "failed" ? (
+            <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={retry} />
+          ) : (
+            <ChecksStep preview={preview} checks={data?.checks} />
+          )}
+        </Step>
+      </div>
+    </>
+  );
+
+  return (
+    <>
+      <h1 className="sr-only">{t("title")}</h1>
+      <div className={`sgrid ${orderId ? "moving" : ""}`} data-step={current}>
+        {orderId ? <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} /> : steps}
+        <section className="card c3" aria-label={t("preview.title")}>
+          <header className="stp">
+            <i aria-hidden="true">5</i>
+            <h2>{t("preview.title")}</h2>
+            {!orderId && feasible?.swept_area_m2 !== undefined && (
+              <span className="ans r">{t("preview.swept", { area: number(feasible.swept_area_m2) })}</span>
+            )}
+          </header>
+          {plant && streamReady ? (
+            <PreviewMap
+              plant={plant}
+              vehicles={allVehicles}
+              states={states}
+              vehicle={orderId ? mover : vehicle}
+              target={target}
+              option={orderId ? undefined : feasible}
+              picking={picking && !orderId}
+              onPick={pick}
+            />
+          ) : (
+            <p className="lab pad-top">{t("preview.wait")}</p>
+          )}
+          {!orderId && <Measures option={feasible} step={step} station={station} plant={plant} />}
+        </section>
+      </div>
+      {orderId ? (
+        <div className="card confirm">
+          <div className="grow say">
+            <strong>{order?.name ?? ""}</strong>
+            <span className="lab">
+              {order ? t("move.state", { state: t(`words:job.${order.state}`), by: order.created_by }) : ""}
+            </span>
+          </div>
+          <Button motion className="go" onPress={start.done}>
+            {t("start.next")}
+          </Button>
+        </div>
+      ) : (
+        <StartBar start={start} readiness={canStart} title={title} what={what} />
+      )}
+    </>
+  );
+}
