@@ -1,0 +1,216 @@
+import type { Point } from "@/shared/api/types";
+import { boxOf, splitPath, type MetricPoint } from "@/shared/math/geometry";
+import type { Pen } from "./pen";
+import type { DrawnVehicle, HallModel, MapOverlays } from "./scene";
+import { detailOf } from "./view";
+
+const kMinLengthPx = 10;
+const kManyInView = 200;
+
+/** Everything that moves, in the order: horizon, grants, preview, loads, vehicles. */
+export function drawLive(pen: Pen, model: HallModel, vehicles: readonly DrawnVehicle[], overlays: MapOverlays): void {
+  const few = vehicles.length <= 40;
+  for (const v of vehicles) if (v.selected) drawRoute(pen, v);
+  for (const v of vehicles) if (!v.selected && few && v.moving) drawOtherRoute(pen, v);
+  drawPreview(pen, overlays);
+  for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
+  for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
+  for (const v of vehicles) drawVehicle(pen, v);
+  drawGhost(pen, model, overlays);
+}
+
+function arrowHead(pen: Pen, path: readonly MetricPoint[], size: number, filled: boolean, colour: string): void {
+  const end = path[path.length - 1];
+  if (end === undefined) return;
+  const e = pen.at(end.x_m, end.y_m);
+  // Direction over the last few pixels, so that a short last piece does not turn the head.
+  let from: { x: number; y: number } | undefined;
+  for (let i = path.length - 2; i >= 0; i--) {
+    from = pen.at(path[i]!.x_m, path[i]!.y_m);
+    if (Math.hypot(e.x - from.x, e.y - from.y) > size) break;
+  }
+  if (from === undefined || Math.hypot(e.x - from.x, e.y - from.y) < 1) return;
+  const a = Math.atan2(e.y - from.y, e.x - from.x);
+  const { g } = pen;
+  g.beginPath();
+  g.moveTo(e.x + size * 0.6 * Math.cos(a), e.y + size * 0.6 * Math.sin(a));
+  for (const turn of [2.4, -2.4]) g.lineTo(e.x + size * Math.cos(a + turn), e.y + size * Math.sin(a + turn));
+  g.closePath();
+  if (filled) pen.fill(colour);
+  else {
+    pen.fill(pen.palette["map-floor"]);
+    pen.stroke(colour, 1.5);
+  }
+}
+
+function drawRoute(pen: Pen, v: DrawnVehicle): void {
+  const { leg } = v.vehicle;
+  if (leg === undefined) return;
+  const { palette } = pen;
+  for (const ring of leg.horizon_area ?? []) {
+    pen.path(ring, true);
+    pen.stroke(palette.horizon, 1, [2, 4], 0.8);
+  }
+  pen.g.beginPath();
+  for (const ring of leg.granted_area) pen.path(ring, true, false);
+  pen.fill(palette["grant-fill"]);
+  pen.stroke(palette.grant, 1, [], 0.5);
+  const granted = leg.path.slice(0, leg.granted_points);
+  const [done, ahead] = splitPath(granted, v.pose);
+  pen.path(done, false);
+  pen.stroke(palette.grant, 1.5, [], 0.45);
+  pen.path(leg.path.slice(Math.max(0, leg.granted_points - 1)), false);
+  pen.stroke(palette.horizon, 2, [6, 5]);
+  if (granted.length < 2) return;
+  pen.path(ahead, false);
+  pen.stroke(palette.grant, 4);
+  arrowHead(pen, ahead, 11, true, palette.grant);
+}
+
+function drawOtherRoute(pen: Pen, v: DrawnVehicle): void {
+  const { leg } = v.vehicle;
+  if (leg === undefined || leg.granted_points < 2) return;
+  const [, ahead] = splitPath(leg.path.slice(0, leg.granted_points), v.pose);
+  pen.path(ahead, false);
+  pen.stroke(pen.palette["ink-3"], 2);
+  arrowHead(pen, ahead, 7, false, pen.palette["ink-3"]);
+}
+
+function drawPreview(pen: Pen, overlays: MapOverlays): void {
+  const { palette, g } = pen;
+  if (overlays.swept !== undefined && overlays.swept.length > 0) {
+    const outline = () => {
+      g.beginPath();
+      for (const ring of overlays.swept ?? []) pen.path(ring, true, false);
+    };
+    outline();
+    pen.hatch(palette["swept-hatch"], 8, 1.5);
+    outline();
+    pen.stroke(palette.swept, 1.5, [7, 4]);
+  }
+  if (overlays.path !== undefined && overlays.path.length > 1) {
+    pen.path(overlays.path as Point[], false);
+    pen.stroke(palette.swept, 2, [6, 5]);
+  }
+  for (const mark of overlays.marks ?? []) {
+    const p = pen.at(mark.x_m, mark.y_m);
+    g.beginPath();
+    g.arc(p.x, p.y, 7, 0, 7);
+    g.moveTo(p.x - 11, p.y);
+    g.lineTo(p.x + 11, p.y);
+    g.moveTo(p.x, p.y - 11);
+    g.lineTo(p.x, p.y + 11);
+    pen.stroke(palette.ink, 1.5);
+  }
+}
+
+function drawGhost(pen: Pen, model: HallModel, overlays: MapOverlays): void {
+  if (overlays.ghost === undefined) return;
+  const type = model.types.get(overlays.ghost.type);
+  if (type === undefined) return;
+  const box = boxOf(type.footprint);
+  const c = Math.min(0.7, (box.maxY - box.minY) * 0.28);
+  pen.body(type.footprint, overlays.ghost.pose);
+  pen.stroke(pen.palette.swept, 2);
+  const tip = box.maxX - 0.3 * c;
+  const chevron = [
+    { x_m: tip - 1.4 * c, y_m: c },
+    { x_m: tip, y_m: 0 },
+    { x_m: tip - 1.4 * c, y_m: -c },
+  ];
+  const { g } = pen;
+  const p = pen.at(overlays.ghost.pose.x_m, overlays.ghost.pose.y_m);
+  g.save();
+  g.translate(p.x, p.y);
+  g.rotate(-overlays.ghost.pose.heading_rad);
+  g.beginPath();
+  chevron.forEach((q, i) => (i === 0 ? g.moveTo(q.x_m * pen.k, -q.y_m * pen.k) : g.lineTo(q.x_m * pen.k, -q.y_m * pen.k)));
+  g.restore();
+  pen.stroke(pen.palette.swept, 2);
+}
+
+/** Floor that a silent vehicle keeps. */
+function drawHeldFloor(pen: Pen, v: DrawnVehicle): void {
+  const { leg } = v.vehicle;
+  pen.g.beginPath();
+  for (const ring of leg?.granted_area ?? []) pen.path(ring, true, false);
+  pen.stroke(pen.palette["ink-3"], 1, [2, 3]);
+}
+
+function drawLoad(pen: Pen, v: DrawnVehicle, fine: boolean): void {
+  const { load_footprint: shape } = v.type;
+  if (shape.length < 3) return;
+  const { palette } = pen;
+  pen.body(shape, v.pose);
+  pen.fill(palette["map-craft"], 0.72);
+  pen.stroke(v.selected ? palette["accent-line"] : palette["ink-2"], v.selected ? 2 : 1.5);
+  if (!fine || detailOf(pen.k) === "far") return;
+  const box = boxOf(shape);
+  pen.body([{ x_m: box.minX - 0.8, y_m: 0 }, { x_m: box.maxX + 0.8, y_m: 0 }], v.pose);
+  pen.stroke(palette["map-craft-fine"], 1, [12, 3, 2, 3]);
+}
+
+interface Ink {
+  body: string;
+  line: string;
+  mark: string;
+  dash: readonly number[];
+  width: number;
+}
+
+function inkOf(v: DrawnVehicle, p: Pen["palette"]): Ink {
+  if (v.stale) return { body: p["map-lane"], line: v.selected ? p.accent : p["ink-2"], mark: p["ink-2"], dash: [4, 3], width: 1.75 };
+  if (v.critical) return { body: p["critical-fill"], line: p.critical, mark: p["on-critical"], dash: [], width: 2 };
+  if (v.blocked) return { body: p["high-fill"], line: p["high-edge"], mark: p["on-high"], dash: [], width: 2 };
+  if (v.selected) return { body: p["veh-sel"], line: p["veh-halo"], mark: p["veh-sel-mark"], dash: [], width: 1.5 };
+  return { body: p.veh, line: p["veh-halo"], mark: p["veh-mark"], dash: [], width: 1.5 };
+}
+
+function drawVehicle(pen: Pen, v: DrawnVehicle): void {
+  const { g } = pen;
+  const ink = inkOf(v, pen.palette);
+  const box = boxOf(v.type.footprint);
+  const length = (box.maxX - box.minX) * pen.k;
+  const k = length < kMinLengthPx ? (pen.k * kMinLengthPx) / length : pen.k;
+  const p = pen.at(v.pose.x_m, v.pose.y_m);
+  g.save();
+  g.translate(p.x, p.y);
+  g.rotate(-v.pose.heading_rad);
+  g.beginPath();
+  v.type.footprint.forEach((q, i) => (i === 0 ? g.moveTo(q.x_m * k, -q.y_m * k) : g.lineTo(q.x_m * k, -q.y_m * k)));
+  g.closePath();
+  pen.fill(ink.body);
+  pen.stroke(ink.line, ink.width, ink.dash);
+  const detail = detailOf(pen.k);
+  if ((detail === "near" || detail === "close") && !v.stale) {
+    g.beginPath();
+    const reported = new Map(v.vehicle.wheels.map((w) => [w.name, w.steering_rad]));
+    for (const wheel of v.type.wheels) {
+      g.save();
+      g.translate(wheel.position.x_m * k, -wheel.position.y_m * k);
+      g.rotate(-(reported.get(wheel.name) ?? 0));
+      const r = (wheel.diameter_m / 2) * k;
+      g.rect(-r, -r * 0.35, 2 * r, r * 0.7);
+      g.restore();
+    }
+    pen.fill(ink.mark, 0.85);
+    g.beginPath();
+    for (const camera of v.type.cameras) {
+      const c = camera.body_from_camera;
+      g.moveTo(c.x_m * k + 4, -c.y_m * k);
+      g.arc(c.x_m * k, -c.y_m * k, 4, 0, 7);
+    }
+    pen.stroke(ink.mark, 1.5);
+  }
+  // Front arrow, cut out of the body.
+  const s = (box.maxY - box.minY) * 0.34;
+  const tip = box.maxX - 0.47 * s;
+  g.beginPath();
+  for (const [i, [x, y]] of [[tip, 0], [tip - 1.59 * s, s], [tip - 1.18 * s, 0], [tip - 1.59 * s, -s]].entries()) {
+    if (i === 0) g.moveTo(x! * k, -y! * k);
+    else g.lineTo(x! * k, -y! * k);
+  }
+  g.closePath();
+  pen.fill(ink.mark);
+  g.restore();
+}

@@ -1,0 +1,2 @@
+export { MapView, type MapHandle, type MapLayers, type MapOverlays, type MapViewProps, type Picked } from "./MapView";
+export { MapControls } from "./MapControls";

@@ -1,0 +1,105 @@
+import { boxesMeet, ringMeetsBox, type Box, type XY } from "@/shared/math/geometry";
+
+/** Something that wants a label: a vehicle or a station. */
+export interface LabelWish {
+  key: string;
+  /** Smaller comes first: selected, alarm, waiting, target station, moving, occupied station, the rest. */
+  rank: number;
+  /** Never dropped: selected and alarmed ones push. */
+  must: boolean;
+  width: number;
+  height: number;
+  /** The thing on the screen, around which places are tried. */
+  around: Box;
+}
+
+export interface Obstacles {
+  /** Never covered: vehicle bodies. */
+  bodies: readonly XY[][];
+  /** Covered only when nothing else is left: loads, aircraft. */
+  soft: readonly XY[][];
+  frame: Box;
+}
+
+export interface PlacedLabel {
+  key: string;
+  x: number;
+  y: number;
+  slot: number;
+}
+
+const kGap = 5;
+export const kSlots = 16;
+
+/** Centre of a label at one of eight places around the thing, then the same eight farther out. */
+export function slotCentre(wish: LabelWish, slot: number): XY {
+  const { around: b, width, height } = wish;
+  const far = slot >= 8 ? 18 : 0;
+  const mx = (b.minX + b.maxX) / 2;
+  const my = (b.minY + b.maxY) / 2;
+  const dx = (b.maxX - b.minX) / 2 + width / 2 + kGap + far;
+  const dy = (b.maxY - b.minY) / 2 + height / 2 + kGap + far;
+  const places: readonly XY[] = [
+    { x: mx, y: my + dy },
+    { x: mx, y: my - dy },
+    { x: mx + dx, y: my },
+    { x: mx - dx, y: my },
+    { x: mx - dx, y: my - dy + height },
+    { x: mx + dx, y: my - dy + height },
+    { x: mx + dx, y: my + dy - height },
+    { x: mx - dx, y: my + dy - height },
+  ];
+  return places[slot % 8]!;
+}
+
+const boxAt = (c: XY, w: number, h: number, pad = 1): Box => ({
+  minX: c.x - w / 2 - pad,
+  minY: c.y - h / 2 - pad,
+  maxX: c.x + w / 2 + pad,
+  maxY: c.y + h / 2 + pad,
+});
+
+const boundsOf = (ring: readonly XY[]): Box => ({
+  minX: Math.min(...ring.map((p) => p.x)),
+  minY: Math.min(...ring.map((p) => p.y)),
+  maxX: Math.max(...ring.map((p) => p.x)),
+  maxY: Math.max(...ring.map((p) => p.y)),
+});
+
+/**
+ * Puts labels in order of rank at the best free place of sixteen. What finds none is left out, never the thing it
+ * names; a label that must be shown takes the place that hides least. `previous` slots are kept while they are free.
+ */
+export function placeLabels(
+  wishes: readonly LabelWish[],
+  obstacles: Obstacles,
+  previous: ReadonlyMap<string, number>,
+): PlacedLabel[] {
+  const withBounds = (rings: readonly XY[][]) => rings.map((ring) => ({ ring, bounds: boundsOf(ring) }));
+  const bodies = withBounds(obstacles.bodies);
+  const soft = withBounds(obstacles.soft);
+  const hits = (items: typeof bodies, box: Box) =>
+    items.reduce((n, item) => n + (boxesMeet(item.bounds, box) && ringMeetsBox(item.ring, box) ? 1 : 0), 0);
+  const { frame } = obstacles;
+  const taken: Box[] = [];
+  const placed: PlacedLabel[] = [];
+  for (const wish of [...wishes].sort((a, b) => a.rank - b.rank)) {
+    let best: { cost: number; slot: number; centre: XY; box: Box } | undefined;
+    const kept = previous.get(wish.key);
+    for (let slot = 0; slot < kSlots; slot++) {
+      const centre = slotCentre(wish, slot);
+      const box = boxAt(centre, wish.width, wish.height);
+      const outside = box.minX < frame.minX || box.minY < frame.minY || box.maxX > frame.maxX || box.maxY > frame.maxY;
+      const clashes = taken.reduce((n, other) => n + (boxesMeet(other, box) ? 1 : 0), 0);
+      const covered = hits(bodies, box);
+      if (!wish.must && (outside || clashes > 0 || covered > 0)) continue;
+      const cost =
+        (outside ? 1000 : 0) + clashes * 300 + covered * 200 + hits(soft, box) * 20 + slot - (slot === kept ? 30 : 0);
+      if (best === undefined || cost < best.cost) best = { cost, slot, centre, box };
+    }
+    if (best === undefined) continue;
+    taken.push(best.box);
+    placed.push({ key: wish.key, x: best.centre.x, y: best.centre.y, slot: best.slot });
+  }
+  return placed;
+}

@@ -1,0 +1,112 @@
+import type { Area, Hall, Marker, Plant, Point, Pose, Ring, Station, StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import { boxOf, type Box } from "@/shared/math/geometry";
+import type { LivePose } from "@/shared/live/store";
+
+/** What a page lays over the hall: the preview of a move. */
+export interface MapOverlays {
+  /** Outline of platform and load all along the move. */
+  swept?: readonly Ring[];
+  /** The line the vehicle's centre takes. */
+  path?: readonly Point[];
+  /** Outline of a vehicle of `type` where the move ends. */
+  ghost?: { pose: Pose; type: string };
+  /** Station the move leads to. */
+  target?: string;
+  /** Places to point out, e.g. where the clearance is least. */
+  marks?: readonly Point[];
+}
+
+export interface MapLayers {
+  roadmap: boolean;
+  markers: boolean;
+  labels: boolean;
+  rulers: boolean;
+}
+export const allLayers: MapLayers = { roadmap: true, markers: true, labels: true, rulers: true };
+
+/** The plant as the renderer wants it: one hall, look-ups made once. */
+export interface HallModel {
+  hall: Hall;
+  box: Box;
+  areas: readonly Area[];
+  stations: readonly Station[];
+  markers: readonly Marker[];
+  types: ReadonlyMap<string, VehicleType>;
+  typeOf: ReadonlyMap<string, string>;
+  lanes: readonly { ax: number; ay: number; bx: number; by: number; big: boolean; oneWay: boolean }[];
+  /** Half length and half width of the bracket drawn at a station. */
+  bracket: ReadonlyMap<string, { l: number; w: number; big: boolean }>;
+}
+
+const kBigM = 6;
+
+function bracketOf(station: Station, plant: Plant): { l: number; w: number; big: boolean } {
+  const fits = plant.vehicle_types.filter(
+    (type) => station.vehicle_types.length === 0 || station.vehicle_types.includes(type.id),
+  );
+  // A station open to all is drawn for the smallest: it shows a place, not a size.
+  const boxes = fits.map((type) => boxOf(type.footprint));
+  const half = boxes.map((b) => ({ l: (b.maxX - b.minX) / 2, w: (b.maxY - b.minY) / 2 }));
+  half.sort((a, b) => (station.vehicle_types.length === 1 ? b.l - a.l : a.l - b.l));
+  const one = half[0] ?? { l: 1.3, w: 0.8 };
+  return { ...one, big: one.l * 2 > kBigM };
+}
+
+export function hallModel(plant: Plant, hallId?: string): HallModel | undefined {
+  const hall = plant.halls.find((h) => h.id === hallId) ?? plant.halls[0];
+  if (hall === undefined) return undefined;
+  const nodes = new Map(plant.roadmap.nodes.filter((n) => n.hall === hall.id).map((n) => [n.id, n.position]));
+  const bigTypes = new Set(
+    plant.vehicle_types.filter((type) => {
+      const b = boxOf(type.footprint);
+      return b.maxX - b.minX > kBigM;
+    }).map((type) => type.id),
+  );
+  const edges = new Set(plant.roadmap.edges.map((e) => `${e.from}>${e.to}`));
+  const lanes: { ax: number; ay: number; bx: number; by: number; big: boolean; oneWay: boolean }[] = [];
+  for (const edge of plant.roadmap.edges) {
+    const a = nodes.get(edge.from);
+    const b = nodes.get(edge.to);
+    if (a === undefined || b === undefined) continue;
+    const both = edges.has(`${edge.to}>${edge.from}`);
+    if (both && edge.from > edge.to) continue; // one line for the pair
+    const only = edge.vehicle_types ?? [];
+    const big = only.length > 0 && only.every((type) => bigTypes.has(type));
+    lanes.push({ ax: a.x_m, ay: a.y_m, bx: b.x_m, by: b.y_m, big, oneWay: !both });
+  }
+  const here = <T extends { hall: string }>(items: readonly T[]) => items.filter((item) => item.hall === hall.id);
+  const stations = here(plant.stations);
+  return {
+    hall,
+    box: boxOf(hall.outline),
+    areas: here(plant.areas),
+    stations,
+    markers: here(plant.markers),
+    types: new Map(plant.vehicle_types.map((type) => [type.id, type])),
+    typeOf: new Map(plant.vehicles.map((v) => [v.id, v.type])),
+    lanes,
+    bracket: new Map(stations.map((station) => [station.id, bracketOf(station, plant)])),
+  };
+}
+
+/** One vehicle as it is drawn in this frame. */
+export interface DrawnVehicle {
+  vehicle: Vehicle;
+  type: VehicleType;
+  pose: Pose;
+  ageS: number;
+  stale: boolean;
+  blocked: boolean;
+  critical: boolean;
+  waiting: boolean;
+  moving: boolean;
+  loaded: boolean;
+  selected: boolean;
+}
+
+export interface LiveInput {
+  vehicles: ReadonlyMap<string, Vehicle>;
+  stations: ReadonlyMap<string, StationState>;
+  poses: ReadonlyMap<string, LivePose>;
+  linkLost: boolean;
+}
