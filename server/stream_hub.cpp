@@ -120,10 +120,9 @@ void StreamHub::wake_all() {
 }
 
 void StreamHub::fill(StreamClient& client, const events::Snapshot& snapshot) {
+    if (client.overflowed) return;
+    // Changes that wait are older than the snapshot and go before it.
     client.subscribed = true;
-    client.changes.clear();
-    client.vehicles.clear();
-    client.bytes = 0;
     client.poses_seen = 0;
     // The snapshot itself is outside the limit: it is as large as the plant.
     client.changes.emplace_back(frame(events::snapshot_frame(plant_, images_, snapshot)));
