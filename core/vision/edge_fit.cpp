@@ -23,8 +23,9 @@ struct Edge {
     double a = 0;  // middle, module coordinates
     double b = 0;
     bool vertical = false;  // the edge runs along b; its normal is +a
-    float before = 0;       // grey level on the side of smaller a (or b)
+    float before = 0;       // grey level at the edge on the side of smaller a (or b), without blur
     float after = 0;
+    double slope_change = 0;  // grey levels per px: slope of the light after minus before
 };
 
 struct Observation {
@@ -34,18 +35,64 @@ struct Observation {
     double offset_px = 0;  // image edge minus model, along the normal
 };
 
-std::vector<Edge> printed_edges(const ModuleGrid& modules) {
+double median_of(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+/// Grey levels per module along a and b, of all dark or of all light modules: shading.
+struct Shading {
+    double along_a = 0;
+    double along_b = 0;
+};
+
+/// Slopes of a plane through the levels of one kind; the darker or lighter outliers (dirt) trimmed.
+Shading shading(const ModuleGrid& modules, bool dark) {
+    Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+    double limit = 1e9;
+    for (int pass = 0; pass < 3; ++pass) {
+        Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+        Eigen::Vector3d right = Eigen::Vector3d::Zero();
+        std::vector<double> residuals;
+        for (int row = -1; row <= kModules; ++row) {
+            for (int column = -1; column <= kModules; ++column) {
+                if (!modules.valid(row, column) || modules.dark(row, column) != dark) continue;
+                const Eigen::Vector3d j{1, static_cast<double>(column), static_cast<double>(row)};
+                const double residual = std::abs(modules.level(row, column) - j.dot(plane));
+                if (residual > limit) continue;
+                residuals.push_back(residual);
+                normal += j * j.transpose();
+                right += j * static_cast<double>(modules.level(row, column));
+            }
+        }
+        if (residuals.size() < 30) return {};
+        if (pass > 0) limit = std::max(1.0, 4 * median_of(residuals));
+        plane = normal.ldlt().solve(right);
+    }
+    return {plane[1], plane[2]};
+}
+
+/// Levels are measured half a module from the edge: carried to it along the shading.
+std::vector<Edge> printed_edges(const ModuleGrid& modules, double module_px) {
     const double half = (kModules - 1) / 2.0;
     const float least = 0.35F * modules.contrast();
+    const std::array<Shading, 2> slopes{shading(modules, false), shading(modules, true)};
     std::vector<Edge> edges;
     const auto add = [&](int row, int column, int row2, int column2) {
         if (!modules.valid(row, column) || !modules.valid(row2, column2)) return;
-        if (modules.dark(row, column) == modules.dark(row2, column2)) return;
-        const float before = modules.level(row, column);
-        const float after = modules.level(row2, column2);
+        const bool dark = modules.dark(row, column);
+        if (dark == modules.dark(row2, column2)) return;
+        const bool vertical = row == row2;
+        const Shading& first = slopes[dark ? 1 : 0];
+        const Shading& second = slopes[dark ? 0 : 1];
+        const double slope = vertical ? first.along_a : first.along_b;
+        const double slope2 = vertical ? second.along_a : second.along_b;
+        const auto before = static_cast<float>(modules.level(row, column) + slope / 2);
+        const auto after = static_cast<float>(modules.level(row2, column2) - slope2 / 2);
         if (std::abs(after - before) < least) return;
-        edges.push_back({(column + column2) / 2.0 - half, (row + row2) / 2.0 - half, row == row2,
-                         before, after});
+        edges.push_back({(column + column2) / 2.0 - half, (row + row2) / 2.0 - half, vertical,
+                         before, after, (slope2 - slope) / module_px});
     };
     for (int row = -1; row <= kModules; ++row) {
         for (int column = -1; column <= kModules; ++column) {
@@ -62,7 +109,7 @@ std::vector<Edge> printed_edges(const ModuleGrid& modules) {
 /// profile between the levels of the two modules.
 std::optional<double> edge_offset(const cv::Mat& grey, const plant::Camera& camera, Pixel foot,
                                   Pixel normal, const Edge& edge, int reach_px) {
-    double sum = 0;
+    double sum = -edge.slope_change * reach_px * reach_px / 2;
     for (int t = -reach_px; t <= reach_px; ++t) {
         const Pixel p = distorted(camera, foot + static_cast<double>(t) * normal);
         if (!sampleable(grey, p)) return std::nullopt;
@@ -91,12 +138,6 @@ std::vector<Observation> observe(const cv::Mat& grey, const plant::Camera& camer
         }
     }
     return seen;
-}
-
-double median_of(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
 }
 
 struct Step {
@@ -149,7 +190,7 @@ Step solve(const std::vector<Observation>& seen, double module_px) {
 
 std::optional<EdgeFit> fit_edges(const cv::Mat& grey, const plant::Camera& camera,
                                  const ModuleGrid& modules, const CodePlacement& start) {
-    const std::vector<Edge> edges = printed_edges(modules);
+    const std::vector<Edge> edges = printed_edges(modules, start.module_px);
     EdgeFit fit;
     fit.placement = start;
     fit.profiles = static_cast<int>(edges.size() * kAlong.size());

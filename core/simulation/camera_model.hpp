@@ -1,0 +1,28 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <span>
+
+#include "core/simulation/floor_camera.hpp"
+#include "core/vision/qr_reader.hpp"
+
+namespace pulseline::simulation {
+
+/// Errors of vision::read_qr as bench_vision measures them on nominal images.
+struct ReadingErrors {
+    double sigma_px = 0.0018;  // centre, per axis
+    double sigma_angle_rad = 1e-5;
+    double rms_px = 0.06;
+    double inlier_share = 0.97;
+};
+
+/// The code nearest to the middle of what `camera` sees with all its modules in view, read with
+/// the measured error instead of an image; nothing when no code is wholly in view.
+std::optional<vision::QrReading> analytic_reading(const plant::Camera& camera,
+                                                  const Pose2& hall_from_body,
+                                                  std::span<const FloorCode> codes,
+                                                  std::mt19937_64& random,
+                                                  const ReadingErrors& errors = {});
+
+}  // namespace pulseline::simulation

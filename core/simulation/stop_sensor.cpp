@@ -1,0 +1,83 @@
+#include "core/simulation/stop_sensor.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace pulseline::simulation {
+namespace {
+
+/// Only codes that can touch the image are worth projecting: the rest of the hall is skipped.
+std::vector<FloorCode> near(const plant::Camera& camera, const Pose2& hall_from_body,
+                            std::span<const FloorCode> codes) {
+    const geometry::Point2 foot = hall_from_body * camera.body_from_camera.position();
+    const double view_m =
+        std::hypot(camera.width_px, camera.height_px) / vision::pixels_per_metre(camera);
+    std::vector<FloorCode> kept;
+    for (const FloorCode& code : codes)
+        if (distance(code.pose.position(), foot) < view_m + 2 * code.size_m) kept.push_back(code);
+    return kept;
+}
+
+fleet::CameraReading not_found(const plant::Camera& camera, std::string why) {
+    fleet::CameraReading reading;
+    reading.camera = camera.name;
+    reading.why_not = std::move(why);
+    return reading;
+}
+
+/// What the vehicle makes of the true image point when its calibration differs from the truth.
+vision::QrReading reinterpreted(vision::QrReading reading, const plant::Camera& actual,
+                                const plant::Camera& calibrated) {
+    const vision::Pixel ideal = vision::undistorted(calibrated, reading.centre);
+    reading.x_m = ideal.u / vision::pixels_per_metre(calibrated);
+    reading.y_m = ideal.v / vision::pixels_per_metre(calibrated);
+    reading.scale_ratio = vision::pixels_per_metre(actual) / vision::pixels_per_metre(calibrated);
+    return reading;
+}
+
+}  // namespace
+
+fleet::CameraReading camera_reading(const plant::Camera& calibrated,
+                                    const vision::QrReading& reading, double calibration_sigma_m) {
+    const Pose2 code = vision::body_from_code(reading, calibrated);
+    fleet::CameraReading out;
+    out.camera = calibrated.name;
+    out.found = true;
+    out.payload = reading.payload;
+    out.code = code.position();
+    out.angle_rad = code.heading_rad;
+    out.sigma_m =
+        std::hypot(reading.sigma_px / vision::pixels_per_metre(calibrated), calibration_sigma_m);
+    out.rms_px = reading.rms_px;
+    return out;
+}
+
+StopView sense_stop(std::span<const plant::Camera> actual,
+                    std::span<const plant::Camera> calibrated, const Pose2& hall_from_body,
+                    std::span<const FloorCode> codes, const SensingOptions& options,
+                    std::mt19937_64& random) {
+    assert(actual.size() == calibrated.size());
+    StopView view;
+    for (std::size_t i = 0; i < actual.size(); ++i) {
+        const auto in_reach = near(actual[i], hall_from_body, codes);
+        if (options.mode == Sensing::kAnalytic) {
+            const auto seen = analytic_reading(actual[i], hall_from_body, in_reach, random);
+            view.readings.push_back(
+                seen ? camera_reading(calibrated[i], reinterpreted(*seen, actual[i], calibrated[i]),
+                                      options.calibration_sigma_m)
+                     : not_found(calibrated[i], "no_code"));
+            continue;
+        }
+        view.images.push_back(
+            render_floor(actual[i], hall_from_body, in_reach, ImageConditions::nominal(random)));
+        vision::QrReaderOptions reader;
+        reader.size_m = options.code_size_m;
+        const auto seen = vision::read_qr(view.images.back(), calibrated[i], reader);
+        view.readings.push_back(
+            seen ? camera_reading(calibrated[i], *seen, options.calibration_sigma_m)
+                 : not_found(calibrated[i], seen.error().reason.code));
+    }
+    return view;
+}
+
+}  // namespace pulseline::simulation

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <opencv2/core/mat.hpp>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/simulation/camera_model.hpp"
+
+namespace pulseline::simulation {
+
+/// kRendered makes real images and reads them; kAnalytic draws the reader's measured error.
+enum class Sensing { kRendered, kAnalytic };
+
+struct SensingOptions {
+    Sensing mode = Sensing::kRendered;
+    /// One sigma of the cameras' mounting and scale, part of every reading's sigma_m.
+    double calibration_sigma_m = 0.0001;
+    double code_size_m = 0.060;
+};
+
+struct StopView {
+    std::vector<fleet::CameraReading> readings;  // one per camera, in their order
+    std::vector<cv::Mat> images;                 // 8-bit grey, one per camera; none when analytic
+};
+
+/// What the cameras of a vehicle standing at the true pose see of the true codes. `actual` cameras
+/// make the images, `calibrated` ones (what the vehicle believes; same order and size) interpret
+/// them. Light, dirt and noise are nominal, drawn from `random`.
+StopView sense_stop(std::span<const plant::Camera> actual,
+                    std::span<const plant::Camera> calibrated, const Pose2& hall_from_body,
+                    std::span<const FloorCode> codes, const SensingOptions& options,
+                    std::mt19937_64& random);
+
+/// The reading of one camera as the vehicle reports it, in the body frame.
+fleet::CameraReading camera_reading(const plant::Camera& calibrated,
+                                    const vision::QrReading& reading, double calibration_sigma_m);
+
+}  // namespace pulseline::simulation
