@@ -131,7 +131,7 @@ net::awaitable<void> event_session(Context& context, Stream& stream, api::Reques
     bool stopped = context.stops.stopping();
     // The first comment tells a client at once that it is through.
     if (open) open = co_await send_chunk(context, stream, events::sse_keep_alive());
-    while (open && !stopped) {
+    while (open && !stopped && !context.stops.stopping()) {
         if (!context.access.still_valid(request.identity, context.clock.now())) break;
         const auto text = co_await read_behind(context, seq);
         if (!text) {

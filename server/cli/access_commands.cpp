@@ -35,7 +35,7 @@ Error wrong(std::string what) { return {Errc::kInvalid, {"bad_option", {}}, std:
 /// Runs `act` on the access data of a database that no server holds.
 template <class F>
 int with_access(const Input& input, F act) {
-    auto storage = open_storage(input.database, "sign in to the running server's API instead");
+    auto storage = open_storage(input.database);
     if (!storage) return failed(storage.error());
     const Time now = ServerClock(Time{}).now();
     access::Store& store = (*storage)->access();

@@ -55,7 +55,7 @@ int serve(const Options& options) {
         fmt::print(stderr, "pulseline: name the database file with --db\n");
         return kUsage;
     }
-    auto storage = open_storage(options.database, "stop that server first, or use its address");
+    auto storage = open_storage(options.database);
     if (!storage) return failed(storage.error());
     const auto plant = load_plant(**storage, options);
     if (!plant) return failed(plant.error());

@@ -22,8 +22,7 @@ public:
     virtual Status import_plant(const plant::Plant& plant) = 0;
 };
 
-/// Fails when another process holds the file (the error ends with `instead`), when it cannot be
-/// written or is no database of ours.
-Result<std::unique_ptr<Storage>> open_storage(const std::string& path, const std::string& instead);
+/// Fails when another process holds the file, when it cannot be written or is no database of ours.
+Result<std::unique_ptr<Storage>> open_storage(const std::string& path);
 
 }  // namespace pulseline::server::cli
