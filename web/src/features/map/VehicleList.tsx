@@ -1,0 +1,94 @@
+import { useMemo, type ReactNode } from "react";
+import { useTranslation } from "react-i18next";
+import { kGroups, useStations, useVehicles, type Group } from "@/shared/live";
+import { Link } from "@/shared/router";
+import { Icon, StatusSymbol, type SymbolName } from "@/shared/ui";
+import { foundStations, grouped } from "./listRows";
+import { VehicleRow } from "./VehicleRow";
+
+const kSymbol: Record<Group, SymbolName> = {
+  attention: "a-2",
+  waiting: "s-wait",
+  moving: "s-moving",
+  standing: "s-stand",
+};
+
+export interface VehicleListProps {
+  find: string;
+  onFind: (text: string) => void;
+  selected: string | undefined;
+  onSelect: (vehicle: string) => void;
+  onStation: (station: string) => void;
+  station: string | undefined;
+}
+
+/** The map in words: every vehicle, what it does and why. Also what keyboard and screen reader use. */
+export function VehicleList(props: VehicleListProps) {
+  const { find, onFind, selected, onSelect } = props;
+  const { t } = useTranslation("map");
+  const vehicles = useVehicles();
+  const stations = useStations();
+  const numbers = useMemo(() => new Map(stations.map((s) => [s.id, String(s.number)])), [stations]);
+  const names = useMemo(() => new Map(vehicles.map((v) => [v.id, v.name])), [vehicles]);
+  const groups = grouped(vehicles, find);
+  const found = foundStations(stations, find);
+  const numberOf = (id: string) => numbers.get(id);
+  const state = (s: (typeof stations)[number]): ReactNode =>
+    s.state?.occupied_by
+      ? t("station_occupied", { name: names.get(s.state.occupied_by) ?? s.state.occupied_by })
+      : s.state?.reserved_by
+        ? t("station_reserved", { name: names.get(s.state.reserved_by) ?? s.state.reserved_by })
+        : t("station_free");
+  return (
+    <>
+      <div className="find">
+        <Icon name="search" />
+        <input
+          type="search"
+          aria-label={t("find")}
+          placeholder={t("find")}
+          value={find}
+          onChange={(event) => onFind(event.target.value)}
+        />
+      </div>
+      <div className="list">
+        {found.map((s) => (
+          <div key={s.id} className={`veh stn ${props.station === s.id ? "sel" : ""}`}>
+            <Icon name="stations" size={20} />
+            <button type="button" className="pickstn" onClick={() => props.onStation(s.id)}>
+              <b>{s.number}</b> <span className="what">{s.name}, {state(s)}</span>
+            </button>
+            <Link className="btn" to={`/send?station=${s.number}`}>
+              {t("send_here")}
+            </Link>
+          </div>
+        ))}
+        {groups.length === 0 && found.length === 0 && (
+          <p className="lab none">{vehicles.length === 0 ? t("empty") : t("not_found")}</p>
+        )}
+        {kGroups.map((group) => {
+          const rows = groups.find((g) => g.group === group)?.vehicles ?? [];
+          if (rows.length === 0) return null;
+          return (
+            <section key={group} className={`g-${group}`} aria-label={t(`group.${group}`)}>
+              <div className="grp">
+                <StatusSymbol name={kSymbol[group]} />
+                <span>{t(`group.${group}`)}</span> <i>{rows.length}</i>
+              </div>
+              {rows.map((vehicle) => (
+                <VehicleRow
+                  key={vehicle.id}
+                  vehicle={vehicle}
+                  numberOf={numberOf}
+                  selected={vehicle.id === selected}
+                  two={group === "attention"}
+                  onSelect={() => onSelect(vehicle.id)}
+                />
+              ))}
+            </section>
+          );
+        })}
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,55 @@
+import { useTranslation } from "react-i18next";
+import type { Vehicle } from "@/shared/api/types";
+import { age, duration, fixed, timeOfDay } from "@/shared/i18n/format";
+import { alarmOf, silent, symbolOf, useJobOrder, useServerNow } from "@/shared/live";
+import { StatusSymbol } from "@/shared/ui";
+import { useWords } from "@/shared/words/useWords";
+import { whatOf } from "./listRows";
+
+export interface VehicleRowProps {
+  vehicle: Vehicle;
+  numberOf: (station: string) => string | undefined;
+  selected: boolean;
+  two: boolean;
+  onSelect: () => void;
+}
+
+/** One line of the list: shape, name, what it does, since or until when; and why, where a person is needed. */
+export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: VehicleRowProps) {
+  const { t } = useTranslation("map");
+  const words = useWords();
+  const now = useServerNow(500);
+  const order = useJobOrder(v.order);
+  const what = whatOf(v, numberOf, order);
+  const plain = t(`what.${what.key}`, what.values);
+  const text = v.load_name !== "" && !two ? t("what.with", { load: v.load_name, what: plain }) : plain;
+  const silentS = v.last_heard_at === undefined ? undefined : (now - Date.parse(v.last_heard_at)) / 1000;
+  const leftS = v.leg?.expected_at === undefined ? undefined : (Date.parse(v.leg.expected_at) - now) / 1000;
+  const reason = v.needs_resume ? (v.needs_resume_reason ?? v.reason) : v.reason;
+  const why =
+    silent(v) && v.pose !== undefined
+      ? t("seen", { x: fixed(v.pose.x_m, 1), y: fixed(v.pose.y_m, 1), time: timeOfDay(v.last_heard_at) })
+      : reason === undefined
+        ? ""
+        : words.reason(reason);
+  const waits = v.activity === "waiting" || v.activity === "paused";
+  const old = silent(v) || v.link === "late";
+  return (
+    <button
+      type="button"
+      className={`veh ${selected ? "sel" : ""} ${two ? "two" : ""}`}
+      aria-pressed={selected}
+      data-vehicle={v.id}
+      data-alarm={alarmOf(v)?.priority ?? "none"}
+      onClick={onSelect}
+    >
+      <StatusSymbol name={symbolOf(v)} />
+      <span className="id">{v.name}</span>
+      <span className="what">{!two && waits && why !== "" ? why : text}</span>
+      <span className="when">
+        {old ? age(silentS) : leftS !== undefined && v.activity === "moving" ? duration(leftS) : ""}
+      </span>
+      {two && <span className="why">{why}</span>}
+    </button>
+  );
+}
