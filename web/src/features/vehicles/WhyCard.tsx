@@ -1,0 +1,105 @@
+import { useTranslation } from "react-i18next";
+import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import { Card, CheckRow, StatusSymbol, type SymbolName } from "@/shared/ui";
+import { age, fixed, secondsSince } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { whyRows, type WhyRow } from "./whyRows";
+
+const symbolOf: Record<Vehicle["activity"], SymbolName> = {
+  standing: "s-stand",
+  moving: "s-moving",
+  measuring: "s-measure",
+  waiting: "s-wait",
+  paused: "s-wait",
+  blocked: "a-2",
+  charging: "s-charge",
+  unknown: "s-stale",
+};
+
+export function activitySymbol(vehicle: Vehicle): SymbolName {
+  return vehicle.link === "live" ? symbolOf[vehicle.activity] : "s-stale";
+}
+
+/** The one sentence that says why it stands, or what it does. */
+export function useAnswer(): (vehicle: Vehicle) => string {
+  const { t } = useTranslation("vehicles");
+  const words = useWords();
+  return (vehicle) => {
+    if (vehicle.needs_resume && vehicle.needs_resume_reason) return words.reason(vehicle.needs_resume_reason);
+    if (vehicle.activity === "moving" && vehicle.leg) {
+      return t("why.moving", { number: words.stationNumber(vehicle.leg.station) });
+    }
+    if (vehicle.activity === "measuring") return t("why.measuring");
+    return vehicle.reason ? words.reason(vehicle.reason) : t("why.no_reason");
+  };
+}
+
+export function WhyCard({ vehicle, type, target, now }: {
+  vehicle: Vehicle;
+  type: VehicleType | undefined;
+  target: StationState | undefined;
+  now: number;
+}) {
+  const { t } = useTranslation("vehicles");
+  const answer = useAnswer();
+  const moving = vehicle.activity === "moving" || vehicle.activity === "measuring";
+  return (
+    <Card className="why" title={t(moving ? "why.title_moving" : "why.title", { vehicle: vehicle.name })}>
+      <p className="ans1" role="status">
+        <StatusSymbol name={activitySymbol(vehicle)} />
+        <span>{answer(vehicle)}</span>
+      </p>
+      {whyRows(vehicle, type, target).map((row, i) => (
+        <Row key={`${row.kind}${i}`} row={row} vehicle={vehicle} now={now} />
+      ))}
+    </Card>
+  );
+}
+
+function Row({ row, vehicle, now }: { row: WhyRow; vehicle: Vehicle; now: number }) {
+  const { t } = useTranslation("vehicles");
+  const words = useWords();
+  const ageS = secondsSince(vehicle.last_heard_at, now);
+  const { name, value } = text();
+  return (
+    <CheckRow result={row.result} name={name} value={value} ageS={row.kind === "station" ? undefined : ageS} critical={row.kind === "fault"} />
+  );
+
+  function text(): { name: string; value: string } {
+    switch (row.kind) {
+      case "link":
+        return { name: t("why.link"), value: ageS === undefined ? t("list.never") : t("why.heard", { age: age(ageS) }) };
+      case "resume":
+        return { name: t("why.resume"), value: t("why.resume_needed") };
+      case "order":
+        return { name: t("why.order"), value: "" };
+      case "station": {
+        const by = words.vehicle(row.state.occupied_by || row.state.reserved_by);
+        const key = row.state.occupied_by ? "occupied" : row.state.reserved_by ? "reserved" : "free";
+        return {
+          name: t("why.station"),
+          value: t("why.station_line", { number: row.state.number, state: t(`why.${key}`, { by }) }),
+        };
+      }
+      case "load":
+        return {
+          name: t("why.load"),
+          value: t("why.load_line", {
+            state: t(`why.${row.balanced}`),
+            feet: t(row.down ? "loads.feet_lowered" : "loads.feet_raised"),
+          }),
+        };
+      case "wheel":
+        return {
+          name: t("loads.wheel", { name: row.wheel.name }),
+          value: row.wheel.fault
+            ? t("why.wheel_fault", { name: row.wheel.name, fault: row.wheel.fault })
+            : t("why.wheel_warm", { name: row.wheel.name, temperature: fixed(row.wheel.temperature_c, 0) }),
+        };
+      case "wheels":
+        return { name: t("why.wheels"), value: t("why.wheel_ok", { count: row.count }) };
+      case "fault":
+        return { name: row.error.type, value: row.error.description };
+    }
+  }
+}

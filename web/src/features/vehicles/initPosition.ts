@@ -1,0 +1,43 @@
+import type { Plant, Pose } from "@/shared/api/types";
+
+/** What a person typed to say where the vehicle stands. */
+export interface InitDraft {
+  how: "station" | "numbers";
+  station: string;
+  x_mm: string;
+  y_mm: string;
+  heading_deg: string;
+}
+
+export const emptyDraft: InitDraft = { how: "station", station: "", x_mm: "", y_mm: "", heading_deg: "" };
+
+export type InitResult =
+  | { kind: "pose"; pose: Pose }
+  | { kind: "empty" }
+  | { kind: "bad_station"; number: string }
+  | { kind: "bad_number"; field: "x" | "y" | "heading" }
+  | { kind: "bad_heading" };
+
+/** A typed number; comma or real minus are as good as point and hyphen. Groups of three may be set apart. */
+export function parseNumber(text: string): number | undefined {
+  const plain = text.trim().replace(/\u2212/g, "-").replace(/[\s\u2009\u00a0]/g, "");
+  const normal = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/.test(plain) ? plain.replace(/,/g, "") : plain.replace(",", ".");
+  return /^[+-]?(\d+\.?\d*|\.\d+)$/.test(normal) ? Number(normal) : undefined;
+}
+
+export function readDraft(draft: InitDraft, plant: Plant | undefined): InitResult {
+  if (draft.how === "station") {
+    if (draft.station.trim() === "") return { kind: "empty" };
+    const station = plant?.stations.find((s) => String(s.number) === draft.station.trim());
+    return station ? { kind: "pose", pose: station.pose } : { kind: "bad_station", number: draft.station };
+  }
+  if (draft.x_mm === "" && draft.y_mm === "" && draft.heading_deg === "") return { kind: "empty" };
+  const x = parseNumber(draft.x_mm);
+  if (x === undefined) return { kind: "bad_number", field: "x" };
+  const y = parseNumber(draft.y_mm);
+  if (y === undefined) return { kind: "bad_number", field: "y" };
+  const heading = parseNumber(draft.heading_deg);
+  if (heading === undefined) return { kind: "bad_number", field: "heading" };
+  if (Math.abs(heading) > 360) return { kind: "bad_heading" };
+  return { kind: "pose", pose: { x_m: x / 1000, y_m: y / 1000, heading_rad: (heading * Math.PI) / 180 } };
+}

@@ -1,0 +1,47 @@
+import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import { feetDown, wheelState } from "./faceplate";
+import { summarise } from "./loads";
+
+/** One line under "Why is it standing?": what was looked at and what it says. */
+export type WhyRow =
+  | { kind: "link"; result: "pass" | "note" | "fail" }
+  | { kind: "resume"; result: "fail" }
+  | { kind: "order"; result: "pass" | "note" }
+  | { kind: "station"; result: "pass" | "note"; state: StationState }
+  | { kind: "load"; result: "pass" | "note"; balanced: "balanced" | "unbalanced" | "no_load"; down: boolean }
+  | { kind: "wheel"; result: "note" | "fail"; wheel: Vehicle["wheels"][number] }
+  | { kind: "wheels"; result: "pass"; count: number }
+  | { kind: "fault"; result: "note" | "fail"; error: Vehicle["errors"][number] };
+
+const rank = { fail: 0, note: 1, pass: 2 } as const;
+
+/** What a person would look at next, worst first. Only what the vehicle or the server reported. */
+export function whyRows(vehicle: Vehicle, type: VehicleType | undefined, target: StationState | undefined): WhyRow[] {
+  const rows: WhyRow[] = [];
+  rows.push({ kind: "link", result: vehicle.link === "live" ? "pass" : vehicle.link === "late" ? "note" : "fail" });
+  if (vehicle.needs_resume) rows.push({ kind: "resume", result: "fail" });
+  for (const error of vehicle.errors) rows.push({ kind: "fault", result: error.fatal ? "fail" : "note", error });
+  if (target) {
+    const other = (target.occupied_by || target.reserved_by) !== vehicle.id;
+    const taken = (target.occupied_by !== "" || target.reserved_by !== "") && other;
+    rows.push({ kind: "station", result: taken ? "note" : "pass", state: target });
+  }
+  const load = summarise(vehicle.brackets, type);
+  if (load) {
+    const balanced = load.total_n < 1000 ? "no_load" : load.balanced ? "balanced" : "unbalanced";
+    rows.push({
+      kind: "load",
+      result: balanced === "unbalanced" ? "note" : "pass",
+      balanced,
+      down: feetDown(vehicle.parking_feet),
+    });
+  }
+  const odd = vehicle.wheels.filter((w) => wheelState(w) !== "ok");
+  for (const wheel of odd) {
+    rows.push({ kind: "wheel", result: wheelState(wheel) === "fault" ? "fail" : "note", wheel });
+  }
+  if (odd.length === 0 && vehicle.wheels.length > 0) {
+    rows.push({ kind: "wheels", result: "pass", count: vehicle.wheels.length });
+  }
+  return rows.sort((a, b) => rank[a.result] - rank[b.result]);
+}
