@@ -1,0 +1,82 @@
+import { useTranslation } from "react-i18next";
+import type { Vehicle } from "@/shared/api/types";
+import { useLive, useServerNow, useVehicles } from "@/shared/live";
+import { Link, navigate } from "@/shared/router";
+import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
+import { age, fixed, mass, secondsSince } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { activitySymbol, useAnswer } from "./WhyCard";
+
+/** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
+export function VehicleListPage() {
+  const { t } = useTranslation("vehicles");
+  const vehicles = useVehicles();
+  const ready = useLive((s) => s.ready);
+  const now = useServerNow(1000);
+  const live = vehicles.filter((v) => v.link === "live").length;
+  return (
+    <Card
+      className="listpage"
+      level={1}
+      title={t("list.title")}
+      summary={t("list.summary", { live, total: vehicles.length })}
+      flush
+    >
+      {!ready ? (
+        <PanelLoading what={t("list.title")} />
+      ) : vehicles.length === 0 ? (
+        <PanelEmpty what={t("list.empty")} when={t("list.empty_hint")} />
+      ) : (
+        <div className="scroll" tabIndex={0} role="region" aria-label={t("list.title")}>
+          <table className="rows">
+            <thead>
+              <tr>
+                <th>{t("list.vehicle")}</th>
+                <th>{t("list.state")}</th>
+                <th>{t("list.where")}</th>
+                <th>{t("list.why")}</th>
+                <th>{t("list.load")}</th>
+                <th className="n">{t("list.battery")}</th>
+                <th className="n">{t("list.heard")}</th>
+              </tr>
+            </thead>
+            <tbody>
+              {vehicles.map((v) => (
+                <Row key={v.id} vehicle={v} now={now} />
+              ))}
+            </tbody>
+          </table>
+        </div>
+      )}
+    </Card>
+  );
+}
+
+function Row({ vehicle: v, now }: { vehicle: Vehicle; now: number }) {
+  const { t } = useTranslation(["vehicles", "words"]);
+  const words = useWords();
+  const answer = useAnswer();
+  const heard_s = secondsSince(v.last_heard_at, now);
+  const silent = v.link !== "live";
+  const to = `/vehicles/${encodeURIComponent(v.id)}`;
+  return (
+    <tr className={`go ${silent ? "silent" : ""}`} onClick={() => navigate(to)}>
+      <td className="b">
+        <Link className="cell-link" to={to} onClick={(event) => event.stopPropagation()}>
+          {v.name}
+        </Link>
+      </td>
+      <td>
+        <span className="row">
+          <StatusSymbol name={activitySymbol(v)} />
+          {silent ? t(`words:link.${v.link}`) : t(`words:activity.${v.activity}`)}
+        </span>
+      </td>
+      <td>{v.at_station ? t("list.at", { number: words.stationNumber(v.at_station) }) : t("list.between")}</td>
+      <td className="wrap">{answer(v)}</td>
+      <td>{v.link === "never" ? "\u2013" : [v.load_name, v.load_kg > 0 ? mass(v.load_kg) : ""].filter(Boolean).join(", ") || t("chip.no_load")}</td>
+      <td className="n">{v.link === "never" ? "\u2013" : `${fixed(v.battery_percent, 0)} %`}</td>
+      <td className="n">{heard_s === undefined ? t("list.never") : age(heard_s)}</td>
+    </tr>
+  );
+}
