@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,8 +21,8 @@ struct LegRequest {
     const plant::VehicleType* type = nullptr;
     bool loaded = false;
     plant::HallId hall;
-    geometry::Pose2 start;           // measured pose
-    plant::StationId from_station;   // empty when the vehicle stands at no station
+    geometry::Pose2 start;          // measured pose
+    plant::StationId from_station;  // empty when the vehicle stands at no station
     plant::StationId target;
     plant::MotionMode mode = plant::MotionMode::kAuto;
 };
@@ -32,11 +33,11 @@ struct LegPlan {
     std::vector<kinematics::Segment> segments;
     std::vector<plant::NodeId> route;  // roadmap nodes visited; empty for a direct motion
     double length_m = 0;
-    int turns = 0;                     // changes of direction
-    double cost = 0;                   // in units of k, roadmap routes and direct motions alike
+    int turns = 0;    // changes of direction up to arrival; an arc is one
+    double cost = 0;  // in units of k, roadmap routes and direct motions alike
     double duration_s = 0;
-    double clearance_m = 0;            // least distance to walls, obstacles and standing bodies
-    std::string nearest;               // what that least distance is to: "wall", area or vehicle id
+    double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
+    std::string nearest;     // what that least distance is to: "wall", area or vehicle id
     double swept_area_m2 = 0;
     std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
 };
@@ -47,20 +48,37 @@ struct ModeOption {
     bool suggested = false;  // what kAuto takes: the feasible one with the least time
 };
 
-/// Every motion mode of the vehicle type with its plan or the reason against it. A mode other than
-/// kAuto that is refused stays refused; `linear` drives straight when that is free, else along the
-/// roadmap route (turning at its nodes) found by the direction-penalised A*.
-/// Standing bodies only lower `clearance_m` and set `nearest`; they make nothing infeasible, since
-/// they may have left by the time the leg starts (traffic waits for them).
-/// Further reason codes: blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or obstacle),
-/// no_route {from, to, blocked_by?}, footprint_too_large {edge, clearance_m},
-/// station_not_for_type {station, vehicle_type}.
-std::vector<ModeOption> assess_modes(const plant::Plant& plant, const LegRequest& request,
-                                     const std::vector<StandingBody>& standing);
+/// Plans legs in one plant. What depends on the plant alone (obstacles, lanes that a vehicle type
+/// fits through) is worked out once, in the constructor. REQUIRES: the plant outlives the planner
+/// unchanged. Const methods may run on several threads at once.
+class LegPlanner {
+public:
+    explicit LegPlanner(const plant::Plant& plant);
+    ~LegPlanner();
+    LegPlanner(LegPlanner&&) noexcept;
+    LegPlanner& operator=(LegPlanner&&) noexcept;
 
-/// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
-/// reason of the most promising mode).
-Result<LegPlan> plan_leg(const plant::Plant& plant, const LegRequest& request,
-                         const std::vector<StandingBody>& standing);
+    /// Every motion mode of the vehicle type with its plan or the reason against it, in the order
+    /// linear, fixed axis rotation, self rotation, lateral, free. A mode other than kAuto that is
+    /// refused stays refused; `linear` drives straight when that is free, else along the roadmap
+    /// route (turning at its nodes, forwards or backwards) found by the direction-penalised A*.
+    /// Standing bodies only lower `clearance_m` and set `nearest`; they make nothing infeasible,
+    /// since they may have left by the time the leg starts (traffic waits for them).
+    /// Reason codes besides those of plan_motion: blocked {by, at_x_m, at_y_m, clearance_m,
+    /// limit_m} (wall or obstacle), no_route {from, to, blocked_by?}, footprint_too_large {edge,
+    /// by, clearance_m, limit_m}, station_not_for_type {station, vehicle_type}, unknown_station,
+    /// other_hall {from, to}.
+    std::vector<ModeOption> assess_modes(const LegRequest& request,
+                                         const std::vector<StandingBody>& standing) const;
+
+    /// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
+    /// reason of the most promising mode).
+    Result<LegPlan> plan_leg(const LegRequest& request,
+                             const std::vector<StandingBody>& standing) const;
+
+private:
+    struct Static;
+    std::unique_ptr<const Static> static_;
+};
 
 }  // namespace pulseline::planning

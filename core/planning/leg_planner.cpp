@@ -1,0 +1,251 @@
+#include "core/planning/leg_planner.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <limits>
+
+#include "core/kinematics/primitives.hpp"
+#include "core/planning/road_leg.hpp"
+#include "core/planning/roadmap_index.hpp"
+
+namespace pulseline::planning {
+namespace {
+
+using geometry::Polygon;
+using kinematics::Segment;
+using plant::MotionMode;
+
+constexpr std::array kOrder{MotionMode::kLinear, MotionMode::kFixedAxisRotation,
+                            MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kFree};
+
+double clearance_to(const StandingBody& body, const std::vector<Polygon>& pieces, double stop_m) {
+    double least = stop_m;
+    for (const Polygon& outline : body.outline) {
+        const auto box = geometry::bounding_box(outline);
+        for (const Polygon& piece : pieces) {
+            const auto other = geometry::bounding_box(piece);
+            const double dx = std::max(box.min.x_m - other.max.x_m, other.min.x_m - box.max.x_m);
+            const double dy = std::max(box.min.y_m - other.max.y_m, other.min.y_m - box.max.y_m);
+            if (std::max(dx, dy) >= least) continue;
+            least = std::min(least, geometry::distance(piece, outline));
+        }
+    }
+    return least;
+}
+
+tl::unexpected<Error> blocked(const Approach& by, double limit_m) {
+    const char* what = by.what == "wall"  ? "a wall"
+                       : by.what == "map" ? "an obstacle of the map"
+                                          : by.what.c_str();
+    return fail(Errc::kUnreachable, "blocked",
+                std::string("The swept area comes too near to ") + what +
+                    ". Choose another motion mode or station.",
+                {},
+                {{"by", by.what},
+                 {"at_x_m", by.at.x_m},
+                 {"at_y_m", by.at.y_m},
+                 {"clearance_m", by.distance_m},
+                 {"limit_m", limit_m}});
+}
+
+/// Changes of direction of a direct motion; the turn on arrival does not count.
+int turns_of(const LegTask& task, const kinematics::MotionPlan& motion) {
+    double first_turn = 0;
+    for (const Segment& segment : motion.segments) {
+        if (segment.kind == Segment::Kind::kArc) return 1;
+        if (segment.kind == Segment::Kind::kStraight) break;
+        first_turn += std::abs(segment.turn_rad);
+    }
+    return first_turn > task.cost.turn_threshold_rad ? 1 : 0;
+}
+
+LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion) {
+    LegDraft draft;
+    draft.segments = motion.segments;
+    draft.turns = turns_of(task, motion);
+    draft.cost = arc_cost(task.cost, motion.length_m, draft.turns > 0);
+    return draft;
+}
+
+/// The finished plan of a draft whose swept area keeps clear, or what blocks it.
+Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft,
+                       const std::vector<StandingBody>& standing) {
+    const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
+    if (const auto by = task.obstacles.violation(pieces, task.limits)) {
+        return blocked(*by, task.passage.body.clearance_m);
+    }
+    const auto sums = kinematics::summed(mode, std::move(draft.segments));
+    LegPlan plan;
+    plan.mode = mode;
+    plan.segments = sums.segments;
+    plan.route = std::move(draft.route);
+    plan.length_m = sums.length_m;
+    plan.turns = draft.turns;
+    plan.cost = draft.cost;
+    plan.duration_s = sums.duration_s;
+    const Approach nearest = task.obstacles.nearest(pieces);
+    plan.clearance_m = nearest.distance_m;
+    plan.nearest = nearest.what;
+    for (const StandingBody& body : standing) {
+        const double distance = clearance_to(body, pieces, plan.clearance_m);
+        if (distance >= plan.clearance_m) continue;
+        plan.clearance_m = distance;
+        plan.nearest = body.vehicle.str();
+    }
+    plan.swept = geometry::union_outline(pieces);
+    for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
+    return plan;
+}
+
+Result<LegPlan> assess(const LegTask& task, MotionMode mode,
+                       const std::vector<StandingBody>& standing) {
+    const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
+                                                      task.station.pose, mode);
+    if (!variants) return fail(variants.error());
+    std::optional<Error> refusal;
+    for (const auto& motion : *variants) {
+        auto plan = finish(task, mode, draft_direct(task, motion), standing);
+        if (plan) return plan;
+        if (!refusal) refusal = plan.error();
+    }
+    if (mode != MotionMode::kLinear) return fail(std::move(*refusal));
+    return draft_road_leg(task).and_then(
+        [&](LegDraft draft) { return finish(task, mode, std::move(draft), standing); });
+}
+
+void suggest_fastest(std::vector<ModeOption>& options) {
+    ModeOption* best = nullptr;
+    for (ModeOption& option : options) {
+        if (option.plan && (!best || option.plan->duration_s < best->plan->duration_s)) {
+            best = &option;
+        }
+    }
+    if (best) best->suggested = true;
+}
+
+std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
+    std::vector<MotionMode> modes;
+    for (const MotionMode mode : kOrder) {
+        const auto& own = type.motion_modes;
+        if (std::find(own.begin(), own.end(), mode) != own.end()) modes.push_back(mode);
+    }
+    return modes;
+}
+
+/// The station of a request, when the vehicle may go there at all.
+Result<const plant::Station*> target_of(const plant::Plant& plant, const LegRequest& request) {
+    const plant::Station* station = plant::find_station(plant, request.target);
+    if (!station) {
+        return fail(Errc::kNotFound, "unknown_station",
+                    "There is no station " + request.target.str() + ". Choose one of the plant's.",
+                    {}, {{"station", request.target.str()}});
+    }
+    const auto& types = station->vehicle_types;
+    if (!types.empty() && std::find(types.begin(), types.end(), request.type->id) == types.end()) {
+        return fail(
+            Errc::kUnreachable, "station_not_for_type",
+            "Station " + std::to_string(station->number) + " is not for vehicles of type " +
+                request.type->name + ". Choose another station or vehicle.",
+            {},
+            {{"station", std::int64_t{station->number}}, {"vehicle_type", request.type->id.str()}});
+    }
+    if (station->hall != request.hall) {
+        return fail(Errc::kUnreachable, "other_hall",
+                    "Station " + std::to_string(station->number) +
+                        " stands in another hall than the vehicle. Choose one in its hall.",
+                    {}, {{"from", request.hall.str()}, {"to", station->hall.str()}});
+    }
+    return station;
+}
+
+}  // namespace
+
+struct LegPlanner::Static {
+    using Key = std::pair<plant::VehicleTypeId, bool>;
+
+    explicit Static(const plant::Plant& p) : plant(p), roads(p) {
+        for (const plant::VehicleType& type : plant.vehicle_types) {
+            passages.emplace(Key{type.id, false}, roads.passage(type, false));
+            if (type.load_footprint.empty()) continue;
+            passages.emplace(Key{type.id, true}, roads.passage(type, true));
+        }
+    }
+
+    /// The prepared passage of a type; worked out anew for one that is not the plant's (`fresh`
+    /// keeps it), such as the type that a vehicle's own factsheet states.
+    const Passage& passage(const plant::VehicleType& type, bool loaded,
+                           std::optional<Passage>& fresh) const {
+        const Body body = body_of(type, loaded);
+        for (const bool with_load : {loaded, false}) {
+            const auto found = passages.find({type.id, with_load});
+            if (found != passages.end() && found->second.body == body) return found->second;
+        }
+        return fresh.emplace(roads.passage(type, loaded));
+    }
+
+    const plant::Plant& plant;
+    RoadmapIndex roads;
+    std::map<Key, Passage> passages;
+};
+
+LegPlanner::LegPlanner(const plant::Plant& plant) : static_(std::make_unique<Static>(plant)) {}
+LegPlanner::~LegPlanner() = default;
+LegPlanner::LegPlanner(LegPlanner&&) noexcept = default;
+LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;
+
+std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
+                                                 const std::vector<StandingBody>& standing) const {
+    assert(request.type);
+    std::vector<ModeOption> options;
+    const auto station = target_of(static_->plant, request);
+    const Obstacles* obstacles = static_->roads.obstacles(request.hall);
+    if (!station || !obstacles) {
+        const Error error = station
+                                ? Error{Errc::kNotFound,
+                                        {"unknown_hall", {{"hall", request.hall.str()}}},
+                                        "There is no hall " + request.hall.str() + " in the plant.",
+                                        {}}
+                                : station.error();
+        for (const MotionMode mode : modes_of(*request.type)) {
+            options.push_back({mode, fail(error), false});
+        }
+        return options;
+    }
+    std::optional<Passage> fresh;
+    const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
+    std::vector<Polygon> body;
+    for (const Polygon& piece : passage.body.pieces) {
+        body.push_back(geometry::transformed(request.start, piece));
+    }
+    const LegTask task{request,
+                       **station,
+                       static_->plant.routing,
+                       static_->roads,
+                       passage,
+                       *obstacles,
+                       obstacles->limits_from(body, passage.body.clearance_m)};
+    for (const MotionMode mode : modes_of(*request.type)) {
+        options.push_back({mode, assess(task, mode, standing), false});
+    }
+    suggest_fastest(options);
+    return options;
+}
+
+Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
+                                     const std::vector<StandingBody>& standing) const {
+    auto options = assess_modes(request, standing);
+    for (ModeOption& option : options) {
+        const bool wanted =
+            request.mode == MotionMode::kAuto ? option.suggested : option.mode == request.mode;
+        if (wanted) return std::move(option.plan);
+    }
+    // Nothing feasible: the first mode, linear, has the widest choice of ways.
+    if (request.mode == MotionMode::kAuto && !options.empty()) return std::move(options[0].plan);
+    return fail(Errc::kUnreachable, "mode_not_supported",
+                request.type->name + " cannot drive this motion mode. Choose one of its own.", {},
+                {{"mode", std::string(plant::to_string(request.mode))},
+                 {"vehicle_type", request.type->id.str()}});
+}
+
+}  // namespace pulseline::planning
