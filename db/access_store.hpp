@@ -1,0 +1,26 @@
+#pragma once
+
+#include "core/access/access.hpp"
+#include "db/database.hpp"
+
+namespace pulseline::db {
+
+/// Users, sessions and tokens. `database` must outlive it. Thread safety: none, as Database.
+class AccessStore : public access::Store {
+public:
+    explicit AccessStore(Database& database) : database_(database) {}
+
+    std::vector<access::User> users() override;
+    /// Without those that ended before the newest one began; the caller still checks `expires`.
+    std::vector<access::Session> sessions() override;
+    std::vector<access::Token> tokens() override;
+    void put(const access::User& user) override;
+    void put(const access::Session& session) override;
+    void remove_session(const std::string& token_sha256) override;
+    void put(const access::Token& token) override;
+
+private:
+    Database& database_;
+};
+
+}  // namespace pulseline::db

@@ -1,0 +1,168 @@
+#include "db/fleet_store.hpp"
+
+#include <algorithm>
+
+#include "db/fleet_rows.hpp"
+#include "db/names.hpp"
+#include "db/order_reader.hpp"
+#include "db/statement.hpp"
+
+namespace pulseline::db {
+namespace {
+
+constexpr std::int64_t kKept_ns = 7LL * 24 * 3600 * 1'000'000'000;
+
+struct KeyRow {
+    static constexpr const char* kColumns = "client, key, body_sha256, order_id, at_ns";
+    std::string client, key, body_sha256, order_id;
+    std::int64_t at_ns = 0;
+
+    auto fields() { return std::tie(client, key, body_sha256, order_id, at_ns); }
+};
+
+constexpr const char* kDropSteps =
+    "DELETE FROM job_order_steps WHERE order_id = :order_id AND position >= :count";
+constexpr const char* kDropKeys = "DELETE FROM idempotency_keys WHERE at_ns < :before";
+
+std::int64_t scalar(soci::session& sql, const std::string& query) {
+    std::int64_t value = 0;
+    sql << query, soci::into(value);
+    return value;
+}
+
+}  // namespace
+
+struct FleetStore::Statements {
+    explicit Statements(soci::session& sql)
+        : put_order(sql, upsert_into("orders", OrderRow::kColumns, "id"), order.fields()),
+          put_step(sql, upsert_into("job_order_steps", StepRow::kColumns, "order_id, position"),
+                   step.fields()),
+          drop_steps(sql, kDropSteps, std::tie(order.id, step_count)),
+          put_stop(sql, insert_into("stop_records", StopRow::kColumns), stop.fields()),
+          put_event(sql, insert_into("events", EventRow::kColumns), event.fields()),
+          put_vehicle(sql, upsert_into("vehicles_state", VehicleRow::kColumns, "id"),
+                      vehicle.fields()),
+          put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
+                  key.fields()),
+          drop_keys(sql, kDropKeys, std::tie(keys_before)) {}
+
+    OrderRow order;
+    StepRow step;
+    StopRow stop;
+    EventRow event;
+    VehicleRow vehicle;
+    KeyRow key;
+    std::int64_t step_count = 0;
+    std::int64_t keys_before = 0;
+    Statement put_order, put_step, drop_steps, put_stop, put_event, put_vehicle, put_key, drop_keys;
+};
+
+FleetStore::FleetStore(Database& database)
+    : database_(database),
+      statements_(
+          reading(database.path(), [&] { return std::make_unique<Statements>(database.sql()); })),
+      last_seq_(reading(database.path(), [&] {
+          return scalar(database.sql(), "SELECT COALESCE(MAX(seq), 0) FROM events");
+      })) {}
+
+FleetStore::~FleetStore() = default;
+
+void FleetStore::put(const fleet::JobOrder& order) {
+    Statements& s = *statements_;
+    s.order.set(order);
+    s.put_order.run();
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        s.step.set(s.order.id, i, order.steps[i]);
+        s.put_step.run();
+    }
+    s.step_count = static_cast<std::int64_t>(order.steps.size());
+    s.drop_steps.run();
+}
+
+void FleetStore::commit(const fleet::Records& records) {
+    if (records.empty()) return;
+    Statements& s = *statements_;
+    std::int64_t seq = last_seq_;
+    database_.transaction([&] {
+        for (const auto& order : records.orders) put(order);
+        for (const auto& vehicle : records.vehicles) {
+            s.vehicle.set(vehicle);
+            s.put_vehicle.run();
+        }
+        for (const auto& stop : records.stops) {
+            s.stop.set(stop);
+            s.put_stop.run();
+        }
+        for (const auto& event : records.events) {
+            if (event.seq != seq + 1) {
+                throw Error(Error::Kind::kBadValue,
+                            "Nothing was stored: event " + std::to_string(event.seq) +
+                                " does not follow event " + std::to_string(seq) + ".");
+            }
+            seq = event.seq;
+            s.event.set(event);
+            s.put_event.run();
+        }
+        for (const auto& key : records.idempotency) {
+            s.key.client = key.client;
+            s.key.key = key.key;
+            s.key.body_sha256 = key.body_sha256;
+            s.key.order_id = stored_id(key.order);
+            s.key.at_ns = to_ns(key.at);
+            s.put_key.run();
+            s.keys_before = s.key.at_ns - kKept_ns;
+            s.drop_keys.run();
+        }
+    });
+    last_seq_ = seq;
+}
+
+fleet::StoredFleet FleetStore::load() {
+    return reading(database_.path(), [&] {
+        soci::session& sql = database_.sql();
+        fleet::StoredFleet stored;
+        stored.last_event_seq = scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events");
+        stored.last_order_number = scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders");
+        const std::int64_t newest_ns = std::max(
+            {scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM events"),
+             scalar(sql,
+                    "SELECT COALESCE(MAX(MAX(created_ns, started_ns, ended_ns)), 0) FROM orders"),
+             scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM stop_records"),
+             scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys")});
+        stored.last_time = time_from_ns(newest_ns);
+        std::int64_t since_ns = newest_ns - kKept_ns;
+
+        OrderRow order;
+        StepReader steps(sql);
+        Statement orders(sql,
+                         std::string("SELECT ") + OrderRow::kColumns +
+                             " FROM orders WHERE state NOT IN ('Ended', 'Aborted') OR "
+                             "ended_ns >= :since ORDER BY number",
+                         std::tie(since_ns), order.fields());
+        for (orders.start(); orders.fetch();) {
+            stored.orders.push_back(order.get());
+            stored.orders.back().steps = steps.steps_of(order.id);
+        }
+
+        VehicleRow vehicle;
+        Statement vehicles(
+            sql, std::string("SELECT ") + VehicleRow::kColumns + " FROM vehicles_state ORDER BY id",
+            std::tuple<>(), vehicle.fields());
+        for (vehicles.start(); vehicles.fetch();) stored.vehicles.push_back(vehicle.get());
+
+        KeyRow key;
+        Statement keys(sql,
+                       std::string("SELECT ") + KeyRow::kColumns +
+                           " FROM idempotency_keys WHERE at_ns >= :since ORDER BY at_ns",
+                       std::tie(since_ns), key.fields());
+        for (keys.start(); keys.fetch();) {
+            fleet::IdempotencyRecord record{
+                key.client, key.key, key.body_sha256, {}, time_from_ns(key.at_ns)};
+            read_id(key.order_id, record.order);
+            stored.idempotency.push_back(std::move(record));
+        }
+        return stored;
+    });
+}
+
+}  // namespace pulseline::db

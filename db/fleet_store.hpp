@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+
+#include "core/fleet/ports.hpp"
+#include "db/database.hpp"
+
+namespace pulseline::db {
+
+/// What the fleet keeps. commit() is the hot path: its statements are prepared once.
+/// `database` must outlive it. Thread safety: none, as Database.
+class FleetStore : public fleet::Store {
+public:
+    explicit FleetStore(Database& database);
+    ~FleetStore() override;
+
+    fleet::StoredFleet load() override;
+    /// Also throws db::Error when an event does not follow the newest stored one without a gap: a
+    /// hole in the journal would never be found again.
+    void commit(const fleet::Records& records) override;
+
+private:
+    struct Statements;
+
+    void put(const fleet::JobOrder& order);
+
+    Database& database_;
+    std::unique_ptr<Statements> statements_;
+    std::int64_t last_seq_ = 0;
+};
+
+}  // namespace pulseline::db

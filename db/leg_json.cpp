@@ -1,0 +1,255 @@
+#include "db/leg_json.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "db/error.hpp"
+#include "db/names.hpp"
+
+namespace pulseline::db {
+namespace {
+
+using Json = nlohmann::ordered_json;  // params keep their order
+using fleet::Action;
+using fleet::Leg;
+using fleet::OrderEdge;
+using fleet::OrderNode;
+using fleet::StopTarget;
+using geometry::Pose2;
+using kinematics::Segment;
+
+Json number(double value) { return finite(value, "a number of a leg"); }
+
+Json encode(const Pose2& p) {
+    return Json::array({number(p.x_m), number(p.y_m), number(p.heading_rad)});
+}
+Pose2 decode_pose(const Json& j) { return {j.at(0), j.at(1), j.at(2)}; }
+
+Json encode(const Params& params) {
+    Json json = Json::object();
+    for (const Param& p : params) {
+        std::visit([&](const auto& value) { json[p.name] = value; }, p.value);
+        if (const auto* value = std::get_if<double>(&p.value)) finite(*value, p.name.c_str());
+    }
+    return json;
+}
+
+Params decode_params(const Json& json) {
+    Params params;
+    for (const auto& [name, value] : json.items()) {
+        if (value.is_boolean()) {
+            params.push_back({name, value.get<bool>()});
+        } else if (value.is_number_integer()) {
+            params.push_back({name, value.get<std::int64_t>()});
+        } else if (value.is_number()) {
+            params.push_back({name, value.get<double>()});
+        } else {
+            params.push_back({name, value.get<std::string>()});
+        }
+    }
+    return params;
+}
+
+Json encode(const StopTarget& t) {
+    Json markers = Json::array();
+    for (const auto& m : t.markers) {
+        markers.push_back({{"payload", m.payload},
+                           {"kind", m.kind},
+                           {"size_m", number(m.size_m)},
+                           {"pose", encode(m.pose)},
+                           {"sigma_m", number(m.sigma_m)}});
+    }
+    return {{"station", t.station_id},
+            {"number", t.station_number},
+            {"target", encode(t.target)},
+            {"tolerance", Json::array({number(t.tolerance_x_m), number(t.tolerance_y_m),
+                                       number(t.tolerance_heading_rad)})},
+            {"markers", std::move(markers)}};
+}
+
+StopTarget decode_stop_target(const Json& j) {
+    StopTarget t;
+    t.station_id = j.at("station");
+    t.station_number = j.at("number");
+    t.target = decode_pose(j.at("target"));
+    t.tolerance_x_m = j.at("tolerance").at(0);
+    t.tolerance_y_m = j.at("tolerance").at(1);
+    t.tolerance_heading_rad = j.at("tolerance").at(2);
+    for (const Json& m : j.at("markers")) {
+        t.markers.push_back({m.at("payload"), m.at("kind"), m.at("size_m"),
+                             decode_pose(m.at("pose")), m.at("sigma_m")});
+    }
+    return t;
+}
+
+Json encode(const Action& a) {
+    Json json = {{"type", a.type},
+                 {"id", a.id},
+                 {"blocking", static_cast<int>(a.blocking)},
+                 {"params", encode(a.params)}};
+    if (a.stop_target) json["stop_target"] = encode(*a.stop_target);
+    if (a.init_position) {
+        json["init_position"] = {{"pose", encode(a.init_position->pose)},
+                                 {"map", a.init_position->map_id},
+                                 {"node", a.init_position->last_node_id}};
+    }
+    return json;
+}
+
+Action decode_action(const Json& j) {
+    Action a;
+    a.type = j.at("type");
+    a.id = j.at("id");
+    a.blocking = static_cast<fleet::BlockingType>(j.at("blocking").get<int>());
+    a.params = decode_params(j.at("params"));
+    if (j.contains("stop_target")) a.stop_target = decode_stop_target(j.at("stop_target"));
+    if (j.contains("init_position")) {
+        const Json& p = j.at("init_position");
+        a.init_position = fleet::InitPosition{decode_pose(p.at("pose")), p.at("map"), p.at("node")};
+    }
+    return a;
+}
+
+Json encode(const OrderNode& n) {
+    Json actions = Json::array();
+    for (const Action& a : n.actions) actions.push_back(encode(a));
+    return {{"id", n.node_id},
+            {"seq", n.sequence_id},
+            {"released", n.released},
+            {"pose", encode(n.pose)},
+            {"has_heading", n.has_heading},
+            {"deviation_xy", number(n.allowed_deviation_xy_m)},
+            {"deviation_theta", number(n.allowed_deviation_theta_rad)},
+            {"map", n.map_id},
+            {"actions", std::move(actions)}};
+}
+
+OrderNode decode_node(const Json& j) {
+    OrderNode n;
+    n.node_id = j.at("id");
+    n.sequence_id = j.at("seq");
+    n.released = j.at("released");
+    n.pose = decode_pose(j.at("pose"));
+    n.has_heading = j.at("has_heading");
+    n.allowed_deviation_xy_m = j.at("deviation_xy");
+    n.allowed_deviation_theta_rad = j.at("deviation_theta");
+    n.map_id = j.at("map");
+    for (const Json& a : j.at("actions")) n.actions.push_back(decode_action(a));
+    return n;
+}
+
+Json encode(const Segment& s) {
+    return {{"kind", static_cast<int>(s.kind)},
+            {"start", encode(s.start)},
+            {"end", encode(s.end)},
+            {"turn", number(s.turn_rad)},
+            {"length", number(s.length_m)},
+            {"direction", number(s.direction_rad)},
+            {"centre", Json::array({number(s.centre.x_m), number(s.centre.y_m)})},
+            {"duration", number(s.duration_s)}};
+}
+
+Segment decode_segment(const Json& j) {
+    Segment s;
+    s.kind = static_cast<Segment::Kind>(j.at("kind").get<int>());
+    s.start = decode_pose(j.at("start"));
+    s.end = decode_pose(j.at("end"));
+    s.turn_rad = j.at("turn");
+    s.length_m = j.at("length");
+    s.direction_rad = j.at("direction");
+    s.centre = {j.at("centre").at(0), j.at("centre").at(1)};
+    s.duration_s = j.at("duration");
+    return s;
+}
+
+Json encode(const OrderEdge& e) {
+    return {{"id", e.edge_id},
+            {"seq", e.sequence_id},
+            {"released", e.released},
+            {"segment", encode(e.segment)},
+            {"max_speed", number(e.max_speed_mps)}};
+}
+
+OrderEdge decode_edge(const Json& j) {
+    return {j.at("id"), j.at("seq"), j.at("released"), decode_segment(j.at("segment")),
+            j.at("max_speed")};
+}
+
+Leg decode_leg(const Json& j) {
+    Leg leg;
+    read_id(j.at("id"), leg.id);
+    read_id(j.at("order"), leg.order);
+    leg.step = j.at("step");
+    leg.vehicle = plant::VehicleId(j.at("vehicle"));
+    leg.station = plant::StationId(j.at("station"));
+    read(j.at("mode").get<std::string>(), leg.mode);
+    leg.hall = j.at("hall");
+    leg.update_id = j.at("update");
+    for (const Json& n : j.at("nodes")) leg.nodes.push_back(decode_node(n));
+    for (const Json& e : j.at("edges")) leg.edges.push_back(decode_edge(e));
+    leg.released_nodes = j.at("released_nodes");
+    leg.passed_nodes = j.at("passed_nodes");
+    leg.duration_s = j.at("duration");
+    leg.attempt = j.at("attempt");
+    return leg;
+}
+
+std::string text_of(const Json& json) {
+    return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+template <class Decode>
+auto decoded(const std::string& text, Decode decode) {
+    try {
+        return decode(Json::parse(text));
+    } catch (const Json::exception&) {
+        throw Error(Error::Kind::kBadValue, "The database holds a damaged text; restore a backup.");
+    }
+}
+
+}  // namespace
+
+double finite(double value, const char* name) {
+    if (std::isfinite(value)) return value;
+    throw Error(Error::Kind::kBadValue,
+                std::string("Nothing was stored: ") + name + " is no finite number.");
+}
+
+std::string params_to_json(const Params& params) { return text_of(encode(params)); }
+
+Params params_from_json(const std::string& text) {
+    return decoded(text, [](const Json& json) { return decode_params(json); });
+}
+
+std::string texts_to_json(const std::vector<std::string>& texts) { return text_of(Json(texts)); }
+
+std::vector<std::string> texts_from_json(const std::string& text) {
+    return decoded(text, [](const Json& json) { return json.get<std::vector<std::string>>(); });
+}
+
+std::string leg_to_json(const Leg& leg) {
+    Json nodes = Json::array();
+    for (const OrderNode& n : leg.nodes) nodes.push_back(encode(n));
+    Json edges = Json::array();
+    for (const OrderEdge& e : leg.edges) edges.push_back(encode(e));
+    return text_of({{"id", stored_id(leg.id)},
+                    {"order", stored_id(leg.order)},
+                    {"step", leg.step},
+                    {"vehicle", leg.vehicle.str()},
+                    {"station", leg.station.str()},
+                    {"mode", plant::to_string(leg.mode)},
+                    {"hall", leg.hall},
+                    {"update", leg.update_id},
+                    {"nodes", std::move(nodes)},
+                    {"edges", std::move(edges)},
+                    {"released_nodes", leg.released_nodes},
+                    {"passed_nodes", leg.passed_nodes},
+                    {"duration", number(leg.duration_s)},
+                    {"attempt", leg.attempt}});
+}
+
+Leg leg_from_json(const std::string& text) {
+    return decoded(text, [](const Json& json) { return decode_leg(json); });
+}
+
+}  // namespace pulseline::db

@@ -1,0 +1,96 @@
+#include "db/names.hpp"
+
+#include <array>
+#include <utility>
+
+#include "db/error.hpp"
+
+namespace pulseline::db {
+namespace {
+
+using fleet::JobState;
+using fleet::StepState;
+
+constexpr std::array kJobStates = {std::pair{JobState::kNotAllowedToStart, "NotAllowedToStart"},
+                                   std::pair{JobState::kAllowedToStart, "AllowedToStart"},
+                                   std::pair{JobState::kRunning, "Running"},
+                                   std::pair{JobState::kInterrupted, "Interrupted"},
+                                   std::pair{JobState::kEnded, "Ended"},
+                                   std::pair{JobState::kAborted, "Aborted"}};
+constexpr std::array kStepStates = {
+    std::pair{StepState::kPending, "pending"}, std::pair{StepState::kDriving, "driving"},
+    std::pair{StepState::kMeasuring, "measuring"}, std::pair{StepState::kDone, "done"},
+    std::pair{StepState::kSkipped, "skipped"}};
+
+[[noreturn]] void unknown(const std::string& name) {
+    throw Error(Error::Kind::kBadValue,
+                "The database holds an unknown name \"" + name + "\"; restore a backup.");
+}
+
+template <class Table, class T>
+void find(const Table& table, const std::string& name, T& to) {
+    for (const auto& [value, text] : table) {
+        if (name == text) {
+            to = value;
+            return;
+        }
+    }
+    unknown(name);
+}
+
+template <class Table, class T>
+const char* name_of(const Table& table, T value) {
+    for (const auto& [candidate, text] : table) {
+        if (candidate == value) return text;
+    }
+    throw Error(Error::Kind::kBadValue, "An enumerator without a stored name.");
+}
+
+template <class T>
+void find_plain(std::initializer_list<T> values, const std::string& name, T& to) {
+    for (const T value : values) {
+        if (name == plant::to_string(value)) {
+            to = value;
+            return;
+        }
+    }
+    unknown(name);
+}
+
+}  // namespace
+
+const char* stored(JobState state) { return name_of(kJobStates, state); }
+const char* stored(StepState state) { return name_of(kStepStates, state); }
+const char* stored(plant::Tolerance::Shape shape) { return plant::to_string(shape); }
+
+void read(const std::string& name, JobState& to) { find(kJobStates, name, to); }
+void read(const std::string& name, StepState& to) { find(kStepStates, name, to); }
+void read(const std::string& name, plant::Tolerance::Shape& to) {
+    find_plain({plant::Tolerance::Shape::kBox, plant::Tolerance::Shape::kEllipse}, name, to);
+}
+void read(const std::string& name, plant::MotionMode& to) {
+    const auto mode = plant::parse_motion_mode(name);
+    if (!mode) unknown(name);
+    to = *mode;
+}
+void read(const std::string& name, plant::Kinematics& to) {
+    find_plain({plant::Kinematics::kSteeredPlatform, plant::Kinematics::kMecanum,
+                plant::Kinematics::kDifferential},
+               name, to);
+}
+void read(const std::string& name, plant::MarkerKind& to) {
+    find_plain({plant::MarkerKind::kQr, plant::MarkerKind::kAprilTag, plant::MarkerKind::kLandmark},
+               name, to);
+}
+void read(const std::string& name, plant::AreaKind& to) {
+    find_plain({plant::AreaKind::kZone, plant::AreaKind::kLane, plant::AreaKind::kNoGo,
+                plant::AreaKind::kObstacle},
+               name, to);
+}
+
+void bad_id(const std::string& text) {
+    throw Error(Error::Kind::kBadValue,
+                "The database holds a damaged id \"" + text + "\"; restore a backup.");
+}
+
+}  // namespace pulseline::db

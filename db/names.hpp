@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "core/fleet/job_order.hpp"
+#include "core/plant/plant.hpp"
+
+/// Stored names of enumerators. They never change, whatever the API calls these things one day; a
+/// stored name that is not known throws db::Error.
+namespace pulseline::db {
+
+const char* stored(fleet::JobState state);
+const char* stored(fleet::StepState state);
+const char* stored(plant::Tolerance::Shape shape);
+void read(const std::string& name, fleet::JobState& to);
+void read(const std::string& name, fleet::StepState& to);
+void read(const std::string& name, plant::Tolerance::Shape& to);
+void read(const std::string& name, plant::MotionMode& to);
+void read(const std::string& name, plant::Kinematics& to);
+void read(const std::string& name, plant::MarkerKind& to);
+void read(const std::string& name, plant::AreaKind& to);
+
+/// '' for an empty id.
+template <class IdType>
+std::string stored_id(const IdType& id) {
+    return id.empty() ? std::string() : id.str();
+}
+[[noreturn]] void bad_id(const std::string& text);
+template <class IdType>
+void read_id(const std::string& text, IdType& to) {
+    to = IdType();
+    if (text.empty()) return;
+    const auto id = IdType::parse(text);
+    if (!id) bad_id(text);
+    to = *id;
+}
+
+}  // namespace pulseline::db

@@ -1,0 +1,227 @@
+#include "db/fleet_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "db/fleet_rows.hpp"
+#include "tests/db/fleet_samples.hpp"
+#include "tests/db/temp_folder.hpp"
+
+namespace pulseline::db {
+namespace {
+
+/// Every column of a record as text: what equals here was stored without loss.
+template <class Row, class Record>
+std::string columns(const Record& record) {
+    Row row;
+    row.set(record);
+    std::string text;
+    std::apply(
+        [&](const auto&... field) {
+            const auto add = [&](const auto& value) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::string>) {
+                    text += value + "|";
+                } else if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
+                    char buffer[40];
+                    std::snprintf(buffer, sizeof buffer, "%a|", value);
+                    text += buffer;
+                } else {
+                    text += std::to_string(value) + "|";
+                }
+            };
+            (add(field), ...);
+        },
+        row.fields());
+    return text;
+}
+
+void expect_same(const fleet::JobOrder& a, const fleet::JobOrder& b) {
+    EXPECT_EQ(columns<OrderRow>(a), columns<OrderRow>(b));
+    ASSERT_EQ(a.steps.size(), b.steps.size());
+    for (std::size_t i = 0; i < a.steps.size(); ++i) {
+        StepRow x;
+        StepRow y;
+        x.set("", i, a.steps[i]);
+        y.set("", i, b.steps[i]);
+        EXPECT_EQ(x.fields(), y.fields());
+    }
+}
+
+TEST(FleetStore, EmptyDatabaseLoadsEmpty) {
+    Database database(":memory:");
+    FleetStore store(database);
+    const fleet::StoredFleet stored = store.load();
+
+    EXPECT_TRUE(stored.orders.empty());
+    EXPECT_EQ(stored.last_event_seq, 0);
+    EXPECT_EQ(stored.last_order_number, 0);
+    EXPECT_EQ(to_ns(stored.last_time), 0);
+}
+
+TEST(FleetStore, EverythingComesBackFromTheFile) {
+    const TempFolder folder;
+    Samples samples(1);
+    fleet::Records records;
+    records.orders = {samples.order(1, 0), samples.order(2, 10)};
+    records.vehicles = {samples.vehicle("TP-01")};
+    records.stops = {samples.stop(2, 20)};
+    records.events = {samples.event(1, 5), samples.event(2, 20)};
+    records.idempotency = {{"mes", "key-1", "ab", records.orders[0].id, samples.at(3)}};
+    {
+        Database database(folder.file("fleet.db"));
+        FleetStore(database).commit(records);
+    }
+    Database database(folder.file("fleet.db"));
+    const fleet::StoredFleet stored = FleetStore(database).load();
+
+    ASSERT_EQ(stored.orders.size(), 2u);
+    expect_same(stored.orders[0], records.orders[0]);
+    expect_same(stored.orders[1], records.orders[1]);
+    EXPECT_EQ(stored.orders[0].reason, records.orders[0].reason);
+    ASSERT_EQ(stored.vehicles.size(), 1u);
+    EXPECT_EQ(columns<VehicleRow>(stored.vehicles[0]), columns<VehicleRow>(records.vehicles[0]));
+    EXPECT_EQ(stored.vehicles[0].leg_data.edges[1].segment.centre,
+              records.vehicles[0].leg_data.edges[1].segment.centre);
+    EXPECT_EQ(stored.vehicles[0].leg_data.nodes[2].actions[0].params,
+              records.vehicles[0].leg_data.nodes[2].actions[0].params);
+    ASSERT_EQ(stored.idempotency.size(), 1u);
+    EXPECT_EQ(stored.idempotency[0].order, records.orders[0].id);
+    EXPECT_EQ(stored.last_event_seq, 2);
+    EXPECT_EQ(stored.last_order_number, 2);
+    EXPECT_EQ(stored.last_time, samples.at(20));
+}
+
+// (SQLite keeps -0.0 as 0.0, which is the same number.)
+TEST(FleetStore, DoublesComeBackBitForBit) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(2);
+    for (const double value :
+         {0.1, 0.0, 5e-324, 1.7976931348623157e308, 1.0 / 3, 123456789.123456789}) {
+        fleet::VehicleRecord vehicle = samples.vehicle("TP-01");
+        vehicle.pose = {value, -value + 0.0, value / 7};
+        vehicle.leg_data.duration_s = value;
+        fleet::Records records;
+        records.vehicles = {vehicle};
+        store.commit(records);
+
+        EXPECT_EQ(columns<VehicleRow>(store.load().vehicles.at(0)), columns<VehicleRow>(vehicle));
+    }
+}
+
+TEST(FleetStore, OrdersAndVehiclesAreReplacedById) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(3);
+    fleet::Records records;
+    records.orders = {samples.order(1, 0)};
+    records.vehicles = {samples.vehicle("TP-01")};
+    store.commit(records);
+    records.orders[0].steps.pop_back();
+    records.orders[0].state = fleet::JobState::kInterrupted;
+    records.vehicles[0].has_leg = false;
+    records.vehicles[0].leg = {};
+    store.commit(records);
+    const fleet::StoredFleet stored = store.load();
+
+    ASSERT_EQ(stored.orders.size(), 1u);
+    expect_same(stored.orders[0], records.orders[0]);
+    ASSERT_EQ(stored.vehicles.size(), 1u);
+    EXPECT_FALSE(stored.vehicles[0].has_leg);
+}
+
+TEST(FleetStore, FinalOrdersStaySevenDays) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(4);
+    constexpr std::int64_t kDay_ms = 24LL * 3600 * 1000;
+    fleet::Records records;
+    for (int day = 0; day < 10; ++day) {
+        fleet::JobOrder order = samples.order(day + 1, day * kDay_ms);
+        order.state = day == 0 ? fleet::JobState::kInterrupted : fleet::JobState::kEnded;
+        if (day > 0) order.ended = samples.at(day * kDay_ms);
+        records.idempotency.push_back(
+            {"mes", "key-" + std::to_string(day), "x", order.id, samples.at(day * kDay_ms)});
+        records.orders.push_back(order);
+    }
+    store.commit(records);
+    const fleet::StoredFleet stored = store.load();
+
+    std::vector<std::int64_t> numbers;
+    for (const auto& order : stored.orders) numbers.push_back(order.number);
+    EXPECT_EQ(numbers, (std::vector<std::int64_t>{1, 4, 5, 6, 7, 8, 9, 10}));
+    EXPECT_EQ(stored.last_order_number, 10);
+    EXPECT_EQ(stored.idempotency.size(), 7u);
+}
+
+TEST(FleetStore, EventsMustFollowWithoutAGap) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(5);
+    fleet::Records records;
+    records.events = {samples.event(1, 0), samples.event(2, 1)};
+    store.commit(records);
+    fleet::Records gap;
+    gap.events = {samples.event(3, 2), samples.event(5, 3)};
+    fleet::Records again;
+    again.events = {samples.event(2, 2)};
+    fleet::Records right;
+    right.events = {samples.event(3, 4)};
+
+    EXPECT_THROW(store.commit(gap), Error);
+    EXPECT_THROW(store.commit(again), Error);
+    EXPECT_EQ(store.load().last_event_seq, 2);
+    EXPECT_NO_THROW(store.commit(right));
+    EXPECT_EQ(store.load().last_event_seq, 3);
+}
+
+TEST(FleetStore, NotANumberIsRefusedAndNothingOfTheBatchStays) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(6);
+    const double inf = std::numeric_limits<double>::infinity();
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double bad : {nan, inf, -inf}) {
+        fleet::Records records;
+        records.orders = {samples.order(1, 0)};
+        records.stops = {samples.stop(1, 0)};
+        records.stops[0].measured.y_m = bad;
+        EXPECT_THROW(store.commit(records), Error);
+
+        fleet::Records vehicle;
+        vehicle.vehicles = {samples.vehicle("TP-01")};
+        vehicle.vehicles[0].leg_data.nodes[1].pose.x_m = bad;
+        EXPECT_THROW(store.commit(vehicle), Error);
+
+        fleet::Records event;
+        event.events = {samples.event(1, 0)};
+        event.events[0].params[0].value = bad;
+        EXPECT_THROW(store.commit(event), Error);
+    }
+    const fleet::StoredFleet stored = store.load();
+
+    EXPECT_TRUE(stored.orders.empty());
+    EXPECT_TRUE(stored.vehicles.empty());
+    EXPECT_EQ(stored.last_event_seq, 0);
+}
+
+TEST(FleetStore, GoesOnAfterAFailedCommit) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(7);
+    fleet::Records records;
+    records.orders = {samples.order(1, 0)};
+    store.commit(records);
+    fleet::Records clash;
+    clash.orders = {samples.order(1, 5)};  // another id, the same number
+    fleet::Records next;
+    next.orders = {samples.order(2, 6)};
+
+    EXPECT_THROW(store.commit(clash), Error);
+    EXPECT_NO_THROW(store.commit(next));
+    EXPECT_EQ(store.load().orders.size(), 2u);
+}
+
+}  // namespace
+}  // namespace pulseline::db
