@@ -36,7 +36,7 @@ public:
     float level(int row, int column) const { return levels_[index(row, column)]; }
     bool dark(int row, int column) const { return dark_[index(row, column)]; }
     float contrast() const { return contrast_; }
-    /// Share of finder, separator, timing and quiet modules that are as the standard prints them.
+    /// Share of finder, separator and timing modules that are as the standard prints them.
     double fixed_pattern_share() const;
 
 private:

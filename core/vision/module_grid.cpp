@@ -9,7 +9,6 @@ namespace {
 
 /// What the standard prints whatever the payload: 1 dark, 0 light, -1 data.
 int fixed_module(int row, int column) {
-    if (row < 0 || column < 0 || row >= kModules || column >= kModules) return 0;
     const auto finder = [&](int top, int left) {
         const int r = std::max(std::abs(row - top - 3), std::abs(column - left - 3));
         return r > 4 ? -1 : (r == 4 || r == 2 ? 0 : 1);
@@ -62,8 +61,8 @@ ModuleGrid::ModuleGrid(const cv::Mat& grey, const plant::Camera& camera,
 double ModuleGrid::fixed_pattern_share() const {
     int known = 0;
     int right = 0;
-    for (int row = -1; row <= kModules; ++row) {
-        for (int column = -1; column <= kModules; ++column) {
+    for (int row = 0; row < kModules; ++row) {
+        for (int column = 0; column < kModules; ++column) {
             const int expected = fixed_module(row, column);
             if (expected < 0 || !valid(row, column)) continue;
             ++known;

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <complex>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "core/vision/edge_fit.hpp"
+#include "core/vision/finder_search.hpp"
 
 namespace pulseline::vision {
 namespace {
@@ -32,29 +34,8 @@ ZXing::Result decode(const cv::Mat& grey, bool thorough) {
 struct Located {
     std::string payload;
     bool mirrored = false;
-    std::array<Pixel, 4> corners;  // full-size image
+    CodePlacement placement;
 };
-
-/// The half-size image is three times as fast and finds more (vision.md section 3).
-std::optional<Located> locate(const cv::Mat& grey) {
-    cv::Mat half;
-    cv::resize(grey, half, cv::Size(grey.cols / 2, grey.rows / 2), 0, 0, cv::INTER_AREA);
-    ZXing::Result found = decode(half, false);
-    double factor = 2;
-    if (!found.isValid()) found = decode(half, true);
-    if (!found.isValid()) {
-        found = decode(grey, true);
-        factor = 1;
-    }
-    if (!found.isValid()) return std::nullopt;
-    Located located{found.text(), found.isMirrored(), {}};
-    for (std::size_t i = 0; i < 4; ++i) {
-        // zxing truncates; pixel (i, j) covers [i, i + 1) there and is centred at integers here.
-        const auto p = found.position()[i];
-        located.corners[i] = {factor * (p.x + 0.5) - 0.5, factor * (p.y + 0.5) - 0.5};
-    }
-    return located;
-}
 
 /// Similarity through the four corners of the printed outline (never a reflection).
 CodePlacement placement_from(const plant::Camera& camera, const std::array<Pixel, 4>& corners) {
@@ -68,6 +49,51 @@ CodePlacement placement_from(const plant::Camera& camera, const std::array<Pixel
         turn += std::complex(p.u, p.v) * std::conj(model[i]) / (8 * h * h);
     }
     return {{centre.real(), centre.imag()}, std::arg(turn), std::abs(turn)};
+}
+
+/// `shrink`: how much smaller the image is that was decoded.
+std::optional<Located> from_decoder(const ZXing::Result& found, const plant::Camera& camera,
+                                    int shrink) {
+    if (!found.isValid()) return std::nullopt;
+    std::array<Pixel, 4> corners;
+    for (std::size_t i = 0; i < 4; ++i) {
+        // zxing truncates; pixel (i, j) covers [i, i + 1) there and is centred at integers here.
+        const auto p = found.position()[static_cast<int>(i)];
+        corners[i] = {shrink * (p.x + 0.5) - 0.5, shrink * (p.y + 0.5) - 0.5};
+    }
+    return Located{found.text(), found.isMirrored(), placement_from(camera, corners)};
+}
+
+/// Decodes the modules themselves, drawn afresh without dirt, noise and turn.
+std::optional<Located> from_modules(const cv::Mat& grey, const plant::Camera& camera,
+                                    const CodePlacement& placement) {
+    const ModuleGrid modules(grey, camera, placement);
+    if (modules.fixed_pattern_share() < kFixedPatternShare) return std::nullopt;
+    constexpr int kDraw = 4;   // pixels per module
+    constexpr int kQuiet = 4;  // modules
+    cv::Mat drawn((kModules + 2 * kQuiet) * kDraw, (kModules + 2 * kQuiet) * kDraw, CV_8U,
+                  cv::Scalar(255));
+    for (int row = 0; row < kModules; ++row)
+        for (int column = 0; column < kModules; ++column)
+            if (modules.dark(row, column))
+                drawn(cv::Rect((column + kQuiet) * kDraw, (row + kQuiet) * kDraw, kDraw, kDraw)) =
+                    0;
+    const ZXing::Result found = decode(drawn, true);
+    // Standing on another side means that the search took the wrong three corners.
+    if (!found.isValid() || std::abs(found.orientation()) > 45) return std::nullopt;
+    return Located{found.text(), found.isMirrored(), placement};
+}
+
+/// The half-size image is three times as fast and finds more (vision.md section 3); dirty finder
+/// patterns need our own search; the full size is left for codes of another size.
+std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
+                              double expected_module_px) {
+    cv::Mat half;
+    cv::resize(grey, half, cv::Size(grey.cols / 2, grey.rows / 2), 0, 0, cv::INTER_AREA);
+    if (auto found = from_decoder(decode(half, false), camera, 2)) return found;
+    for (const CodePlacement& placement : search_finders(grey, camera, expected_module_px))
+        if (auto found = from_modules(grey, camera, placement)) return found;
+    return from_decoder(decode(grey, true), camera, 1);
 }
 
 auto refuse(const char* reason, const char* what, Params params = {}) {
@@ -112,7 +138,8 @@ ReadResult read_qr(const cv::Mat& grey, const plant::Camera& camera,
     if (grey.type() != CV_8UC1 || grey.cols != camera.width_px || grey.rows != camera.height_px)
         return fail(Errc::kInvalid, "bad_image",
                     "The image is not 8-bit grey of the camera's size. Check the camera file.");
-    const auto located = locate(grey);
+    const double expected_px = options.size_m * pixels_per_metre(camera) / kModules;
+    const auto located = locate(grey, camera, expected_px);
     if (!located)
         return refuse("no_code",
                       "No code can be read. Clean the code and the lens, check the light.");
@@ -120,8 +147,7 @@ ReadResult read_qr(const cv::Mat& grey, const plant::Camera& camera,
         return refuse("mirrored",
                       "The code is mirrored. Print it again; do not copy it through film.");
 
-    const CodePlacement start = placement_from(camera, located->corners);
-    const double expected_px = options.size_m * pixels_per_metre(camera) / kModules;
+    const CodePlacement& start = located->placement;
     const double rough_ratio = start.module_px / expected_px;
     if (std::abs(rough_ratio - 1) > options.max_scale_error + kRoughScaleError)
         return refuse("scale_off", kScaleOff, {{"ratio", rough_ratio}});
