@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/simulation/vehicle_motion.hpp"
+
+namespace pulseline::agent {
+
+/// What the rest of the machine reports: brackets, wheels, parking feet, battery.
+class BodyStatus {
+public:
+    BodyStatus(const plant::Vehicle& vehicle, const simulation::VehicleMotion& motion,
+               std::uint64_t seed);
+
+    void step(double dt_s);
+    void break_wheel(const std::string& name) { broken_wheel_ = name; }
+    void write_state(fleet::StateMessage& state);
+
+private:
+    const simulation::VehicleMotion& motion_;
+    double load_kg_;
+    std::mt19937_64 random_;
+    std::vector<double> bracket_share_;  // of the load, two sensors each
+    std::vector<fleet::WheelStatus> wheels_;
+    std::string broken_wheel_;
+    double battery_percent_;
+};
+
+}  // namespace pulseline::agent

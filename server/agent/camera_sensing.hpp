@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/fleet/vehicle_messages.hpp"
+#include "core/simulation/stop_sensor.hpp"
+#include "core/simulation/vehicle_stop.hpp"
+#include "core/simulation/world.hpp"
+
+namespace pulseline::agent {
+
+/// The simulated cameras of one vehicle: what they see of the true codes, and the pose computed
+/// from it with the survey that an order brings.
+class CameraSensing : public simulation::StopSensing {
+public:
+    struct Picture {
+        std::string camera;
+        std::string jpeg;
+    };
+
+    /// `motion` is asked for the true pose at every look.
+    CameraSensing(const simulation::World& world, const plant::HallId& hall,
+                  const simulation::VehicleMotion& motion, bool rendered, std::uint64_t seed);
+
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override;
+    /// Takes new images and reads them.
+    void look();
+    const std::vector<fleet::CameraReading>& readings() const { return readings_; }
+    /// True once after each look.
+    bool take_fresh();
+    /// Annotated pictures of the last look; none in analytic mode.
+    std::vector<Picture> pictures() const;
+    void forget() { readings_.clear(); }
+    /// Somebody covers the codes.
+    void cover() { covered_ = true; }
+
+private:
+    std::vector<simulation::FloorCode> codes_around() const;
+
+    const simulation::World& world_;
+    plant::HallId hall_;
+    const simulation::VehicleMotion& motion_;
+    simulation::SensingOptions options_;
+    std::mt19937_64 random_;
+    std::vector<plant::Camera> actual_;
+    std::vector<fleet::CameraReading> readings_;
+    std::vector<cv::Mat> images_;
+    bool fresh_ = false;
+    bool covered_ = false;
+};
+
+}  // namespace pulseline::agent

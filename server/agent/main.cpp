@@ -1,0 +1,168 @@
+// pulseline-agent: simulated vehicles that obey a Pulseline server over the vehicle link.
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <memory>
+#include <opencv2/core/utility.hpp>
+#include <optional>
+#include <vector>
+
+#include "api/plant/plant_file.hpp"
+#include "server/agent/link_client.hpp"
+#include "server/agent/options.hpp"
+#include "server/agent/truth_log.hpp"
+#include "server/agent/vehicle.hpp"
+#include "server/net.hpp"
+
+namespace pulseline::agent {
+namespace {
+
+namespace net = server::net;
+using namespace std::chrono_literals;
+
+constexpr int kExitTrouble = 1;
+constexpr int kExitReplaced = 3;
+constexpr auto kTick = 20ms;
+constexpr double kLongestStep_s = 0.2;  // after a stall the vehicle must not leap
+
+struct Unit {
+    std::unique_ptr<Vehicle> vehicle;
+    std::unique_ptr<LinkClient> link;
+};
+
+/// Where the vehicle truly stands: where its log left it, else placed at home.
+Result<geometry::Pose2> start_pose(const Options& options, const simulation::World& world,
+                                   const plant::Vehicle& vehicle) {
+    if (!options.truth_log.empty()) {
+        if (const auto last = last_true_pose(options.truth_log, vehicle.id.str())) return *last;
+    }
+    return simulation::placed_pose(world, vehicle, options.seed);
+}
+
+Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
+                                              const simulation::World& world,
+                                              const Identity& identity, TruthLog* truth) {
+    const auto* vehicle =
+        plant::find_vehicle(world.plant, identity.manufacturer, identity.serial_number);
+    if (vehicle == nullptr) {
+        return fail(Errc::kNotFound, "unknown_vehicle",
+                    "the plant " + options.world_file + " has no vehicle " + identity.manufacturer +
+                        "/" + identity.serial_number);
+    }
+    if (plant::find_station(world.plant, vehicle->home) == nullptr ||
+        plant::find_vehicle_type(world.plant, vehicle->type) == nullptr) {
+        return fail(Errc::kNotFound, "incomplete_vehicle",
+                    "vehicle " + vehicle->id.str() + " lacks its home station or its type");
+    }
+    const auto pose = start_pose(options, world, *vehicle);
+    if (!pose) return fail(pose.error());
+    VehicleSettings settings;
+    settings.seed = options.seed;
+    settings.time_factor = options.time_factor;
+    settings.rendered = options.rendered;
+    settings.vehicles = static_cast<int>(options.vehicles.size());
+    settings.faults = options.faults;
+    return std::make_unique<Vehicle>(world, *vehicle, *pose, settings, truth);
+}
+
+net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
+    net::steady_timer timer(co_await net::this_coro::executor);
+    auto last = Vehicle::Steady::now();
+    while (running) {
+        const auto now = Vehicle::Steady::now();
+        const double dt_s =
+            std::min(kLongestStep_s, std::chrono::duration<double>(now - last).count());
+        last = now;
+        for (auto& unit : units) unit.vehicle->step(dt_s, now);
+        timer.expires_after(kTick);
+        server::error_code ec;
+        co_await timer.async_wait(server::into(ec));
+    }
+}
+
+Status set_up_tls(server::ssl::context& tls, const Options& options) {
+    server::error_code ec;
+    if (options.insecure) {
+        tls.set_verify_mode(server::ssl::verify_none, ec);
+        return {};
+    }
+    tls.set_verify_mode(server::ssl::verify_peer, ec);
+    if (options.ca_file.empty()) {
+        tls.set_default_verify_paths(ec);
+    } else {
+        tls.load_verify_file(options.ca_file, ec);
+    }
+    if (!ec) return {};
+    return fail(Errc::kInvalid, "bad_ca",
+                "cannot use --ca " + options.ca_file + ": " + ec.message());
+}
+
+Result<int> run(const Options& options) {
+    auto plant = plant::load_plant_file(options.world_file);
+    if (!plant) return fail(plant.error());
+    const auto world = simulation::make_world(std::move(*plant), options.seed);
+    std::optional<TruthLog> truth;
+    server::ssl::context tls(server::ssl::context::tls_client);
+    if (const auto status = set_up_tls(tls, options); !status) return fail(status.error());
+
+    net::io_context io(1);
+    std::vector<Unit> units;
+    if (!options.truth_log.empty()) {
+        auto log = TruthLog::open(options.truth_log);
+        if (!log) return fail(log.error());
+        truth.emplace(std::move(*log));
+    }
+    for (const auto& identity : options.vehicles) {
+        auto vehicle = make_vehicle(options, world, identity, truth ? &*truth : nullptr);
+        if (!vehicle) return fail(vehicle.error());
+        auto link = std::make_unique<LinkClient>(
+            io, tls, options.server, identity, !options.insecure, **vehicle,
+            simulation::seed_for(options.seed, "link " + identity.serial_number));
+        units.push_back({std::move(*vehicle), std::move(link)});
+    }
+
+    bool running = true;
+    std::size_t alive = units.size();
+    net::signal_set signals(io, SIGINT, SIGTERM);
+    signals.async_wait([&](const server::error_code& ec, int) {
+        if (ec) return;
+        for (auto& unit : units) unit.link->stop();
+    });
+    for (auto& unit : units) {
+        net::co_spawn(io, unit.link->run(), [&](const std::exception_ptr& error) {
+            if (error) std::rethrow_exception(error);
+            if (--alive > 0) return;
+            running = false;
+            signals.cancel();
+        });
+    }
+    net::co_spawn(io, step_all(units, running), [](const std::exception_ptr& error) {
+        if (error) std::rethrow_exception(error);
+    });
+    io.run();
+    const bool replaced = std::any_of(units.begin(), units.end(),
+                                      [](const Unit& unit) { return unit.link->replaced(); });
+    return replaced ? kExitReplaced : 0;
+}
+
+}  // namespace
+}  // namespace pulseline::agent
+
+int main(int argc, char** argv) {
+    using namespace pulseline;
+    spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
+    spdlog::flush_on(spdlog::level::info);
+    cv::setNumThreads(1);  // many agents share one machine
+    int exit_code = 0;
+    const auto options = agent::read_options(argc, argv, exit_code);
+    if (!options) return exit_code;
+    try {
+        const auto ended = agent::run(*options);
+        if (ended) return *ended;
+        spdlog::error("{}", ended.error().what);
+    } catch (const std::exception& error) {
+        spdlog::error("the agent ends: {}", error.what());
+    }
+    return agent::kExitTrouble;
+}

@@ -1,0 +1,221 @@
+#include "server/agent/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+
+namespace pulseline::agent {
+namespace {
+
+Result<Identity> parse_identity(const std::string& text) {
+    const auto slash = text.find('/');
+    if (slash == 0 || slash == std::string::npos || slash + 1 == text.size() ||
+        text.find('/', slash + 1) != std::string::npos) {
+        return fail(Errc::kInvalid, "bad_identity",
+                    "vehicle \"" + text + "\" must be MANUFACTURER/SERIAL");
+    }
+    return Identity{text.substr(0, slash), text.substr(slash + 1), {}};
+}
+
+Result<std::string> read_file(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return fail(Errc::kNotFound, "no_file", "cannot read " + path);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
+std::string trimmed(std::string text) {
+    const auto is_space = [](unsigned char c) { return std::isspace(c) != 0; };
+    while (!text.empty() && is_space(static_cast<unsigned char>(text.back()))) text.pop_back();
+    return text;
+}
+
+struct Raw {
+    std::string server;
+    std::string vehicle;
+    std::string vehicle_list;
+    std::string token;
+    std::string token_file;
+    std::string sensing = "rendered";
+    int count = 0;
+    std::vector<std::string> faults;
+};
+
+Result<std::vector<Identity>> identities(const Raw& raw) {
+    if (!raw.vehicle_list.empty()) {
+        auto text = read_file(raw.vehicle_list);
+        if (!text) return fail(text.error());
+        auto list = parse_vehicle_list(*text);
+        if (!list) return list;
+        const auto wanted = static_cast<std::size_t>(raw.count);
+        if (wanted > list->size()) {
+            return fail(Errc::kInvalid, "too_few_vehicles",
+                        "--count asks for " + std::to_string(wanted) + " vehicles, " +
+                            raw.vehicle_list + " has " + std::to_string(list->size()));
+        }
+        if (wanted > 0) list->resize(wanted);
+        return list;
+    }
+    if (raw.count > 1) {
+        return fail(Errc::kInvalid, "no_vehicle_list", "--count needs a list: give --vehicles");
+    }
+    auto identity = parse_identity(raw.vehicle);
+    if (!identity) return fail(identity.error());
+    identity->token = raw.token;
+    if (!raw.token_file.empty()) {
+        auto text = read_file(raw.token_file);
+        if (!text) return fail(text.error());
+        identity->token = trimmed(*text);
+    }
+    if (identity->token.empty()) {
+        return fail(Errc::kInvalid, "no_token",
+                    "the vehicle has no token; give --token or --token-file (`pulseline token "
+                    "create --vehicle " +
+                        raw.vehicle + "` makes one)");
+    }
+    return std::vector<Identity>{std::move(*identity)};
+}
+
+Status complete(const Raw& raw, Options& options) {
+    auto server = parse_server(raw.server);
+    if (!server) return fail(server.error());
+    options.server = std::move(*server);
+    auto vehicles = identities(raw);
+    if (!vehicles) return fail(vehicles.error());
+    options.vehicles = std::move(*vehicles);
+    options.rendered = raw.sensing == "rendered";
+    for (const auto& text : raw.faults) {
+        auto fault = parse_fault(text);
+        if (!fault) return fail(fault.error());
+        options.faults.push_back(std::move(*fault));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<ServerAddress> parse_server(const std::string& url) {
+    ServerAddress address;
+    std::string rest;
+    if (url.rfind("ws://", 0) == 0) {
+        rest = url.substr(5);
+    } else if (url.rfind("wss://", 0) == 0) {
+        address.tls = true;
+        rest = url.substr(6);
+    } else {
+        return fail(Errc::kInvalid, "bad_server",
+                    "server \"" + url + "\" must begin with ws:// or wss://");
+    }
+    while (!rest.empty() && rest.back() == '/') rest.pop_back();
+    const auto colon = rest.rfind(':');
+    const bool has_port = colon != std::string::npos && rest.find(']', colon) == std::string::npos;
+    address.host = has_port ? rest.substr(0, colon) : rest;
+    address.port = has_port ? rest.substr(colon + 1) : (address.tls ? "443" : "80");
+    if (address.host.size() > 2 && address.host.front() == '[') {
+        address.host = address.host.substr(1, address.host.size() - 2);  // IPv6
+    }
+    const bool numeric = !address.port.empty() && address.port.size() <= 5 &&
+                         address.port.find_first_not_of("0123456789") == std::string::npos;
+    if (address.host.empty() || address.host.find('/') != std::string::npos || !numeric) {
+        return fail(Errc::kInvalid, "bad_server",
+                    "server \"" + url + "\" must be ws://HOST:PORT without a path");
+    }
+    return address;
+}
+
+Result<Fault> parse_fault(const std::string& text) {
+    const auto bad = [&] {
+        return fail(Errc::kInvalid, "bad_fault",
+                    "fault \"" + text + "\" must be wheel=NAME@SECONDS or marker-lost@SECONDS");
+    };
+    Fault fault;
+    std::string what = text;
+    if (const auto at = text.rfind('@'); at != std::string::npos) {
+        what = text.substr(0, at);
+        const auto [end, error] =
+            std::from_chars(text.data() + at + 1, text.data() + text.size(), fault.after_s);
+        if (error != std::errc{} || end != text.data() + text.size() || !(fault.after_s >= 0)) {
+            return bad();
+        }
+    }
+    if (what == "marker-lost") {
+        fault.kind = Fault::Kind::kMarkerLost;
+    } else if (what.rfind("wheel=", 0) == 0 && what.size() > 6) {
+        fault.wheel = what.substr(6);
+    } else {
+        return bad();
+    }
+    return fault;
+}
+
+Result<std::vector<Identity>> parse_vehicle_list(const std::string& text) {
+    std::vector<Identity> list;
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::istringstream words(line);
+        std::string name;
+        std::string token;
+        std::string more;
+        if (!(words >> name) || name.front() == '#') continue;
+        if (!(words >> token) || words >> more) {
+            return fail(Errc::kInvalid, "bad_vehicle_list",
+                        "line " + std::to_string(number) +
+                            " of the vehicle list must be \"MANUFACTURER/SERIAL TOKEN\"");
+        }
+        auto identity = parse_identity(name);
+        if (!identity) return fail(identity.error());
+        identity->token = token;
+        list.push_back(std::move(*identity));
+    }
+    if (list.empty()) {
+        return fail(Errc::kInvalid, "empty_vehicle_list", "the vehicle list names no vehicle");
+    }
+    return list;
+}
+
+std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
+    CLI::App app{"The program on a vehicle: a simulated one that obeys a Pulseline server."};
+    app.name("pulseline-agent");
+    Options options;
+    Raw raw;
+    app.add_option("--server", raw.server, "ws://HOST:PORT or wss://HOST:PORT")->required();
+    auto* vehicle = app.add_option("--vehicle", raw.vehicle, "MANUFACTURER/SERIAL");
+    auto* list = app.add_option("--vehicles", raw.vehicle_list,
+                                "file of lines \"MANUFACTURER/SERIAL TOKEN\"");
+    vehicle->excludes(list);
+    app.add_option("--token", raw.token, "the vehicle's token")->excludes(list);
+    app.add_option("--token-file", raw.token_file, "file with the vehicle's token")->excludes(list);
+    app.add_option("--count", raw.count, "only the first N vehicles of the list")
+        ->check(CLI::Range(1, 10000));
+    app.add_option("--world", options.world_file, "plant file of the simulated world")->required();
+    app.add_option("--seed", options.seed, "of all simulated errors");
+    app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
+    app.add_option("--time-factor", options.time_factor, "speeds times it, accelerations squared")
+        ->check(CLI::Range(1.0, 20.0));
+    app.add_option("--sensing", raw.sensing, "rendered: real images; analytic: their error model")
+        ->check(CLI::IsMember({"rendered", "analytic"}));
+    app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
+    app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
+    app.add_option("--fault", raw.faults, "for tests: wheel=NAME@SECONDS, marker-lost@SECONDS");
+    try {
+        app.parse(argc, argv);
+        if (raw.vehicle.empty() && raw.vehicle_list.empty()) {
+            throw CLI::RequiredError("--vehicle or --vehicles");
+        }
+    } catch (const CLI::ParseError& error) {
+        exit_code = app.exit(error) == 0 ? 0 : 2;
+        return std::nullopt;
+    }
+    if (const auto status = complete(raw, options); !status) {
+        std::fprintf(stderr, "pulseline-agent: %s\n", status.error().what.c_str());
+        exit_code = 2;
+        return std::nullopt;
+    }
+    return options;
+}
+
+}  // namespace pulseline::agent

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+
+namespace pulseline::agent {
+
+struct Identity {
+    std::string manufacturer;
+    std::string serial_number;
+    std::string token;
+};
+
+struct ServerAddress {
+    bool tls = false;
+    std::string host;
+    std::string port;
+};
+
+struct Fault {
+    enum class Kind { kWheel, kMarkerLost };
+    Kind kind = Kind::kWheel;
+    std::string wheel;
+    double after_s = 0;
+};
+
+struct Options {
+    ServerAddress server;
+    std::vector<Identity> vehicles;
+    std::string world_file;
+    std::string truth_log;  // empty: none
+    std::uint64_t seed = 1;
+    double time_factor = 1;
+    bool rendered = true;
+    bool insecure = false;
+    std::string ca_file;
+    std::vector<Fault> faults;
+};
+
+/// Reads the command line. nullopt with `exit_code` set: help was shown or an error told.
+std::optional<Options> read_options(int argc, char** argv, int& exit_code);
+
+/// "ws://host:port" or "wss://host:port"; a port is optional.
+[[nodiscard]] Result<ServerAddress> parse_server(const std::string& url);
+/// "wheel=FL@20" or "marker-lost@5"; "@SECONDS" is optional.
+[[nodiscard]] Result<Fault> parse_fault(const std::string& text);
+/// Lines "MAKER/SERIAL TOKEN"; empty ones and # comments are skipped.
+[[nodiscard]] Result<std::vector<Identity>> parse_vehicle_list(const std::string& text);
+
+}  // namespace pulseline::agent

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "core/base/result.hpp"
+#include "core/geometry/pose2.hpp"
+
+namespace pulseline::agent {
+
+/// One line of the true movement of a vehicle, for comparison; never sent over the link.
+struct TruthLine {
+    std::string vehicle;
+    geometry::Pose2 pose;
+    bool moving = false;
+    std::string order_id;
+    std::int64_t last_node_seq = 0;
+    std::int64_t base_end_seq = 0;
+};
+
+/// Appends JSON lines {t_ms, vehicle, x_m, y_m, heading_rad, moving, order_id, last_node_seq,
+/// base_end_seq}, each flushed, so that a killed process leaves all it knew.
+class TruthLog {
+public:
+    [[nodiscard]] static Result<TruthLog> open(const std::string& path);
+    void write(const TruthLine& line, std::int64_t t_ms);
+
+private:
+    explicit TruthLog(std::ofstream file) : file_(std::move(file)) {}
+    std::ofstream file_;
+};
+
+/// Where the log last saw a vehicle: the machine stays where it was when its program ended.
+std::optional<geometry::Pose2> last_true_pose(const std::string& path, const std::string& vehicle);
+
+}  // namespace pulseline::agent

@@ -1,0 +1,265 @@
+#include "server/agent/vehicle.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "api/vehicle/connection.hpp"
+#include "api/vehicle/factsheet.hpp"
+#include "api/vehicle/frame.hpp"
+#include "api/vehicle/instant_actions.hpp"
+#include "api/vehicle/order.hpp"
+#include "api/vehicle/state.hpp"
+#include "api/vehicle/visualization.hpp"
+
+namespace pulseline::agent {
+namespace {
+
+using namespace std::chrono_literals;
+using vda5050::Topic;
+
+constexpr auto kMinStateInterval = 50ms;
+constexpr auto kStateInterval = 1s;
+constexpr auto kVisualizationInterval = 100ms;
+constexpr auto kTruthInterval = 50ms;
+constexpr auto kPictureInterval = 500ms;
+constexpr auto kSettle = 300ms;
+constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
+// Pictures of standing vehicles may cost this share of the processor, all together.
+constexpr int kLookShare = 10;
+constexpr double kDriftPerMetre = 4e-4;
+constexpr double kFixed_m = 0.001;
+
+Time utc_now() {
+    return time_from_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                            std::chrono::system_clock::now().time_since_epoch())
+                            .count());
+}
+
+}  // namespace
+
+Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
+                 const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth)
+    : vehicle_(vehicle),
+      type_(*plant::find_vehicle_type(world.plant, vehicle.type)),
+      settings_(settings),
+      motion_(type_, true_pose, simulation::seed_for(settings.seed, "motion " + vehicle.id.str()),
+              settings.time_factor),
+      sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, motion_,
+               settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
+      executor_(motion_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str()),
+      body_(vehicle, motion_, simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
+      truth_(truth),
+      headers_(vehicle.manufacturer, vehicle.serial_number),
+      look_every_(kLookInterval) {}
+
+void Vehicle::step(double dt_s, Steady::time_point now) {
+    apply_faults(dt_s);
+    executor_.step(dt_s);
+    body_.step(dt_s);
+    way_since_fix_m_ += std::abs(motion_.velocity_mps()) * dt_s;
+    if (!motion_.standing()) stood_since_ = now;
+    write_truth(now);
+    if (sensing_.take_fresh()) {
+        pictures_due_ = true;
+        state_due_ = true;
+        last_look_ = now;
+        if (executor_.acting()) way_since_fix_m_ = 0;
+    }
+    look_while_standing(now);
+    if (executor_.take_factsheet_request()) send_factsheet();
+    state_due_ |= executor_.take_changed();
+    if (!linked_) return;
+    const auto since = now - last_state_;
+    if ((state_due_ && since >= kMinStateInterval) || since >= kStateInterval) send_state(now);
+    if (executor_.position_initialized() && now - last_visualization_ >= kVisualizationInterval) {
+        last_visualization_ = now;
+        send_visualization();
+    }
+    if (pictures_due_ && now - last_pictures_ >= kPictureInterval) send_pictures(now);
+}
+
+void Vehicle::apply_faults(double dt_s) {
+    age_s_ += dt_s;
+    std::erase_if(settings_.faults, [&](const Fault& fault) {
+        if (age_s_ < fault.after_s) return false;
+        if (fault.kind == Fault::Kind::kWheel) {
+            body_.break_wheel(fault.wheel);
+        } else {
+            sensing_.cover();
+        }
+        state_due_ = true;
+        return true;
+    });
+}
+
+/// What the cameras see lets the server confirm where the vehicle stands.
+void Vehicle::look_while_standing(Steady::time_point now) {
+    if (!motion_.standing()) {
+        sensing_.forget();
+        last_look_ = {};
+        return;
+    }
+    if (!linked_ || executor_.acting() || now - stood_since_ < kSettle) return;
+    if (now - last_look_ < look_every_) return;
+    const auto begin = Steady::now();
+    sensing_.look();
+    look_every_ =
+        std::max(kLookInterval, kLookShare * settings_.vehicles * (Steady::now() - begin));
+    last_look_ = now;
+}
+
+fleet::StateMessage Vehicle::state() {
+    fleet::StateMessage state;
+    executor_.write_state(state);
+    body_.write_state(state);
+    state.cameras = sensing_.readings();
+    state.deviation_range_m = kFixed_m + kDriftPerMetre * way_since_fix_m_;
+    state.localization_score = std::clamp(1 - 10 * state.deviation_range_m, 0.0, 1.0);
+    return state;
+}
+
+void Vehicle::send_state(Steady::time_point now) {
+    last_state_ = now;
+    state_due_ = false;
+    outbox_.put_state(vda5050::encode_frame(
+        Topic::kState, false,
+        vda5050::encode_state(state(), headers_.next(Topic::kState, utc_now()))));
+}
+
+void Vehicle::send_visualization() {
+    const fleet::VisualizationMessage message{motion_.believed_pose(), true, motion_.velocity_mps(),
+                                              motion_.turn_rate_radps()};
+    fleet::StateMessage map;
+    executor_.write_state(map);
+    outbox_.put_visualization(vda5050::encode_frame(
+        Topic::kVisualization, false,
+        vda5050::encode_visualization(message, map.map_id,
+                                      headers_.next(Topic::kVisualization, utc_now()))));
+}
+
+void Vehicle::send_pictures(Steady::time_point now) {
+    pictures_due_ = false;
+    last_pictures_ = now;
+    for (const auto& picture : sensing_.pictures()) {
+        auto frame = vda5050::encode_camera_frame(
+            {picture.camera, vda5050::timestamp(utc_now()), "image/jpeg", picture.jpeg});
+        if (frame) outbox_.put_picture(picture.camera, std::move(*frame));
+    }
+}
+
+void Vehicle::send_factsheet() {
+    if (!linked_) return;
+    vda5050::FactsheetSource source;
+    source.type = &type_;
+    source.time_factor = settings_.time_factor;
+    source.node_actions = simulation::node_action_types();
+    source.instant_actions = simulation::instant_action_types();
+    outbox_.put_event(vda5050::encode_frame(
+        Topic::kFactsheet, true,
+        vda5050::encode_factsheet(source, headers_.next(Topic::kFactsheet, utc_now()))));
+}
+
+void Vehicle::link_up() {
+    outbox_.clear();
+    linked_ = true;
+    outbox_.put_event(vda5050::encode_frame(
+        Topic::kConnection, true,
+        vda5050::encode_connection(fleet::ConnectionState::kOnline,
+                                   headers_.next(Topic::kConnection, utc_now()))));
+    send_factsheet();
+    state_due_ = true;
+    last_state_ = {};
+    last_look_ = {};
+    last_pictures_ = {};
+}
+
+void Vehicle::link_down() {
+    // It drives on to the end of its base; what it has to say waits for the next link.
+    linked_ = false;
+    outbox_.clear();
+}
+
+std::string Vehicle::offline_frame() {
+    return vda5050::encode_frame(
+        Topic::kConnection, true,
+        vda5050::encode_connection(fleet::ConnectionState::kOffline,
+                                   headers_.next(Topic::kConnection, utc_now())));
+}
+
+void Vehicle::report(const Error& error, const char* topic) {
+    spdlog::warn("{}: refused a message on {}: {} (at {})", vehicle_.id.str(), topic, error.what,
+                 error.field);
+    fleet::VehicleError out;
+    out.type = "validationError";
+    out.description = error.what;
+    out.references = {{"topic", topic}, {"field", error.field}};
+    executor_.report(std::move(out));
+}
+
+void Vehicle::receive(std::string_view text) {
+    const auto frame = vda5050::decode_frame(text);
+    if (!frame) return report(frame.error(), "unknown");
+    const char* topic = to_string(frame->topic);
+    const auto header = vda5050::decode_header(frame->payload);
+    if (!header) return report(header.error(), topic);
+    if (header->manufacturer != vehicle_.manufacturer ||
+        header->serial_number != vehicle_.serial_number) {
+        return report({Errc::kInvalid,
+                       {"wrong_identity", {}},
+                       "the message is for another vehicle",
+                       "/serialNumber"},
+                      topic);
+    }
+    if (frame->topic == Topic::kOrder) {
+        const auto order = vda5050::decode_order(frame->payload);
+        if (!order) {
+            // The order is named, so that the sender sees this as its rejection.
+            fleet::OrderMessage named;
+            const auto& payload = frame->payload;
+            if (payload.contains("orderId") && payload["orderId"].is_string()) {
+                named.order_id = payload["orderId"].get<std::string>();
+            }
+            if (payload.contains("orderUpdateId") && payload["orderUpdateId"].is_number_integer()) {
+                named.order_update_id = payload["orderUpdateId"].get<std::int64_t>();
+            }
+            auto error = simulation::order_error("validationError", order.error().what, named);
+            error.references.emplace_back("field", order.error().field);
+            return executor_.report(std::move(error));
+        }
+        return executor_.handle(*order);
+    }
+    if (frame->topic == Topic::kInstantActions) {
+        const auto actions = vda5050::decode_instant_actions(frame->payload);
+        if (!actions) return report(actions.error(), topic);
+        return executor_.handle(*actions);
+    }
+    report({Errc::kInvalid,
+            {"wrong_topic", {}},
+            "a vehicle hears order and instantActions only",
+            "/topic"},
+           topic);
+}
+
+void Vehicle::write_truth(Steady::time_point now) {
+    if (truth_ == nullptr) return;
+    TruthLine line{vehicle_.id.str(),
+                   motion_.true_pose(),
+                   !motion_.standing(),
+                   executor_.order_id(),
+                   executor_.last_node_sequence_id(),
+                   executor_.base_end_sequence_id()};
+    const TruthLine& last = last_truth_line_;
+    const bool told = line.moving == last.moving && line.order_id == last.order_id &&
+                      line.last_node_seq == last.last_node_seq &&
+                      line.base_end_seq == last.base_end_seq && line.vehicle == last.vehicle;
+    const bool moved = !(line.pose == last.pose) && now - last_truth_ >= kTruthInterval;
+    if (told && !moved) return;
+    last_truth_ = now;
+    last_truth_line_ = line;
+    truth_->write(line, to_ns(utc_now()) / 1'000'000);
+}
+
+}  // namespace pulseline::agent

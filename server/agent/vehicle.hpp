@@ -1,0 +1,84 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "api/vehicle/header.hpp"
+#include "core/simulation/vehicle_executor.hpp"
+#include "core/simulation/world.hpp"
+#include "server/agent/body_status.hpp"
+#include "server/agent/camera_sensing.hpp"
+#include "server/agent/options.hpp"
+#include "server/agent/outbox.hpp"
+#include "server/agent/truth_log.hpp"
+
+namespace pulseline::agent {
+
+struct VehicleSettings {
+    std::uint64_t seed = 1;
+    double time_factor = 1;
+    bool rendered = true;
+    int vehicles = 1;  // in this process: they share one processor for rendering
+    std::vector<Fault> faults;
+};
+
+/// One vehicle: its simulated machine and what it says. Frames come in by receive() and go out
+/// through outbox(); time passes by step().
+/// Thread safety: none. `world` and `truth` must outlive it.
+class Vehicle {
+public:
+    using Steady = std::chrono::steady_clock;
+
+    Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
+            const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth);
+
+    void step(double dt_s, Steady::time_point now);
+    Outbox& outbox() { return outbox_; }
+    void link_up();
+    void link_down();
+    void receive(std::string_view frame);
+    /// The message that says goodbye on a clean exit.
+    std::string offline_frame();
+
+    const plant::Vehicle& plant_vehicle() const { return vehicle_; }
+
+private:
+    fleet::StateMessage state();
+    void report(const Error& error, const char* topic);
+    void send_factsheet();
+    void send_state(Steady::time_point now);
+    void send_visualization();
+    void send_pictures(Steady::time_point now);
+    void look_while_standing(Steady::time_point now);
+    void apply_faults(double dt_s);
+    void write_truth(Steady::time_point now);
+
+    const plant::Vehicle& vehicle_;
+    const plant::VehicleType& type_;
+    VehicleSettings settings_;
+    simulation::VehicleMotion motion_;
+    CameraSensing sensing_;
+    simulation::VehicleExecutor executor_;
+    BodyStatus body_;
+    TruthLog* truth_;
+    vda5050::HeaderSource headers_;
+    Outbox outbox_;
+    bool linked_ = false;
+    bool state_due_ = true;
+    double age_s_ = 0;
+    double way_since_fix_m_ = 0;
+    Steady::time_point last_state_{};
+    Steady::time_point last_visualization_{};
+    Steady::time_point last_look_{};
+    Steady::time_point last_pictures_{};
+    Steady::time_point stood_since_{};
+    Steady::duration look_every_{};
+    bool pictures_due_ = false;
+    Steady::time_point last_truth_{};
+    TruthLine last_truth_line_;
+};
+
+}  // namespace pulseline::agent
