@@ -10,7 +10,7 @@ import { dateTime, degrees, mass, millimetres, number } from "@/shared/words/for
 import { useWords } from "@/shared/words/useWords";
 import { DeviationBar } from "./Bars";
 import { RunTable } from "./RunTable";
-import { distance_m, series, upTo, widerThanTolerance } from "./statistics";
+import { series, upTo, widerThanTolerance } from "./statistics";
 import { TargetPlot } from "./TargetPlot";
 import { TrendRow } from "./Trend";
 import { useRun, useStop, useStopHistory } from "./useStopHistory";

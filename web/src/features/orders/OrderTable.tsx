@@ -1,0 +1,86 @@
+import { useTranslation } from "react-i18next";
+import type { JobOrder } from "@/shared/api/types";
+import { useServerNow } from "@/shared/live";
+import { Link, navigate } from "@/shared/router";
+import { StatusSymbol } from "@/shared/ui";
+import { dateTime, timeOfDay } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { isOpen, stateSymbol } from "./orderLook";
+
+export function OrderTable({ orders, selected }: { orders: readonly JobOrder[]; selected: string | undefined }) {
+  const { t } = useTranslation("orders");
+  const now = useServerNow(60_000);
+  return (
+    <table className="rows">
+      <thead>
+        <tr>
+          <th>{t("col.name")}</th>
+          <th>{t("col.state")}</th>
+          <th>{t("col.steps")}</th>
+          <th>{t("col.vehicle")}</th>
+          <th>{t("col.why")}</th>
+          <th className="n">{t("col.expected")}</th>
+          <th className="n">{t("col.created")}</th>
+        </tr>
+      </thead>
+      <tbody>
+        {orders.map((order) => (
+          <Row key={order.id} order={order} selected={order.id === selected} now={now} />
+        ))}
+      </tbody>
+    </table>
+  );
+}
+
+function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now: number }) {
+  const { t } = useTranslation(["orders", "words"]);
+  const words = useWords();
+  const to = `/orders/${order.id}`;
+  const vehicle = order.vehicle || order.wanted_vehicle;
+  return (
+    <tr className={`go ${selected ? "on" : ""} ${isOpen(order) ? "" : "closed"}`} onClick={() => navigate(to)}>
+      <td className="b">
+        <Link
+          className="cell-link"
+          to={to}
+          aria-current={selected || undefined}
+          onClick={(event) => event.stopPropagation()}
+        >
+          {order.name}
+        </Link>
+      </td>
+      <td>
+        <span className="row">
+          <StatusSymbol name={stateSymbol[order.state]} />
+          {t(`words:job.${order.state}`)}
+        </span>
+      </td>
+      <td>
+        <StepLine order={order} />
+      </td>
+      <td>{vehicle ? words.vehicle(vehicle) : t("any_vehicle")}</td>
+      <td className="wrap">{order.reason ? words.reason(order.reason) : ""}</td>
+      <td className="n">{order.expected_at && isOpen(order) ? timeOfDay(order.expected_at) : "\u2013"}</td>
+      <td className="n">{dateTime(order.created_at, now)}</td>
+    </tr>
+  );
+}
+
+/** Station numbers in order; done ones ticked, the present one framed. */
+export function StepLine({ order }: { order: JobOrder }) {
+  const { t } = useTranslation(["orders", "words"]);
+  return (
+    <ol className="stepline">
+      {order.steps.map((s, i) => (
+        <li
+          key={i}
+          className={`${s.state} ${i === order.current_step && isOpen(order) ? "now" : ""}`}
+          aria-label={`${s.number}, ${t(`words:step.${s.state}`)}`}
+        >
+          {s.number}
+          {s.state === "done" && <StatusSymbol name="c-ok" size={12} />}
+        </li>
+      ))}
+    </ol>
+  );
+}

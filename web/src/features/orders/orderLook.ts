@@ -1,0 +1,54 @@
+import type { JobOrder, JobState } from "@/shared/api/types";
+import type { SymbolName } from "@/shared/ui";
+
+/** Every state has its own shape, so that the table reads in greyscale. */
+export const stateSymbol: Record<JobState, SymbolName> = {
+  NotAllowedToStart: "s-stale",
+  AllowedToStart: "s-wait",
+  Running: "s-moving",
+  Interrupted: "a-2",
+  Ended: "c-ok",
+  Aborted: "c-no",
+};
+
+export function isOpen(order: Pick<JobOrder, "state">): boolean {
+  return order.state !== "Ended" && order.state !== "Aborted";
+}
+
+/** Open ones first (running, interrupted, waiting), then the newest. */
+export function sortOrders(orders: readonly JobOrder[]): JobOrder[] {
+  const rank: Record<JobState, number> = {
+    Interrupted: 0,
+    Running: 1,
+    AllowedToStart: 2,
+    NotAllowedToStart: 3,
+    Ended: 4,
+    Aborted: 4,
+  };
+  return [...orders].sort((a, b) => rank[a.state] - rank[b.state] || b.number - a.number);
+}
+
+/** Live orders win over fetched ones unless those are newer. */
+export function mergeOrders(live: readonly JobOrder[], pages: readonly JobOrder[]): JobOrder[] {
+  const byId = new Map<string, JobOrder>();
+  for (const order of [...pages, ...live]) {
+    const known = byId.get(order.id);
+    if (!known || order.revision >= known.revision) byId.set(order.id, order);
+  }
+  return sortOrders([...byId.values()]);
+}
+
+export function doneSteps(order: JobOrder): number {
+  return order.steps.filter((s) => s.state === "done").length;
+}
+
+/** What a person may do with an order now. */
+export function actionsOf(order: JobOrder): { pause: boolean; resume: boolean; cancel: boolean } {
+  const open = isOpen(order);
+  const held = order.state === "Interrupted" || order.state === "NotAllowedToStart";
+  return {
+    pause: open && !held && !order.pause_requested && !order.cancel_requested,
+    resume: open && held && !order.cancel_requested,
+    cancel: open && !order.cancel_requested,
+  };
+}

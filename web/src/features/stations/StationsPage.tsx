@@ -1,0 +1,161 @@
+import { useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { StopRecord } from "@/shared/api/types";
+import { useLive, useMayCommand, usePlant, useStations, useStopRecords, useVehicle, useServerNow } from "@/shared/live";
+import type { LiveStation } from "@/shared/live/hooks";
+import { Link } from "@/shared/router";
+import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
+import { dateTime, degrees, millimetres } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { lookOf, looks, lookSymbol, type StationLook } from "./stationLook";
+import "./stations.css";
+
+/** Station board: what stands where, whether it is ready, and how far off the last stop was. */
+export function StationsPage() {
+  const { t } = useTranslation("stations");
+  const stations = useStations();
+  const stops = useStopRecords();
+  const ready = useLive((s) => s.ready);
+  const plant = usePlant();
+  const [filter, setFilter] = useState<StationLook>();
+  const newest = useMemo(() => {
+    const map = new Map<string, StopRecord>();
+    for (const stop of stops) if (!map.has(stop.station)) map.set(stop.station, stop);
+    return map;
+  }, [stops]);
+  const count = (look: StationLook) => stations.filter((s) => lookOf(s.state) === look).length;
+  const shown = stations.filter((s) => filter === undefined || lookOf(s.state) === filter);
+  return (
+    <Card
+      className="listpage"
+      level={1}
+      title={t("title")}
+      summary={t("summary", {
+        ready: count("ready"),
+        occupied: count("ready") + count("occupied"),
+        total: stations.length,
+      })}
+      flush
+    >
+      {!ready || plant.isPending ? (
+        <PanelLoading what={t("title")} />
+      ) : stations.length === 0 ? (
+        <PanelEmpty what={t("empty")} when={t("empty_hint")} />
+      ) : (
+        <>
+          <div className="sfilter">
+            <div className="seg" role="group" aria-label={t("filter")}>
+              <button type="button" aria-pressed={filter === undefined} onClick={() => setFilter(undefined)}>
+                {t("filter_all")} {stations.length}
+              </button>
+              {looks.map((look) => (
+                <button key={look} type="button" aria-pressed={filter === look} onClick={() => setFilter(look)}>
+                  {t(`state.${look}`)} {count(look)}
+                </button>
+              ))}
+            </div>
+          </div>
+          <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
+            <ul className="board">
+              {shown.map((station) => (
+                <Tile key={station.id} station={station} stop={newest.get(station.id)} />
+              ))}
+            </ul>
+          </div>
+        </>
+      )}
+    </Card>
+  );
+}
+
+function Tile({ station, stop }: { station: LiveStation; stop: StopRecord | undefined }) {
+  const { t } = useTranslation("stations");
+  const words = useWords();
+  const mayCommand = useMayCommand();
+  const now = useServerNow(60_000);
+  const look = lookOf(station.state);
+  const by = station.state?.occupied_by || undefined;
+  const vehicle = useVehicle(by);
+  const symbol = lookSymbol[look];
+  const free = look === "free" || look === "reserved";
+  return (
+    <li className={`tile ${look}`}>
+      <header>
+        <b className="num">{station.number}</b>
+        <div className="grow">
+          <strong>{station.name}</strong>
+          <span className="row st">
+            {symbol && <StatusSymbol name={symbol} />}
+            {t(`state.${look}`)}
+          </span>
+        </div>
+      </header>
+      <p className="lab">{who()}</p>
+      {stop ? (
+        <Last stop={stop} time={dateTime(stop.at, now)} />
+      ) : (
+        <p className="cap nostop">{t("no_stop")}</p>
+      )}
+      <div className="row acts">
+        {mayCommand && free && (
+          <Link className="btn" to={`/send?station=${station.number}`}>
+            {t("send")}
+          </Link>
+        )}
+        {stop && (
+          <Link className="btn quiet" to={`/records/${stop.id}`}>
+            {t("record")}
+          </Link>
+        )}
+        <Link className="btn quiet" to={`/records?station=${station.number}`}>
+          {t("records")}
+        </Link>
+      </div>
+    </li>
+  );
+
+  function who(): string {
+    if (by) {
+      const name = words.vehicle(by);
+      return vehicle?.load_name ? t("carries", { vehicle: name, load: vehicle.load_name }) : name;
+    }
+    const coming = station.state?.reserved_by;
+    if (coming) return t("reserved_for", { vehicle: words.vehicle(coming) });
+    return station.resting_place ? t("resting") : "\u00a0";
+  }
+}
+
+/** The last stop as two small bands: distance and heading against the tolerance. */
+function Last({ stop, time }: { stop: StopRecord; time: string }) {
+  const { t } = useTranslation("stations");
+  const limit = Math.min(stop.tolerance.dx_m, stop.tolerance.dy_m);
+  const most = Math.max(Math.abs(stop.dx_m), Math.abs(stop.dy_m));
+  return (
+    <div className="laststop">
+      <span className="cap">
+        {t("last_stop")} {time}
+      </span>
+      <div className="row">
+        <StatusSymbol name={stop.inside ? "c-ok" : "a-2"} size={16} />
+        <b>
+          {millimetres(stop.dx_m, { decimals: 1, sign: true })}, {millimetres(stop.dy_m, { decimals: 1, sign: true })}{" "}
+          mm
+        </b>
+        <b>{degrees(stop.dheading_rad, { sign: true })}°</b>
+      </div>
+      <Band share={most / limit} />
+      <Band share={Math.abs(stop.dheading_rad) / stop.tolerance.dheading_rad} />
+    </div>
+  );
+}
+
+function Band({ share }: { share: number }) {
+  const x = Math.min(1.2, share) * 83.3;
+  return (
+    <svg viewBox="0 0 100 8" preserveAspectRatio="none" aria-hidden="true">
+      <rect width="100" height="4" y="2" fill="var(--surface-3)" />
+      <rect width="83.3" height="6" y="1" fill="var(--band)" />
+      <rect x={Math.max(0, x - 0.6)} width="1.2" height="8" fill="var(--needle)" />
+    </svg>
+  );
+}
