@@ -1,0 +1,98 @@
+#include "db/plant_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "db/error.hpp"
+#include "db/leg_json.hpp"
+
+namespace pulseline::db {
+namespace {
+
+using Json = nlohmann::json;
+using geometry::Point2;
+
+Json number(double value) { return finite(value, "a number of the plant"); }
+Json encode(const Point2& p) { return Json::array({number(p.x_m), number(p.y_m)}); }
+Point2 decode_point(const Json& j) { return {j.at(0), j.at(1)}; }
+
+template <class T, class Encode>
+std::string list_to_json(const std::vector<T>& items, Encode encode_item) {
+    Json list = Json::array();
+    for (const T& item : items) list.push_back(encode_item(item));
+    return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+template <class T, class Decode>
+std::vector<T> list_from_json(const std::string& text, Decode decode_item) {
+    try {
+        std::vector<T> items;
+        for (const Json& item : Json::parse(text)) items.push_back(decode_item(item));
+        return items;
+    } catch (const Json::exception&) {
+        throw Error(Error::Kind::kBadValue,
+                    "The database holds a damaged plant; import it again or restore a backup.");
+    }
+}
+
+}  // namespace
+
+std::string polygon_to_json(const plant::Polygon& polygon) {
+    return list_to_json(polygon, [](const Point2& p) { return encode(p); });
+}
+plant::Polygon polygon_from_json(const std::string& text) {
+    return list_from_json<Point2>(text, decode_point);
+}
+
+std::string wheels_to_json(const std::vector<plant::Wheel>& wheels) {
+    return list_to_json(wheels, [](const plant::Wheel& w) {
+        return Json{{"name", w.name},
+                    {"position", encode(w.position)},
+                    {"driven", w.driven},
+                    {"steered", w.steered},
+                    {"diameter_m", number(w.diameter_m)}};
+    });
+}
+std::vector<plant::Wheel> wheels_from_json(const std::string& text) {
+    return list_from_json<plant::Wheel>(text, [](const Json& j) {
+        return plant::Wheel{j.at("name"), decode_point(j.at("position")), j.at("driven"),
+                            j.at("steered"), j.at("diameter_m")};
+    });
+}
+
+std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
+    return list_to_json(cameras, [](const plant::Camera& c) {
+        return Json{{"name", c.name},
+                    {"x_m", number(c.body_from_camera.x_m)},
+                    {"y_m", number(c.body_from_camera.y_m)},
+                    {"heading_rad", number(c.body_from_camera.heading_rad)},
+                    {"height_m", number(c.height_m)},
+                    {"f_px", number(c.f_px)},
+                    {"width_px", c.width_px},
+                    {"height_px", c.height_px},
+                    {"cu_px", number(c.cu_px)},
+                    {"cv_px", number(c.cv_px)},
+                    {"k1", number(c.k1)}};
+    });
+}
+std::vector<plant::Camera> cameras_from_json(const std::string& text) {
+    return list_from_json<plant::Camera>(text, [](const Json& j) {
+        return plant::Camera{j.at("name"),     {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+                             j.at("height_m"), j.at("f_px"),
+                             j.at("width_px"), j.at("height_px"),
+                             j.at("cu_px"),    j.at("cv_px"),
+                             j.at("k1")};
+    });
+}
+
+std::string brackets_to_json(const std::vector<plant::Bracket>& brackets) {
+    return list_to_json(brackets, [](const plant::Bracket& b) {
+        return Json{{"name", b.name}, {"position", encode(b.position)}};
+    });
+}
+std::vector<plant::Bracket> brackets_from_json(const std::string& text) {
+    return list_from_json<plant::Bracket>(text, [](const Json& j) {
+        return plant::Bracket{j.at("name"), decode_point(j.at("position"))};
+    });
+}
+
+}  // namespace pulseline::db

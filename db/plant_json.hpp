@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/plant/plant.hpp"
+
+/// Lists inside plant rows as JSON text. Private to db. Damaged text throws db::Error.
+namespace pulseline::db {
+
+std::string polygon_to_json(const plant::Polygon& polygon);
+plant::Polygon polygon_from_json(const std::string& text);
+std::string wheels_to_json(const std::vector<plant::Wheel>& wheels);
+std::vector<plant::Wheel> wheels_from_json(const std::string& text);
+std::string cameras_to_json(const std::vector<plant::Camera>& cameras);
+std::vector<plant::Camera> cameras_from_json(const std::string& text);
+std::string brackets_to_json(const std::vector<plant::Bracket>& brackets);
+std::vector<plant::Bracket> brackets_from_json(const std::string& text);
+
+}  // namespace pulseline::db

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+
+#include "core/plant/plant.hpp"
+
+/// Rows of the plant's tables; `kColumns` and `fields()` list the same names in the same order.
+/// set() and get() carry one element over. The doubles live in `element` itself.
+namespace pulseline::db {
+
+struct PlantRow {
+    static constexpr const char* kTable = "plant";
+    static constexpr const char* kColumns =
+        "only_one, id, name, revision, k_same, k_diff, reference_step_m, turn_threshold_rad";
+    int only_one = 1;
+    std::string id, name;
+    std::int64_t revision = 1;
+    plant::RoutingCost routing;
+
+    auto fields() {
+        return std::tie(only_one, id, name, revision, routing.k_same, routing.k_diff,
+                        routing.reference_step_m, routing.turn_threshold_rad);
+    }
+};
+
+/// Halls but for their grid's cells, which go by a blob.
+struct HallRow {
+    static constexpr const char* kTable = "halls";
+    static constexpr const char* kColumns =
+        "position, id, name, outline, occupancy_yaml, grid_width, grid_height, grid_resolution_m, "
+        "grid_origin_x_m, grid_origin_y_m";
+    std::int64_t position = 0;
+    std::string id, outline;
+    plant::Hall element;
+
+    auto fields() {
+        auto& grid = element.grid;
+        return std::tie(position, id, element.name, outline, element.occupancy_yaml, grid.width,
+                        grid.height, grid.resolution_m, grid.origin.x_m, grid.origin.y_m);
+    }
+    void set(const plant::Hall& hall);
+    plant::Hall get() const;
+};
+
+struct NodeRow {
+    static constexpr const char* kTable = "nodes";
+    static constexpr const char* kColumns = "position, id, hall, x_m, y_m";
+    std::int64_t position = 0;
+    std::string id, hall;
+    plant::RoadmapNode element;
+
+    auto fields() {
+        return std::tie(position, id, hall, element.position.x_m, element.position.y_m);
+    }
+    void set(const plant::RoadmapNode& node);
+    plant::RoadmapNode get() const;
+};
+
+struct EdgeRow {
+    static constexpr const char* kTable = "edges";
+    static constexpr const char* kColumns =
+        "position, id, from_node, to_node, max_speed_mps, vehicle_types";
+    std::int64_t position = 0;
+    std::string id, from, to, vehicle_types;
+    double max_speed_mps = 0;
+
+    auto fields() { return std::tie(position, id, from, to, max_speed_mps, vehicle_types); }
+    void set(const plant::RoadmapEdge& edge);
+    plant::RoadmapEdge get() const;
+};
+
+struct VehicleTypeRow {
+    static constexpr const char* kTable = "vehicle_types";
+    static constexpr const char* kColumns =
+        "position, id, name, kinematics, footprint, load_footprint, max_speed_mps, max_accel_mps2, "
+        "max_turn_rate_radps, max_turn_accel_radps2, min_turn_radius_m, max_arc_radius_m, "
+        "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg";
+    std::int64_t position = 0;
+    std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets;
+    plant::VehicleType element;
+
+    auto fields() {
+        auto& t = element;
+        return std::tie(position, id, t.name, kinematics, footprint, load_footprint,
+                        t.max_speed_mps, t.max_accel_mps2, t.max_turn_rate_radps,
+                        t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
+                        t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
+                        t.max_load_kg);
+    }
+    void set(const plant::VehicleType& type);
+    plant::VehicleType get() const;
+};
+
+struct MarkerRow {
+    static constexpr const char* kTable = "markers";
+    static constexpr const char* kColumns =
+        "position, id, kind, payload, size_m, hall, x_m, y_m, heading_rad, sigma_xy_m, "
+        "sigma_heading_rad";
+    std::int64_t position = 0;
+    std::string id, kind, hall;
+    plant::Marker element;
+
+    auto fields() {
+        auto& m = element;
+        return std::tie(position, id, kind, m.payload, m.size_m, hall, m.pose.x_m, m.pose.y_m,
+                        m.pose.heading_rad, m.sigma_xy_m, m.sigma_heading_rad);
+    }
+    void set(const plant::Marker& marker);
+    plant::Marker get() const;
+};
+
+struct AreaRow {
+    static constexpr const char* kTable = "areas";
+    static constexpr const char* kColumns = "position, id, kind, name, hall, outline";
+    std::int64_t position = 0;
+    std::string id, kind, name, hall, outline;
+
+    auto fields() { return std::tie(position, id, kind, name, hall, outline); }
+    void set(const plant::Area& area);
+    plant::Area get() const;
+};
+
+struct StationRow {
+    static constexpr const char* kTable = "stations";
+    static constexpr const char* kColumns =
+        "position, id, number, name, hall, x_m, y_m, heading_rad, tolerance_shape, tolerance_dx_m, "
+        "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types";
+    std::int64_t position = 0;
+    std::string id, hall, tolerance_shape, markers, node, vehicle_types;
+    int resting_place = 0;
+    plant::Station element;
+
+    auto fields() {
+        auto& s = element;
+        return std::tie(position, id, s.number, s.name, hall, s.pose.x_m, s.pose.y_m,
+                        s.pose.heading_rad, tolerance_shape, s.tolerance.dx_m, s.tolerance.dy_m,
+                        s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types);
+    }
+    void set(const plant::Station& station);
+    plant::Station get() const;
+};
+
+struct PlantVehicleRow {
+    static constexpr const char* kTable = "vehicles";
+    static constexpr const char* kColumns =
+        "position, id, type, manufacturer, serial_number, name, home, load_name, load_kg";
+    std::int64_t position = 0;
+    std::string id, type, home;
+    plant::Vehicle element;
+
+    auto fields() {
+        auto& v = element;
+        return std::tie(position, id, type, v.manufacturer, v.serial_number, v.name, home,
+                        v.load_name, v.load_kg);
+    }
+    void set(const plant::Vehicle& vehicle);
+    plant::Vehicle get() const;
+};
+
+}  // namespace pulseline::db
