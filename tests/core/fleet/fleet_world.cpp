@@ -5,6 +5,7 @@
 namespace pulseline::fleet::testing {
 namespace {
 
+constexpr int kTicksPerStep = 5;   // a node takes half a second
 constexpr double kCamera_m = 1.2;  // cameras ahead of and behind the centre
 
 plant::VehicleType small_type() {
@@ -270,8 +271,9 @@ void World::run(double duration_s) {
     const Time end = now + from_seconds(duration_s);
     while (now < end) {
         now += std::chrono::milliseconds(100);
+        const bool step = vehicles_move && ++ticks % kTicksPerStep == 0;
         for (auto& [id, vehicle] : vehicles) {
-            if (vehicles_move) vehicle.step();
+            if (step) vehicle.step();
             if (!connected[id]) continue;
             fleet->vehicle_state(id, vehicle.state, now);
             settle();

@@ -82,6 +82,7 @@ public:
     std::map<plant::VehicleId, FakeVehicle> vehicles;
     std::map<plant::VehicleId, bool> connected;
     bool vehicles_move = true;
+    int ticks = 0;
     std::uint64_t seed = 1;
 };
 
