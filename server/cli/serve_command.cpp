@@ -42,9 +42,7 @@ Result<plant::Plant> load_plant(Storage& storage, const Options& options) {
                         options.plant_file, first.element, first.what, first.remedy, faults.size()),
             first.element);
     }
-    if (const auto imported = storage.import_plant(*plant); !imported) {
-        return fail(imported.error());
-    }
+    plant->revision = storage.import_plant(*plant);
     return plant;
 }
 

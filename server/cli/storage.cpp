@@ -17,7 +17,7 @@ public:
     fleet::History& history() override { return history_; }
     access::Store& access() override { return access_; }
     std::optional<plant::Plant> plant() override { return db::PlantStore(database_).load(); }
-    Status import_plant(const plant::Plant& plant) override {
+    std::int64_t import_plant(const plant::Plant& plant) override {
         return db::PlantStore(database_).import(plant);
     }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,8 @@ public:
     virtual fleet::History& history() = 0;
     virtual access::Store& access() = 0;
     virtual std::optional<plant::Plant> plant() = 0;  // nothing: none was imported
-    virtual Status import_plant(const plant::Plant& plant) = 0;
+    /// Gives the revision the plant got. REQUIRES: validate() found no fault.
+    virtual std::int64_t import_plant(const plant::Plant& plant) = 0;
 };
 
 /// Fails when another process holds the file, when it cannot be written or is no database of ours.
