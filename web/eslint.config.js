@@ -1,23 +1,23 @@
-import js from '@eslint/js';
-import hooks from 'eslint-plugin-react-hooks';
-import { readdirSync } from 'node:fs';
-import tseslint from 'typescript-eslint';
+import js from "@eslint/js";
+import hooks from "eslint-plugin-react-hooks";
+import { readdirSync } from "node:fs";
+import tseslint from "typescript-eslint";
 
 // One direction of knowledge: app -> features/<name> -> shared.
-const features = readdirSync(new URL('./src/features', import.meta.url));
+const features = readdirSync(new URL("./src/features", import.meta.url));
 const featureRules = features.map((name) => ({
   files: [`src/features/${name}/**`],
   rules: {
-    'no-restricted-imports': [
-      'error',
+    "no-restricted-imports": [
+      "error",
       {
         patterns: [
-          { group: ['@/app/*', '**/app/*'], message: 'A feature does not know the app.' },
+          { group: ["@/app/*", "**/app/*"], message: "A feature does not know the app." },
           {
             group: features.filter((other) => other !== name).map((other) => `**/features/${other}/**`),
-            message: 'A feature never imports another feature.',
+            message: "A feature never imports another feature.",
           },
-          { group: ['../../*'], message: 'Use @/shared/... across folders.' },
+          { group: ["../../*"], message: "Use @/shared/... across folders." },
         ],
       },
     ],
@@ -25,40 +25,53 @@ const featureRules = features.map((name) => ({
 }));
 
 export default tseslint.config(
-  { ignores: ['dist', 'src/shared/api/schema.ts'] },
+  { ignores: ["dist", "src/shared/api/schema.ts"] },
   js.configs.recommended,
   ...tseslint.configs.recommended,
   {
-    files: ['**/*.{ts,tsx}'],
-    plugins: { 'react-hooks': hooks },
+    files: ["**/*.{ts,tsx}"],
+    plugins: { "react-hooks": hooks },
     rules: {
-      'react-hooks/rules-of-hooks': 'error',
-      'react-hooks/exhaustive-deps': 'error',
-      '@typescript-eslint/no-explicit-any': 'error',
-      '@typescript-eslint/consistent-type-imports': 'error',
-      '@typescript-eslint/no-unused-vars': ['error', { argsIgnorePattern: '^_' }],
-      'no-restricted-globals': [
-        'error',
-        { name: 'fetch', message: 'Requests go through shared/api/client.ts.' },
-        { name: 'WebSocket', message: 'The socket belongs to shared/api/stream.ts.' },
+      "react-hooks/rules-of-hooks": "error",
+      "react-hooks/exhaustive-deps": "error",
+      "@typescript-eslint/no-explicit-any": "error",
+      "@typescript-eslint/consistent-type-imports": "error",
+      "@typescript-eslint/no-unused-vars": ["error", { argsIgnorePattern: "^_" }],
+      "no-restricted-globals": [
+        "error",
+        { name: "fetch", message: "Requests go through shared/api/client.ts." },
+        { name: "WebSocket", message: "The socket belongs to shared/api/stream.ts." },
       ],
     },
   },
-  { files: ['src/shared/api/**'], rules: { 'no-restricted-globals': 'off' } },
+  { files: ["src/shared/api/**"], rules: { "no-restricted-globals": "off" } },
   {
-    files: ['src/shared/**'],
+    files: ["src/shared/**"],
     rules: {
-      'no-restricted-imports': [
-        'error',
-        { patterns: [{ group: ['**/features/**', '**/app/**'], message: 'shared knows neither features nor app.' }] },
+      "no-restricted-imports": [
+        "error",
+        {
+          patterns: [
+            { group: ["**/features/**", "**/app/**"], message: "shared knows neither features nor app." },
+          ],
+        },
       ],
     },
   },
   ...featureRules,
   {
-    files: ['dev/**', 'scripts/**'],
+    files: ["*.js", "dev/**", "scripts/**"],
     languageOptions: {
-      globals: { console: 'readonly', process: 'readonly', URL: 'readonly', Buffer: 'readonly', setTimeout: 'readonly', setInterval: 'readonly', document: 'readonly' },
+      globals: {
+        console: "readonly",
+        process: "readonly",
+        URL: "readonly",
+        Buffer: "readonly",
+        setTimeout: "readonly",
+        setInterval: "readonly",
+        clearInterval: "readonly",
+        document: "readonly",
+      },
     },
   },
 );

@@ -7,7 +7,8 @@ import { PanelFailed, PanelLoading } from "@/shared/ui";
 import { Page } from "./routes";
 import { Shell } from "./shell/Shell";
 
-const isInside = (path: string) => path.startsWith("/") && !path.startsWith("//") && !path.startsWith("/signin");
+const isInside = (path: string) =>
+  path.startsWith("/") && !path.startsWith("//") && !path.startsWith("/signin");
 
 /** Signed out: the sign-in page, which leads back to where one was. Signed in: the shell and a page. */
 export function App() {
@@ -40,7 +41,11 @@ export function App() {
       return (
         <main className="alone">
           <div className="card">
-            <PanelFailed what={t("start.failed")} error={session.problem} onRetry={() => void loadSession()} />
+            <PanelFailed
+              what={t("start.failed")}
+              error={session.problem}
+              onRetry={() => void loadSession()}
+            />
           </div>
         </main>
       );

@@ -14,7 +14,8 @@ const queries = new QueryClient({
   defaultOptions: {
     queries: {
       refetchOnWindowFocus: false,
-      retry: (tries, error) => tries < 2 && !(error instanceof ApiProblem && error.status >= 400 && error.status < 500),
+      retry: (tries, error) =>
+        tries < 2 && !(error instanceof ApiProblem && error.status >= 400 && error.status < 500),
     },
   },
 });

@@ -8,10 +8,15 @@ import { Button, PanelEmpty, PanelLoading } from "@/shared/ui";
 const modules = import.meta.glob<{ default: ComponentType<{ id?: string }> }>("../features/*/index.tsx");
 
 const pages = new Map(
-  Object.entries(modules).map(([path, load]) => [/features\/([^/]+)\//.exec(path)?.[1] ?? "", lazy(load)] as const),
+  Object.entries(modules).map(
+    ([path, load]) => [/features\/([^/]+)\//.exec(path)?.[1] ?? "", lazy(load)] as const,
+  ),
 );
 
-class Boundary extends Component<{ words: { failed: string; again: string }; children: ReactNode }, { failed: boolean }> {
+class Boundary extends Component<
+  { words: { failed: string; again: string }; children: ReactNode },
+  { failed: boolean }
+> {
   override state = { failed: false };
   static getDerivedStateFromError() {
     return { failed: true };

@@ -21,7 +21,13 @@ export function AlarmCounts() {
         const count = all.filter((alarm) => alarm.priority === priority).length;
         const name = t(`alarms.${priority}`, { count });
         return (
-          <Link key={priority} to="/map" className={`al ${count > 0 ? cls : "none"}`} title={name} aria-label={name}>
+          <Link
+            key={priority}
+            to="/map"
+            className={`al ${count > 0 ? cls : "none"}`}
+            title={name}
+            aria-label={name}
+          >
             <StatusSymbol name={count > 0 ? symbol : "a-1o"} />
             {count}
           </Link>

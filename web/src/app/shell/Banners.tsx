@@ -38,10 +38,14 @@ export function Banners({ onResume }: { onResume: () => void }) {
   const urgent = all.find((alarm) => alarm.priority !== "low");
   const lost = useShownAfter(link.state.kind === "lost", kGraceMs);
   return (
-    <>
-      {lost ? <LinkLost /> : urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />}
+    <div className="banners">
+      {lost ? (
+        <LinkLost />
+      ) : (
+        urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />
+      )}
       <WaitingBanner onResume={onResume} />
-    </>
+    </div>
   );
 }
 
@@ -64,9 +68,11 @@ function AlarmBanner({ alarm, more }: { alarm: Alarm; more: number }) {
   const { t } = useTranslation();
   const vehicle = useVehicles().find((v) => v.id === alarm.vehicle);
   const now = useServerNow(500);
-  const silentFor = vehicle?.last_heard_at === undefined ? undefined : (now - Date.parse(vehicle.last_heard_at)) / 1000;
+  const silentFor =
+    vehicle?.last_heard_at === undefined ? undefined : (now - Date.parse(vehicle.last_heard_at)) / 1000;
   const params = { type: alarm.type ?? "", age: age(silentFor) };
-  const todo = alarm.kind === "field" || alarm.kind === "silent" ? t(`alarm.todo_${alarm.kind}`) : t("alarm.todo_error");
+  const todo =
+    alarm.kind === "field" || alarm.kind === "silent" ? t(`alarm.todo_${alarm.kind}`) : t("alarm.todo_error");
   return (
     <Banner
       priority={alarm.priority}
@@ -79,7 +85,9 @@ function AlarmBanner({ alarm, more }: { alarm: Alarm; more: number }) {
       todo={todo}
       {...(alarm.kind === "silent" && { age: age(silentFor) })}
       actions={
-        <Button onPress={() => navigate(`/map?vehicle=${encodeURIComponent(alarm.vehicle)}`)}>{t("alarm.show")}</Button>
+        <Button onPress={() => navigate(`/map?vehicle=${encodeURIComponent(alarm.vehicle)}`)}>
+          {t("alarm.show")}
+        </Button>
       }
     />
   );

@@ -8,7 +8,9 @@ export function Connection() {
   const { t } = useTranslation();
   const link = useLink();
   const fleet = useFleet();
-  const word = { live: t("link.live"), lost: t("link.lost"), connecting: t("link.connecting") }[link.state.kind];
+  const word = { live: t("link.live"), lost: t("link.lost"), connecting: t("link.connecting") }[
+    link.state.kind
+  ];
   return (
     <div className={`cell conn ${link.state.kind}`} data-link={link.state.kind}>
       {link.state.kind === "lost" ? <StatusSymbol name="s-stale" size={24} /> : <Icon name="link" />}

@@ -24,7 +24,11 @@ export function ResumePanel({ onClose }: { onClose: () => void }) {
   useEffect(() => {
     if (progress.kind !== "accepted" || sent === undefined) return;
     if (still === 0 && fleet?.paused !== true) {
-      setProgress({ kind: "confirmed", by: t("resume.vehicles"), afterS: (performance.now() - sentAt) / 1000 });
+      setProgress({
+        kind: "confirmed",
+        by: t("resume.vehicles"),
+        afterS: (performance.now() - sentAt) / 1000,
+      });
       return;
     }
     const timer = setTimeout(
@@ -49,7 +53,8 @@ export function ResumePanel({ onClose }: { onClose: () => void }) {
       await call(api.POST("/api/v1/fleet/resume", { body: { vehicles: names } }));
       setProgress({ kind: "accepted", waitingFor: t("resume.vehicles") });
     } catch (error) {
-      const problem = error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
+      const problem =
+        error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
       setProgress({ kind: "timed_out", what: t("resume.failed"), next: words.problem(problem) });
     }
   };
@@ -74,7 +79,9 @@ export function ResumePanel({ onClose }: { onClose: () => void }) {
       onKeyDown={(event) => event.key === "Escape" && onClose()}
     >
       <h2>{t("resume.title")}</h2>
-      <p className="lab">{waiting.length === 0 && progress.kind === "ready" ? t("resume.none") : t("resume.why")}</p>
+      <p className="lab">
+        {waiting.length === 0 && progress.kind === "ready" ? t("resume.none") : t("resume.why")}
+      </p>
       <ul>
         {waiting.map((v) => (
           <li key={v.id}>

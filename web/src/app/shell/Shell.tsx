@@ -77,7 +77,14 @@ export function Shell({ children }: { children: ReactNode }) {
       </a>
       <header className="shell">
         <div className="brand">
-          <svg viewBox="0 0 40 40" fill="none" stroke="var(--ink)" strokeWidth="3" role="img" aria-label={t("brand")}>
+          <svg
+            viewBox="0 0 40 40"
+            fill="none"
+            stroke="var(--ink)"
+            strokeWidth="3"
+            role="img"
+            aria-label={t("brand")}
+          >
             <path d="M3 22H11L15 9L22 32L26.5 18L29 22H31" />
             <path d="M33 16.5L38 22L33 27.5" stroke="var(--accent)" />
           </svg>

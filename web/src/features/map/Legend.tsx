@@ -34,7 +34,16 @@ export function Legend({ revision, children }: { revision: number; children: Rea
       </span>
       <span>
         <svg viewBox="0 0 36 16" aria-hidden="true">
-          <rect x="2" y="2" width="32" height="12" fill="none" stroke="var(--ink-2)" strokeWidth="1.75" strokeDasharray="4 3" />
+          <rect
+            x="2"
+            y="2"
+            width="32"
+            height="12"
+            fill="none"
+            stroke="var(--ink-2)"
+            strokeWidth="1.75"
+            strokeDasharray="4 3"
+          />
         </svg>
         {t("legend.stale")}
       </span>

@@ -25,7 +25,9 @@ export function MapPage() {
   }, [selected]);
 
   const select = (vehicle: string | undefined) =>
-    navigate(vehicle === undefined ? "/map" : `/map?vehicle=${encodeURIComponent(vehicle)}`, { replace: true });
+    navigate(vehicle === undefined ? "/map" : `/map?vehicle=${encodeURIComponent(vehicle)}`, {
+      replace: true,
+    });
   const pick = (picked: Picked) => {
     if (picked.kind === "vehicle") select(picked.id === selected ? undefined : picked.id);
     if (picked.kind === "station") setFind(String(picked.number));

@@ -35,7 +35,9 @@ function OrderCard({ order }: { order: JobOrder }) {
       <div className="row">
         <b>{who === "" ? t("orders.any") : words.vehicle(who)}</b>
         <Icon name="right" size={18} />
-        <b>{order.steps.length > 3 ? `… ${last?.number ?? ""}` : order.steps.map((s) => s.number).join(" · ")}</b>
+        <b>
+          {order.steps.length > 3 ? `… ${last?.number ?? ""}` : order.steps.map((s) => s.number).join(" · ")}
+        </b>
         <span className="grow" />
         <span className="cap">{order.name}</span>
       </div>
@@ -59,7 +61,9 @@ export function OrderStrip() {
     <section className="strip gt-sm" aria-label={t("orders.title")}>
       <header>
         <b>{t("orders.title")}</b>
-        <span className="cap">{open.length === 0 ? t("orders.none") : t("orders.summary", { count: open.length })}</span>
+        <span className="cap">
+          {open.length === 0 ? t("orders.none") : t("orders.summary", { count: open.length })}
+        </span>
       </header>
       <div className="mvs">
         {open.slice(0, kShown).map((order) => (

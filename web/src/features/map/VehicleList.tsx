@@ -56,7 +56,10 @@ export function VehicleList(props: VehicleListProps) {
           <div key={s.id} className={`veh stn ${props.station === s.id ? "sel" : ""}`}>
             <Icon name="stations" size={20} />
             <button type="button" className="pickstn" onClick={() => props.onStation(s.id)}>
-              <b>{s.number}</b> <span className="what">{s.name}, {state(s)}</span>
+              <b>{s.number}</b>{" "}
+              <span className="what">
+                {s.name}, {state(s)}
+              </span>
             </button>
             <Link className="btn" to={`/send?station=${s.number}`}>
               {t("send_here")}

@@ -22,15 +22,21 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
   const order = useJobOrder(v.order);
   const what = whatOf(v, numberOf, order);
   const plain = t(`what.${what.key}`, what.values);
-  const text = v.load_name !== "" && !two ? t("what.with", { load: v.load_name, what: plain }) : plain;
+  const text =
+    v.load_name !== "" && !two
+      ? t("what.with", { load: v.load_name, what: plain })
+      : plain.charAt(0).toUpperCase() + plain.slice(1);
   const silentS = v.last_heard_at === undefined ? undefined : (now - Date.parse(v.last_heard_at)) / 1000;
   const leftS = v.leg?.expected_at === undefined ? undefined : (Date.parse(v.leg.expected_at) - now) / 1000;
+  const alarm = alarmOf(v);
   const reason = v.needs_resume ? (v.needs_resume_reason ?? v.reason) : v.reason;
   const why =
     silent(v) && v.pose !== undefined
       ? t("seen", { x: fixed(v.pose.x_m, 1), y: fixed(v.pose.y_m, 1), time: timeOfDay(v.last_heard_at) })
-      : reason === undefined
-        ? ""
+      : reason === undefined || v.field_violation === true
+        ? alarm === undefined
+          ? ""
+          : `${v.name} ${t(`common:alarm.${alarm.kind}`, { type: alarm.type ?? "", age: age(silentS) })}`
         : words.reason(reason);
   const waits = v.activity === "waiting" || v.activity === "paused";
   const old = silent(v) || v.link === "late";
@@ -40,7 +46,7 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
       className={`veh ${selected ? "sel" : ""} ${two ? "two" : ""}`}
       aria-pressed={selected}
       data-vehicle={v.id}
-      data-alarm={alarmOf(v)?.priority ?? "none"}
+      data-alarm={alarm?.priority ?? "none"}
       onClick={onSelect}
     >
       <StatusSymbol name={symbolOf(v)} />

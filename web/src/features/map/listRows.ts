@@ -1,17 +1,21 @@
 import type { JobOrder, Station, Vehicle } from "@/shared/api/types";
-import { groupOf, onFeet, type Group, kGroups } from "@/shared/live/attention";
+import { alarmOf, groupOf, onFeet, type Group, kGroups } from "@/shared/live/attention";
 
 export interface GroupedRows {
   group: Group;
   vehicles: readonly Vehicle[];
 }
 
+const kRank = { critical: 0, high: 1, low: 2 } as const;
+const rank = (v: Vehicle) => kRank[alarmOf(v)?.priority ?? "low"] + (alarmOf(v) === undefined ? 0.5 : 0);
+const byUrgency = (a: Vehicle, b: Vehicle) => rank(a) - rank(b);
+
 /** The list's groups in order, empty ones left out. */
 export function grouped(vehicles: readonly Vehicle[], find: string): GroupedRows[] {
   const wanted = find.trim().toLowerCase();
   const shown = vehicles.filter((v) => wanted === "" || v.name.toLowerCase().includes(wanted));
   return kGroups
-    .map((group) => ({ group, vehicles: shown.filter((v) => groupOf(v) === group) }))
+    .map((group) => ({ group, vehicles: shown.filter((v) => groupOf(v) === group).sort(byUrgency) }))
     .filter((rows) => rows.vehicles.length > 0);
 }
 
@@ -20,7 +24,9 @@ export function foundStations<T extends Station>(stations: readonly T[], find: s
   const wanted = find.trim().toLowerCase();
   if (wanted === "") return [];
   return stations
-    .filter((s) => String(s.number) === wanted || (wanted.length > 1 && s.name.toLowerCase().includes(wanted)))
+    .filter(
+      (s) => String(s.number) === wanted || (wanted.length > 1 && s.name.toLowerCase().includes(wanted)),
+    )
     .slice(0, 8);
 }
 
@@ -30,7 +36,11 @@ export interface What {
   values: Record<string, string | number>;
 }
 
-export function whatOf(v: Vehicle, numberOf: (station: string) => string | undefined, order?: JobOrder): What {
+export function whatOf(
+  v: Vehicle,
+  numberOf: (station: string) => string | undefined,
+  order?: JobOrder,
+): What {
   const at = v.at_station ? numberOf(v.at_station) : undefined;
   const to = v.leg && numberOf(v.leg.station);
   if (v.link === "never") return { key: "never", values: {} };

@@ -35,7 +35,8 @@ export function SignInPage() {
     try {
       await signIn(name.trim(), password);
     } catch (problem) {
-      const known = problem instanceof ApiProblem ? problem : new ApiProblem({ status: 0, code: "unexpected_answer" });
+      const known =
+        problem instanceof ApiProblem ? problem : new ApiProblem({ status: 0, code: "unexpected_answer" });
       setError(problemText(known, (key, values) => t(key, values ?? {})));
       setBusy(false);
       passwordField.current?.select();
@@ -47,7 +48,15 @@ export function SignInPage() {
     <main className="signin">
       <form className="card" onSubmit={(event) => void submit(event)} noValidate aria-label={t("title")}>
         <div className="top">
-          <svg viewBox="0 0 40 40" width="48" height="48" fill="none" stroke="var(--ink)" strokeWidth="3" aria-hidden="true">
+          <svg
+            viewBox="0 0 40 40"
+            width="48"
+            height="48"
+            fill="none"
+            stroke="var(--ink)"
+            strokeWidth="3"
+            aria-hidden="true"
+          >
             <path d="M3 22H11L15 9L22 32L26.5 18L29 22H31" />
             <path d="M33 16.5L38 22L33 27.5" stroke="var(--accent)" />
           </svg>

@@ -1,11 +1,11 @@
-import createClient, { type Middleware } from 'openapi-fetch';
-import { ApiProblem, problemOf } from './problem';
-import type { paths } from './schema';
+import createClient, { type Middleware } from "openapi-fetch";
+import { ApiProblem, problemOf } from "./problem";
+import type { paths } from "./schema";
 
 /** How long a request may stay unanswered before the screen says so. */
 export const kRequestTimeoutMs = 5000;
 
-let csrfToken = '';
+let csrfToken = "";
 let onUnauthorised: () => void = () => {};
 
 /** Set by the session; sent with every change. */
@@ -20,8 +20,8 @@ export function setUnauthorisedHandler(handler: () => void): void {
 
 const csrf: Middleware = {
   onRequest({ request }) {
-    if (request.method !== 'GET' && request.method !== 'HEAD' && csrfToken !== '') {
-      request.headers.set('X-Pulseline-CSRF', csrfToken);
+    if (request.method !== "GET" && request.method !== "HEAD" && csrfToken !== "") {
+      request.headers.set("X-Pulseline-CSRF", csrfToken);
     }
     return request;
   },
@@ -33,15 +33,15 @@ async function timedFetch(request: Request): Promise<Response> {
     return await fetch(request, { signal });
   } catch (error) {
     if (request.signal.aborted) throw error;
-    const late = error instanceof DOMException && error.name === 'TimeoutError';
-    throw new ApiProblem({ status: 0, code: late ? 'no_answer' : 'no_connection' });
+    const late = error instanceof DOMException && error.name === "TimeoutError";
+    throw new ApiProblem({ status: 0, code: late ? "no_answer" : "no_connection" });
   }
 }
 
 /** Every request of the dashboard is made here. `baseUrl` is the page's own origin. */
 export const api = createClient<paths>({
-  baseUrl: typeof window === 'undefined' ? 'http://localhost' : window.location.origin,
-  credentials: 'same-origin',
+  baseUrl: typeof window === "undefined" ? "http://localhost" : window.location.origin,
+  credentials: "same-origin",
   fetch: timedFetch,
 });
 api.use(csrf);

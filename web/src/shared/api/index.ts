@@ -1,3 +1,3 @@
-export { api, call } from './client';
-export { ApiProblem } from './problem';
-export type * from './types';
+export { api, call } from "./client";
+export { ApiProblem } from "./problem";
+export type * from "./types";

@@ -1,12 +1,21 @@
-import type { LiveStore } from '@/shared/live/store';
-import type { StreamFrame } from './types';
+import type { LiveStore } from "@/shared/live/store";
+import type { StreamFrame } from "./types";
 
 /** Silence after which the link counts as lost. The server sends poses or a fleet frame at least once a second. */
 export const kSilenceMs = 2500;
 const kRetryMinMs = 500;
 const kRetryMaxMs = 10_000;
 
-const kFrameTypes = new Set(['snapshot', 'poses', 'vehicle', 'station', 'job_order', 'stop_record', 'fleet', 'event']);
+const kFrameTypes = new Set([
+  "snapshot",
+  "poses",
+  "vehicle",
+  "station",
+  "job_order",
+  "stop_record",
+  "fleet",
+  "event",
+]);
 
 /** Wait before try number `attempt` (0-based): exponential with full jitter, never outside 0.5 to 10 s. */
 export function retryDelayMs(attempt: number, random: number): number {
@@ -16,10 +25,10 @@ export function retryDelayMs(attempt: number, random: number): number {
 
 /** A frame, or undefined when the text is none. An unknown type is ignored: the server may be newer. */
 export function parseFrame(text: unknown): StreamFrame | undefined {
-  if (typeof text !== 'string') return undefined;
+  if (typeof text !== "string") return undefined;
   try {
     const value: unknown = JSON.parse(text);
-    if (typeof value !== 'object' || value === null || !('type' in value)) return undefined;
+    if (typeof value !== "object" || value === null || !("type" in value)) return undefined;
     return kFrameTypes.has(String(value.type)) ? (value as StreamFrame) : undefined;
   } catch {
     return undefined;
@@ -38,28 +47,29 @@ export class Stream {
 
   constructor(
     private readonly store: LiveStore,
-    private readonly url: string = `${window.location.origin.replace(/^http/, 'ws')}/api/v1/stream`,
+    private readonly url: string = `${window.location.origin.replace(/^http/, "ws")}/api/v1/stream`,
   ) {}
 
   start(): void {
     this.watchdog = setInterval(() => this.watch(), 250);
-    window.addEventListener('online', this.retryNow);
-    window.addEventListener('offline', this.markOffline);
+    window.addEventListener("online", this.retryNow);
+    window.addEventListener("offline", this.markOffline);
     this.connect();
   }
 
   stop(): void {
     clearInterval(this.watchdog);
     clearTimeout(this.timer);
-    window.removeEventListener('online', this.retryNow);
-    window.removeEventListener('offline', this.markOffline);
+    window.removeEventListener("online", this.retryNow);
+    window.removeEventListener("offline", this.markOffline);
     this.drop();
   }
 
   private connect(): void {
     clearTimeout(this.timer);
     this.timer = undefined;
-    if (this.heardAt === undefined && this.lostSince === undefined) this.store.setLink({ kind: 'connecting' });
+    if (this.heardAt === undefined && this.lostSince === undefined)
+      this.store.setLink({ kind: "connecting" });
     const socket = new WebSocket(this.url);
     this.socket = socket;
     const opened = performance.now();
@@ -76,13 +86,13 @@ export class Stream {
     if (frame === undefined) return;
     const now = performance.now();
     this.heardAt = now;
-    if (frame.type === 'snapshot') this.attempt = 0;
+    if (frame.type === "snapshot") this.attempt = 0;
     this.store.apply(frame);
     // Twice a second is enough for the age on the screen.
-    if (this.lostSince !== undefined || now - this.lastShown > 450 || frame.type === 'snapshot') {
+    if (this.lostSince !== undefined || now - this.lastShown > 450 || frame.type === "snapshot") {
       this.lostSince = undefined;
       this.lastShown = now;
-      this.store.setLink({ kind: 'live', heardAt: now });
+      this.store.setLink({ kind: "live", heardAt: now });
     }
   }
 
@@ -94,7 +104,7 @@ export class Stream {
   private lost(): void {
     this.drop();
     this.lostSince ??= this.heardAt ?? performance.now();
-    this.store.setLink({ kind: 'lost', since: this.lostSince, heardAt: this.heardAt });
+    this.store.setLink({ kind: "lost", since: this.lostSince, heardAt: this.heardAt });
     clearTimeout(this.timer);
     this.timer = setTimeout(() => this.connect(), retryDelayMs(this.attempt++, Math.random()));
   }

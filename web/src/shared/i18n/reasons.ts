@@ -48,7 +48,8 @@ function shown(params: Params, t: Translate): Record<string, string> {
   for (const [name, value] of Object.entries(params)) {
     if (value === "") continue;
     const prefix = kCodes[name];
-    const named = prefix !== undefined && typeof value === "string" ? words(t, `${prefix}${value}`, {}) : undefined;
+    const named =
+      prefix !== undefined && typeof value === "string" ? words(t, `${prefix}${value}`, {}) : undefined;
     values[name] = named !== undefined && !named.includes("{{") ? named : paramText(name, value);
   }
   return values;

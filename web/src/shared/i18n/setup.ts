@@ -8,7 +8,10 @@ const kLanguageKey = "pulseline.language";
 const kThemeKey = "pulseline.theme";
 
 // Namespaces: shared/i18n/<namespace>.<language>.json and features/<feature>/i18n.<language>.json.
-const shared = import.meta.glob<Record<string, unknown>>("./*.{en,zh}.json", { eager: true, import: "default" });
+const shared = import.meta.glob<Record<string, unknown>>("./*.{en,zh}.json", {
+  eager: true,
+  import: "default",
+});
 const features = import.meta.glob<Record<string, unknown>>("../../features/*/i18n.{en,zh}.json", {
   eager: true,
   import: "default",

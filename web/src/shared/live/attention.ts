@@ -44,13 +44,16 @@ export function alarms(vehicles: Iterable<Vehicle>): Alarm[] {
 export function groupOf(v: Vehicle): Group {
   if (alarmOf(v) !== undefined || v.needs_resume) return "attention";
   if (v.link !== "never" && !v.pose_known) return "attention";
-  if (v.activity === "moving" || v.activity === "measuring") return v.activity === "measuring" && v.leg === undefined ? "standing" : "moving";
+  if (v.activity === "moving" || v.activity === "measuring")
+    return v.activity === "measuring" && v.leg === undefined ? "standing" : "moving";
   if (v.activity === "waiting" || v.activity === "paused") return "waiting";
   return "standing";
 }
 
 /** Shape that stands for what a vehicle does. */
-export function symbolOf(v: Vehicle): "a-1" | "a-2" | "s-stale" | "s-wait" | "s-moving" | "s-measure" | "s-charge" | "s-feet" | "s-stand" {
+export function symbolOf(
+  v: Vehicle,
+): "a-1" | "a-2" | "s-stale" | "s-wait" | "s-moving" | "s-measure" | "s-charge" | "s-feet" | "s-stand" {
   const alarm = alarmOf(v);
   if (v.link === "never" || alarm?.kind === "silent" || alarm?.kind === "late") return "s-stale";
   if (alarm !== undefined) return alarm.priority === "critical" ? "a-1" : "a-2";
@@ -61,4 +64,5 @@ export function symbolOf(v: Vehicle): "a-1" | "a-2" | "s-stale" | "s-wait" | "s-
   return onFeet(v) ? "s-feet" : "s-stand";
 }
 
-export const onFeet = (v: Vehicle) => v.parking_feet.length > 0 && v.parking_feet.every((f) => f.extension_m > 0.01);
+export const onFeet = (v: Vehicle) =>
+  v.parking_feet.length > 0 && v.parking_feet.every((f) => f.extension_m > 0.01);

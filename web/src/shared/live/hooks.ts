@@ -1,9 +1,9 @@
-import { useQuery } from '@tanstack/react-query';
-import { useMemo, useSyncExternalStore } from 'react';
-import { api, call } from '@/shared/api/client';
-import type { Fleet, JobOrder, Plant, Station, StationState, StopRecord, Vehicle } from '@/shared/api/types';
-import { useNow } from './clock';
-import { liveStore, type LinkState, type LiveState } from './store';
+import { useQuery } from "@tanstack/react-query";
+import { useMemo, useSyncExternalStore } from "react";
+import { api, call } from "@/shared/api/client";
+import type { Fleet, JobOrder, Plant, Station, StationState, StopRecord, Vehicle } from "@/shared/api/types";
+import { useNow } from "./clock";
+import { liveStore, type LinkState, type LiveState } from "./store";
 
 /** A part of the live state. `select` must return a value the state holds (compared by identity). */
 export function useLive<T>(select: (state: LiveState) => T): T {
@@ -14,7 +14,7 @@ export function useLive<T>(select: (state: LiveState) => T): T {
 export function useVehicles(): readonly Vehicle[] {
   const vehicles = useLive((s) => s.vehicles);
   return useMemo(
-    () => [...vehicles.values()].sort((a, b) => a.name.localeCompare(b.name, 'en', { numeric: true })),
+    () => [...vehicles.values()].sort((a, b) => a.name.localeCompare(b.name, "en", { numeric: true })),
     [vehicles],
   );
 }
@@ -64,8 +64,8 @@ export function useFleet(): Fleet | undefined {
 export function usePlant() {
   const revision = useLive((s) => s.fleet?.plant_revision);
   return useQuery<Plant>({
-    queryKey: ['plant', revision],
-    queryFn: () => call(api.GET('/api/v1/plant')),
+    queryKey: ["plant", revision],
+    queryFn: () => call(api.GET("/api/v1/plant")),
     staleTime: Infinity,
     placeholderData: (previous) => previous,
   });
@@ -83,14 +83,14 @@ export interface LinkInfo {
 export function useLink(): LinkInfo {
   const state = useLive((s) => s.link);
   const now = useNow(500);
-  const heardAt = state.kind === 'connecting' ? undefined : state.heardAt;
+  const heardAt = state.kind === "connecting" ? undefined : state.heardAt;
   const ageS = heardAt === undefined ? undefined : Math.max(0, now.monoMs - heardAt) / 1000;
-  return { state, ageS, live: state.kind === 'live' };
+  return { state, ageS, live: state.kind === "live" };
 }
 
 /** True while commands may be given. Does not re-render with the clock. */
 export function useCommandsEnabled(): boolean {
-  return useLive((s) => s.link.kind === 'live' && s.ready);
+  return useLive((s) => s.link.kind === "live" && s.ready);
 }
 
 /** Server time now, in epoch ms; re-renders every `everyMs`. Ages: `serverNow - Date.parse(x_at)`. */
@@ -98,4 +98,3 @@ export function useServerNow(everyMs = 500): number {
   const offset = useLive((s) => s.clockOffsetMs);
   return useNow(everyMs).wallMs + offset;
 }
-

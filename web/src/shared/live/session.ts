@@ -1,24 +1,24 @@
-import { useSyncExternalStore } from 'react';
-import { api, call, setCsrfToken, setUnauthorisedHandler } from '@/shared/api/client';
-import { ApiProblem } from '@/shared/api/problem';
-import { Stream } from '@/shared/api/stream';
-import type { Session } from '@/shared/api/types';
-import { liveStore } from './store';
+import { useSyncExternalStore } from "react";
+import { api, call, setCsrfToken, setUnauthorisedHandler } from "@/shared/api/client";
+import { ApiProblem } from "@/shared/api/problem";
+import { Stream } from "@/shared/api/stream";
+import type { Session } from "@/shared/api/types";
+import { liveStore } from "./store";
 
 export type SessionState =
-  | { kind: 'loading' }
-  | { kind: 'failed'; problem: ApiProblem }
-  | { kind: 'signed_out' }
-  | { kind: 'signed_in'; session: Session };
+  | { kind: "loading" }
+  | { kind: "failed"; problem: ApiProblem }
+  | { kind: "signed_out" }
+  | { kind: "signed_in"; session: Session };
 
-let state: SessionState = { kind: 'loading' };
+let state: SessionState = { kind: "loading" };
 let stream: Stream | undefined;
 const listeners = new Set<() => void>();
 
 function become(next: SessionState): void {
   state = next;
-  setCsrfToken(next.kind === 'signed_in' ? next.session.csrf_token : '');
-  if (next.kind === 'signed_in') {
+  setCsrfToken(next.kind === "signed_in" ? next.session.csrf_token : "");
+  if (next.kind === "signed_in") {
     if (stream === undefined) {
       stream = new Stream(liveStore);
       stream.start();
@@ -32,34 +32,37 @@ function become(next: SessionState): void {
 }
 
 setUnauthorisedHandler(() => {
-  if (state.kind === 'signed_in') become({ kind: 'signed_out' });
+  if (state.kind === "signed_in") become({ kind: "signed_out" });
 });
 
 /** Asks the server who is signed in. Called once at start and by "Try again". */
 export async function loadSession(): Promise<void> {
   try {
-    become({ kind: 'signed_in', session: await call(api.GET('/api/v1/session')) });
+    become({ kind: "signed_in", session: await call(api.GET("/api/v1/session")) });
   } catch (error) {
-    if (error instanceof ApiProblem && error.status === 401) become({ kind: 'signed_out' });
-    else become({ kind: 'failed', problem: asProblem(error) });
+    if (error instanceof ApiProblem && error.status === 401) become({ kind: "signed_out" });
+    else become({ kind: "failed", problem: asProblem(error) });
   }
 }
 
 /** Throws ApiProblem when refused. */
 export async function signIn(name: string, password: string): Promise<void> {
-  become({ kind: 'signed_in', session: await call(api.POST('/api/v1/session', { body: { name, password } })) });
+  become({
+    kind: "signed_in",
+    session: await call(api.POST("/api/v1/session", { body: { name, password } })),
+  });
 }
 
 export async function signOut(): Promise<void> {
   try {
-    await call(api.DELETE('/api/v1/session'));
+    await call(api.DELETE("/api/v1/session"));
   } finally {
-    become({ kind: 'signed_out' });
+    become({ kind: "signed_out" });
   }
 }
 
 function asProblem(error: unknown): ApiProblem {
-  return error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: 'unexpected_answer' });
+  return error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
 }
 
 const subscribe = (listener: () => void) => {
@@ -74,11 +77,11 @@ export function useSessionState(): SessionState {
 /** The signed-in user; undefined while signed out or loading. */
 export function useSession(): Session | undefined {
   const current = useSessionState();
-  return current.kind === 'signed_in' ? current.session : undefined;
+  return current.kind === "signed_in" ? current.session : undefined;
 }
 
 /** Whether the signed-in user may give commands (viewers only look). */
 export function useMayCommand(): boolean {
   const role = useSession()?.role;
-  return role !== undefined && role !== 'viewer';
+  return role !== undefined && role !== "viewer";
 }

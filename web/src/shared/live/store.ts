@@ -1,10 +1,18 @@
-import type { Fleet, JobOrder, Pose, StationState, StopRecord, StreamFrame, Vehicle } from '@/shared/api/types';
+import type {
+  Fleet,
+  JobOrder,
+  Pose,
+  StationState,
+  StopRecord,
+  StreamFrame,
+  Vehicle,
+} from "@/shared/api/types";
 
 /** State of the browser's own link to the server. */
 export type LinkState =
-  | { kind: 'connecting' }
-  | { kind: 'live'; heardAt: number }
-  | { kind: 'lost'; since: number; heardAt: number | undefined };
+  | { kind: "connecting" }
+  | { kind: "live"; heardAt: number }
+  | { kind: "lost"; since: number; heardAt: number | undefined };
 
 /** Newest pose of one vehicle. Times are performance.now() milliseconds of this browser. */
 export interface LivePose extends Pose {
@@ -27,7 +35,7 @@ export interface LiveState {
 }
 
 export const emptyState: LiveState = {
-  link: { kind: 'connecting' },
+  link: { kind: "connecting" },
   ready: false,
   fleet: undefined,
   vehicles: new Map(),
@@ -59,7 +67,7 @@ function isNewer(old: JobOrder | undefined, next: JobOrder): boolean {
 /** One frame into the state. Pure. Poses are kept apart (see LiveStore) and change nothing here. */
 export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): LiveState {
   switch (frame.type) {
-    case 'snapshot':
+    case "snapshot":
       return {
         ...state,
         ready: true,
@@ -70,19 +78,19 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
         stopRecords: byKey(frame.stop_records, (r) => r.id),
         clockOffsetMs: Date.parse(frame.server_time) - wallMs || 0,
       };
-    case 'vehicle':
+    case "vehicle":
       return { ...state, vehicles: withItem(state.vehicles, frame.vehicle.id, frame.vehicle) };
-    case 'station':
+    case "station":
       return { ...state, stations: withItem(state.stations, frame.station.station, frame.station) };
-    case 'job_order':
+    case "job_order":
       if (!isNewer(state.jobOrders.get(frame.job_order.id), frame.job_order)) return state;
       return { ...state, jobOrders: withItem(state.jobOrders, frame.job_order.id, frame.job_order) };
-    case 'stop_record':
+    case "stop_record":
       return { ...state, stopRecords: withStop(state.stopRecords, frame.stop_record) };
-    case 'fleet':
+    case "fleet":
       return { ...state, fleet: frame.fleet };
-    case 'poses':
-    case 'event':
+    case "poses":
+    case "event":
       return state;
   }
 }
@@ -93,8 +101,8 @@ function isPoseRow(row: unknown): row is PoseRow {
   return (
     Array.isArray(row) &&
     row.length >= 6 &&
-    typeof row[0] === 'string' &&
-    row.slice(1, 6).every((n) => typeof n === 'number' && Number.isFinite(n))
+    typeof row[0] === "string" &&
+    row.slice(1, 6).every((n) => typeof n === "number" && Number.isFinite(n))
   );
 }
 
@@ -134,11 +142,11 @@ export class LiveStore {
   };
 
   apply(frame: StreamFrame): void {
-    if (frame.type === 'poses') {
+    if (frame.type === "poses") {
       this.takePoses(frame.poses);
       return;
     }
-    if (frame.type === 'snapshot') this.takeSnapshotPoses(frame.vehicles, Date.parse(frame.server_time));
+    if (frame.type === "snapshot") this.takeSnapshotPoses(frame.vehicles, Date.parse(frame.server_time));
     this.pending = reduce(this.pending, frame, this.wall());
     this.request();
   }

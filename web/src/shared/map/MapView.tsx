@@ -1,4 +1,13 @@
-import { useEffect, useImperativeHandle, useLayoutEffect, useMemo, useRef, useState, type KeyboardEvent, type Ref } from "react";
+import {
+  useEffect,
+  useImperativeHandle,
+  useLayoutEffect,
+  useMemo,
+  useRef,
+  useState,
+  type KeyboardEvent,
+  type Ref,
+} from "react";
 import { useTranslation } from "react-i18next";
 import type { Plant } from "@/shared/api/types";
 import { useTheme } from "@/shared/i18n/useTheme";
@@ -10,7 +19,17 @@ import { Picker, type Picked } from "./pick";
 import { CanvasRenderer } from "./renderer";
 import { allLayers, hallModel, type MapLayers, type MapOverlays } from "./scene";
 import { useGestures, type Gestures } from "./useGestures";
-import { fitted, kept, panned, toHall, zoomAt, type Margins, type ScreenPoint, type Size, type View } from "./view";
+import {
+  fitted,
+  kept,
+  panned,
+  toHall,
+  zoomAt,
+  type Margins,
+  type ScreenPoint,
+  type Size,
+  type View,
+} from "./view";
 
 export type { Picked } from "./pick";
 export type { MapLayers, MapOverlays } from "./scene";
@@ -50,7 +69,17 @@ const kAgeTickMs = 250;
 
 /** Map of one hall, drawn to scale. Poses go from the store to the canvas without React. */
 export function MapView(props: MapViewProps) {
-  const { plant, hall, layers, overlays = kNoOverlays, selected, follow, prefer = "vehicle", onPick, onFollowEnd } = props;
+  const {
+    plant,
+    hall,
+    layers,
+    overlays = kNoOverlays,
+    selected,
+    follow,
+    prefer = "vehicle",
+    onPick,
+    onFollowEnd,
+  } = props;
   const { t, i18n } = useTranslation("mapview");
   const theme = useTheme();
   const box = useRef<HTMLDivElement>(null);
@@ -76,7 +105,8 @@ export function MapView(props: MapViewProps) {
     renderer.current ??= new CanvasRenderer(canvas.current);
     palette.current ??= readPalette(canvas.current);
     if (view.current === undefined || isFitted.current) view.current = fitted(m.box, s, kMargins);
-    const followed = f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
+    const followed =
+      f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
     if (followed !== undefined) {
       isFitted.current = false;
       view.current = { ...view.current, cx: followed.x_m, cy: followed.y_m };
@@ -164,8 +194,11 @@ export function MapView(props: MapViewProps) {
     zoom: (at, factor) => change((v, s) => zoomAt(v, s, at, factor), false),
     press: (at) => {
       const { size: s } = now.current;
-      if (onPick === undefined || picker === undefined || view.current === undefined || s === undefined) return;
-      onPick(picker.pick(toHall(view.current, s, at), view.current.pxPerM, renderer.current?.drawn ?? [], prefer));
+      if (onPick === undefined || picker === undefined || view.current === undefined || s === undefined)
+        return;
+      onPick(
+        picker.pick(toHall(view.current, s, at), view.current.pxPerM, renderer.current?.drawn ?? [], prefer),
+      );
     },
     hover: () => {},
   };

@@ -14,7 +14,7 @@ export function drawRulers(pen: Pen, model: HallModel, north: string): void {
   g.fillStyle = palette["map-out"];
   if (y === strip) g.fillRect(0, 0, size.width, strip + 1);
   if (x === strip + 12) g.fillRect(0, 0, strip + 13, size.height);
-  const major = [1, 2, 5, 10, 20, 50].find((step) => step * pen.k >= 44) ?? 100;
+  const major = [1, 2, 5, 10, 20, 50].find((step) => step * pen.k >= 52) ?? 100;
   const minor = major >= 10 ? major / 10 : major / 5;
   const fine = minor * pen.k >= 5;
   g.font = `12px ${palette.font}`;

@@ -167,7 +167,12 @@ function drawBrackets(pen: Pen, model: HallModel): void {
     g.rotate(-station.pose.heading_rad);
     g.scale(pen.k, pen.k);
     g.beginPath();
-    for (const [sx, sy] of [[-1, -1], [-1, 1], [1, -1], [1, 1]] as const) {
+    for (const [sx, sy] of [
+      [-1, -1],
+      [-1, 1],
+      [1, -1],
+      [1, 1],
+    ] as const) {
       g.moveTo(sx * l, sy * (w - corner * 0.6));
       g.lineTo(sx * l, sy * w);
       g.lineTo(sx * (l - corner), sy * w);

@@ -8,7 +8,12 @@ const kMinLengthPx = 10;
 const kManyInView = 200;
 
 /** Everything that moves, in the order: horizon, grants, preview, loads, vehicles. */
-export function drawLive(pen: Pen, model: HallModel, vehicles: readonly DrawnVehicle[], overlays: MapOverlays): void {
+export function drawLive(
+  pen: Pen,
+  model: HallModel,
+  vehicles: readonly DrawnVehicle[],
+  overlays: MapOverlays,
+): void {
   const few = vehicles.length <= 40;
   for (const v of vehicles) if (v.selected) drawRoute(pen, v);
   for (const v of vehicles) if (!v.selected && few && v.moving) drawOtherRoute(pen, v);
@@ -19,7 +24,13 @@ export function drawLive(pen: Pen, model: HallModel, vehicles: readonly DrawnVeh
   drawGhost(pen, model, overlays);
 }
 
-function arrowHead(pen: Pen, path: readonly MetricPoint[], size: number, filled: boolean, colour: string): void {
+function arrowHead(
+  pen: Pen,
+  path: readonly MetricPoint[],
+  size: number,
+  filled: boolean,
+  colour: string,
+): void {
   const end = path[path.length - 1];
   if (end === undefined) return;
   const e = pen.at(end.x_m, end.y_m);
@@ -124,7 +135,9 @@ function drawGhost(pen: Pen, model: HallModel, overlays: MapOverlays): void {
   g.translate(p.x, p.y);
   g.rotate(-overlays.ghost.pose.heading_rad);
   g.beginPath();
-  chevron.forEach((q, i) => (i === 0 ? g.moveTo(q.x_m * pen.k, -q.y_m * pen.k) : g.lineTo(q.x_m * pen.k, -q.y_m * pen.k)));
+  chevron.forEach((q, i) =>
+    i === 0 ? g.moveTo(q.x_m * pen.k, -q.y_m * pen.k) : g.lineTo(q.x_m * pen.k, -q.y_m * pen.k),
+  );
   g.restore();
   pen.stroke(pen.palette.swept, 2);
 }
@@ -146,7 +159,13 @@ function drawLoad(pen: Pen, v: DrawnVehicle, fine: boolean): void {
   pen.stroke(v.selected ? palette["accent-line"] : palette["ink-2"], v.selected ? 2 : 1.5);
   if (!fine || detailOf(pen.k) === "far") return;
   const box = boxOf(shape);
-  pen.body([{ x_m: box.minX - 0.8, y_m: 0 }, { x_m: box.maxX + 0.8, y_m: 0 }], v.pose);
+  pen.body(
+    [
+      { x_m: box.minX - 0.8, y_m: 0 },
+      { x_m: box.maxX + 0.8, y_m: 0 },
+    ],
+    v.pose,
+  );
   pen.stroke(palette["map-craft-fine"], 1, [12, 3, 2, 3]);
 }
 
@@ -159,10 +178,20 @@ interface Ink {
 }
 
 function inkOf(v: DrawnVehicle, p: Pen["palette"]): Ink {
-  if (v.stale) return { body: p["map-lane"], line: v.selected ? p.accent : p["ink-2"], mark: p["ink-2"], dash: [4, 3], width: 1.75 };
-  if (v.critical) return { body: p["critical-fill"], line: p.critical, mark: p["on-critical"], dash: [], width: 2 };
-  if (v.blocked) return { body: p["high-fill"], line: p["high-edge"], mark: p["on-high"], dash: [], width: 2 };
-  if (v.selected) return { body: p["veh-sel"], line: p["veh-halo"], mark: p["veh-sel-mark"], dash: [], width: 1.5 };
+  if (v.stale)
+    return {
+      body: p["map-lane"],
+      line: v.selected ? p.accent : p["ink-2"],
+      mark: p["ink-2"],
+      dash: [4, 3],
+      width: 1.75,
+    };
+  if (v.critical)
+    return { body: p["critical-fill"], line: p.critical, mark: p["on-critical"], dash: [], width: 2 };
+  if (v.blocked)
+    return { body: p["high-fill"], line: p["high-edge"], mark: p["on-high"], dash: [], width: 2 };
+  if (v.selected)
+    return { body: p["veh-sel"], line: p["veh-halo"], mark: p["veh-sel-mark"], dash: [], width: 1.5 };
   return { body: p.veh, line: p["veh-halo"], mark: p["veh-mark"], dash: [], width: 1.5 };
 }
 
@@ -177,7 +206,9 @@ function drawVehicle(pen: Pen, v: DrawnVehicle): void {
   g.translate(p.x, p.y);
   g.rotate(-v.pose.heading_rad);
   g.beginPath();
-  v.type.footprint.forEach((q, i) => (i === 0 ? g.moveTo(q.x_m * k, -q.y_m * k) : g.lineTo(q.x_m * k, -q.y_m * k)));
+  v.type.footprint.forEach((q, i) =>
+    i === 0 ? g.moveTo(q.x_m * k, -q.y_m * k) : g.lineTo(q.x_m * k, -q.y_m * k),
+  );
   g.closePath();
   pen.fill(ink.body);
   pen.stroke(ink.line, ink.width, ink.dash);
@@ -206,7 +237,12 @@ function drawVehicle(pen: Pen, v: DrawnVehicle): void {
   const s = (box.maxY - box.minY) * 0.34;
   const tip = box.maxX - 0.47 * s;
   g.beginPath();
-  for (const [i, [x, y]] of [[tip, 0], [tip - 1.59 * s, s], [tip - 1.18 * s, 0], [tip - 1.59 * s, -s]].entries()) {
+  for (const [i, [x, y]] of [
+    [tip, 0],
+    [tip - 1.59 * s, s],
+    [tip - 1.18 * s, 0],
+    [tip - 1.59 * s, -s],
+  ].entries()) {
     if (i === 0) g.moveTo(x! * k, -y! * k);
     else g.lineTo(x! * k, -y! * k);
   }

@@ -1,2 +1,9 @@
-export { MapView, type MapHandle, type MapLayers, type MapOverlays, type MapViewProps, type Picked } from "./MapView";
+export {
+  MapView,
+  type MapHandle,
+  type MapLayers,
+  type MapOverlays,
+  type MapViewProps,
+  type Picked,
+} from "./MapView";
 export { MapControls } from "./MapControls";

@@ -9,6 +9,8 @@ export interface LabelWish {
   must: boolean;
   width: number;
   height: number;
+  /** The label may stand on the thing itself: a bare number. */
+  on?: boolean;
   /** The thing on the screen, around which places are tried. */
   around: Box;
 }
@@ -30,10 +32,12 @@ export interface PlacedLabel {
 
 const kGap = 5;
 export const kSlots = 16;
+const kOnSlot = -1;
 
 /** Centre of a label at one of eight places around the thing, then the same eight farther out. */
 export function slotCentre(wish: LabelWish, slot: number): XY {
   const { around: b, width, height } = wish;
+  if (slot === kOnSlot) return { x: (b.minX + b.maxX) / 2, y: (b.minY + b.maxY) / 2 };
   const far = slot >= 8 ? 18 : 0;
   const mx = (b.minX + b.maxX) / 2;
   const my = (b.minY + b.maxY) / 2;
@@ -86,15 +90,21 @@ export function placeLabels(
   for (const wish of [...wishes].sort((a, b) => a.rank - b.rank)) {
     let best: { cost: number; slot: number; centre: XY; box: Box } | undefined;
     const kept = previous.get(wish.key);
-    for (let slot = 0; slot < kSlots; slot++) {
+    for (let slot = wish.on ? kOnSlot : 0; slot < kSlots; slot++) {
       const centre = slotCentre(wish, slot);
       const box = boxAt(centre, wish.width, wish.height);
-      const outside = box.minX < frame.minX || box.minY < frame.minY || box.maxX > frame.maxX || box.maxY > frame.maxY;
+      const outside =
+        box.minX < frame.minX || box.minY < frame.minY || box.maxX > frame.maxX || box.maxY > frame.maxY;
       const clashes = taken.reduce((n, other) => n + (boxesMeet(other, box) ? 1 : 0), 0);
       const covered = hits(bodies, box);
       if (!wish.must && (outside || clashes > 0 || covered > 0)) continue;
       const cost =
-        (outside ? 1000 : 0) + clashes * 300 + covered * 200 + hits(soft, box) * 20 + slot - (slot === kept ? 30 : 0);
+        (outside ? 1000 : 0) +
+        clashes * 300 +
+        covered * 200 +
+        hits(soft, box) * 20 +
+        slot -
+        (slot === kept ? 30 : 0);
       if (best === undefined || cost < best.cost) best = { cost, slot, centre, box };
     }
     if (best === undefined) continue;

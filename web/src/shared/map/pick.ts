@@ -31,7 +31,12 @@ export class Picker {
   }
 
   /** `prefer` decides where a vehicle stands on a station. */
-  pick(point: MetricPoint, pxPerM: number, vehicles: readonly DrawnVehicle[], prefer: "vehicle" | "station"): Picked {
+  pick(
+    point: MetricPoint,
+    pxPerM: number,
+    vehicles: readonly DrawnVehicle[],
+    prefer: "vehicle" | "station",
+  ): Picked {
     const reach = kReachPx / pxPerM;
     const station = this.station(point, reach);
     const vehicle = nearestVehicle(point, reach, vehicles);
@@ -51,7 +56,11 @@ export class Picker {
   }
 }
 
-function nearestVehicle(point: MetricPoint, reach: number, vehicles: readonly DrawnVehicle[]): string | undefined {
+function nearestVehicle(
+  point: MetricPoint,
+  reach: number,
+  vehicles: readonly DrawnVehicle[],
+): string | undefined {
   let best = reach;
   let id: string | undefined;
   for (const v of vehicles) {

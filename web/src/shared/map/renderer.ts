@@ -47,7 +47,9 @@ export interface Renderer {
 
 const kLabelHoldMs = 500;
 const kAllTagsUpTo = 40;
-type Tag = { kind: "vehicle"; tag: VehicleTag; width: number } | { kind: "station"; tag: StationTag; size: ReturnType<typeof stationTagSize> };
+type Tag =
+  | { kind: "vehicle"; tag: VehicleTag; width: number }
+  | { kind: "station"; tag: StationTag; size: ReturnType<typeof stationTagSize> };
 
 /** Canvas2D. The hall is drawn once per view into a bitmap; each frame adds what moves. */
 export class CanvasRenderer implements Renderer {
@@ -133,14 +135,16 @@ export class CanvasRenderer implements Renderer {
       });
     });
     this.stationWishes(input, tags, wishes);
-    this.zoneNames(pen, input);
+    bodies.push(...this.zoneNames(pen, input));
     const frame: Box = { minX: 40, minY: 28, maxX: size.width - 2, maxY: size.height - 26 };
     const key = `${view.cx},${view.cy},${view.pxPerM},${size.width},${size.height},${wishes.length},${input.selected ?? ""}`;
     const fresh = key !== this.slotsKey || input.nowMs - this.slotsAt >= kLabelHoldMs;
     if (fresh) {
       this.slotsKey = key;
       this.slotsAt = input.nowMs;
-      this.slots = new Map(placeLabels(wishes, { bodies, soft, frame }, this.slots).map((l) => [l.key, l.slot]));
+      this.slots = new Map(
+        placeLabels(wishes, { bodies, soft, frame }, this.slots).map((l) => [l.key, l.slot]),
+      );
     }
     // Least important first, so that what matters lies on top.
     for (const wish of wishes.sort((a, b) => b.rank - a.rank)) {
@@ -187,6 +191,7 @@ export class CanvasRenderer implements Renderer {
         key,
         rank: isGoal ? 3 : state?.occupied_by ? 4.5 : bracket.big ? 4.8 : 6,
         must: isGoal,
+        on: look === "bare",
         width: tagSize.width,
         height: tagSize.height,
         around: { minX: p.x - hw, minY: p.y - hh, maxX: p.x + hw, maxY: p.y + hh },
@@ -194,8 +199,10 @@ export class CanvasRenderer implements Renderer {
     }
   }
 
-  private zoneNames(pen: Pen, input: FrameInput): void {
+  /** Names the zones in their corners; labels keep clear of the names. */
+  private zoneNames(pen: Pen, input: FrameInput): XY[][] {
     const { g } = this;
+    const rings: XY[][] = [];
     const { palette } = input;
     g.font = `700 13px ${palette.font}`;
     g.textAlign = "left";
@@ -211,7 +218,15 @@ export class CanvasRenderer implements Renderer {
       g.fillRect(corner.x + 6, corner.y + 1, width + 12, 18);
       g.fillStyle = palette["ink-3"];
       g.fillText(text, corner.x + 12, corner.y + 11);
+      const [x, y] = [corner.x + 6, corner.y + 1];
+      rings.push([
+        { x, y },
+        { x: x + width + 12, y },
+        { x: x + width + 12, y: y + 18 },
+        { x, y: y + 18 },
+      ]);
     }
+    return rings;
   }
 }
 
@@ -254,7 +269,15 @@ function drawnVehicles({ live, model, selected, nowMs }: FrameInput): DrawnVehic
 }
 
 function vehicleTag(v: DrawnVehicle, input: FrameInput): VehicleTag {
-  const look = v.stale ? "stale" : v.critical ? "critical" : v.blocked ? "high" : v.selected ? "selected" : "plain";
+  const look = v.stale
+    ? "stale"
+    : v.critical
+      ? "critical"
+      : v.blocked
+        ? "high"
+        : v.selected
+          ? "selected"
+          : "plain";
   const speed = input.live.poses.get(v.vehicle.id)?.speed_mps ?? v.vehicle.speed_mps ?? 0;
   const extra = v.stale
     ? Number.isFinite(v.ageS)

@@ -1,4 +1,16 @@
-import type { Area, Hall, Marker, Plant, Point, Pose, Ring, Station, StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import type {
+  Area,
+  Hall,
+  Marker,
+  Plant,
+  Point,
+  Pose,
+  Ring,
+  Station,
+  StationState,
+  Vehicle,
+  VehicleType,
+} from "@/shared/api/types";
 import { boxOf, type Box } from "@/shared/math/geometry";
 import type { LivePose } from "@/shared/live/store";
 
@@ -57,10 +69,12 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
   if (hall === undefined) return undefined;
   const nodes = new Map(plant.roadmap.nodes.filter((n) => n.hall === hall.id).map((n) => [n.id, n.position]));
   const bigTypes = new Set(
-    plant.vehicle_types.filter((type) => {
-      const b = boxOf(type.footprint);
-      return b.maxX - b.minX > kBigM;
-    }).map((type) => type.id),
+    plant.vehicle_types
+      .filter((type) => {
+        const b = boxOf(type.footprint);
+        return b.maxX - b.minX > kBigM;
+      })
+      .map((type) => type.id),
   );
   const edges = new Set(plant.roadmap.edges.map((e) => `${e.from}>${e.to}`));
   const lanes: { ax: number; ay: number; bx: number; by: number; big: boolean; oneWay: boolean }[] = [];
@@ -74,7 +88,8 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
     const big = only.length > 0 && only.every((type) => bigTypes.has(type));
     lanes.push({ ax: a.x_m, ay: a.y_m, bx: b.x_m, by: b.y_m, big, oneWay: !both });
   }
-  const here = <T extends { hall: string }>(items: readonly T[]) => items.filter((item) => item.hall === hall.id);
+  const here = <T extends { hall: string }>(items: readonly T[]) =>
+    items.filter((item) => item.hall === hall.id);
   const stations = here(plant.stations);
   return {
     hall,

@@ -2,7 +2,9 @@ import type { SymbolName } from "@/shared/ui/Icon";
 import type { Palette } from "./palette";
 
 /** Status shapes for the canvas, in an 18 x 18 box: filled parts and stroked parts. */
-const kShapes: Partial<Record<SymbolName, { fill?: string; stroke?: string; width?: number; dash?: number[] }>> = {
+const kShapes: Partial<
+  Record<SymbolName, { fill?: string; stroke?: string; width?: number; dash?: number[] }>
+> = {
   "s-moving": { fill: "M4 2.5L15 9L4 15.5Z" },
   "s-stand": { fill: "M3.5 3.5H14.5V14.5H3.5Z" },
   "s-feet": { fill: "M3 3H15V11H3Z", stroke: "M2 15.5H6.5M11.5 15.5H16M4.2 11V15M13.8 11V15", width: 2 },
@@ -104,7 +106,12 @@ export interface StationTag {
   big: boolean;
 }
 
-export function stationTagSize(g: CanvasRenderingContext2D, tag: StationTag, palette: Palette, narrow: boolean) {
+export function stationTagSize(
+  g: CanvasRenderingContext2D,
+  tag: StationTag,
+  palette: Palette,
+  narrow: boolean,
+) {
   const font = tag.big ? (narrow ? 14 : 16) : 13;
   g.font = `${kBold} ${font}px ${palette.font}`;
   const min = tag.big ? (narrow ? 24 : 28) : narrow ? 20 : 22;

@@ -11,7 +11,10 @@ export interface Gestures {
 const kSlackPx = 6;
 
 /** Drag and touch pan, wheel and pinch zoom; what did not move is a press. */
-export function useGestures(canvas: RefObject<HTMLCanvasElement | null>, gestures: RefObject<Gestures>): void {
+export function useGestures(
+  canvas: RefObject<HTMLCanvasElement | null>,
+  gestures: RefObject<Gestures>,
+): void {
   useEffect(() => {
     const element = canvas.current;
     if (element === null) return;
@@ -59,7 +62,8 @@ export function useGestures(canvas: RefObject<HTMLCanvasElement | null>, gesture
     };
     const up = (event: PointerEvent) => {
       const was = pointers.delete(event.pointerId);
-      if (was && pointers.size === 0 && !moved && event.type === "pointerup") gestures.current.press(at(event));
+      if (was && pointers.size === 0 && !moved && event.type === "pointerup")
+        gestures.current.press(at(event));
     };
     const wheel = (event: WheelEvent) => {
       event.preventDefault();

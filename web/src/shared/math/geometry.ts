@@ -90,7 +90,10 @@ export const boxesMeet = (a: Box, b: Box): boolean =>
   a.minX < b.maxX && b.minX < a.maxX && a.minY < b.maxY && b.minY < a.maxY;
 
 /** Splits a path at the place nearest to `at`: what lies behind, what lies ahead. Both contain that place. */
-export function splitPath<P extends MetricPoint>(path: readonly P[], at: MetricPoint): [MetricPoint[], MetricPoint[]] {
+export function splitPath<P extends MetricPoint>(
+  path: readonly P[],
+  at: MetricPoint,
+): [MetricPoint[], MetricPoint[]] {
   let best = Infinity;
   let where = 0;
   let split: MetricPoint = path[0] ?? at;
@@ -100,7 +103,8 @@ export function splitPath<P extends MetricPoint>(path: readonly P[], at: MetricP
     const dx = b.x_m - a.x_m;
     const dy = b.y_m - a.y_m;
     const square = dx * dx + dy * dy;
-    const t = square === 0 ? 0 : Math.max(0, Math.min(1, ((at.x_m - a.x_m) * dx + (at.y_m - a.y_m) * dy) / square));
+    const t =
+      square === 0 ? 0 : Math.max(0, Math.min(1, ((at.x_m - a.x_m) * dx + (at.y_m - a.y_m) * dy) / square));
     const p = { x_m: a.x_m + t * dx, y_m: a.y_m + t * dy };
     const d = Math.hypot(p.x_m - at.x_m, p.y_m - at.y_m);
     if (d < best) {
@@ -109,5 +113,8 @@ export function splitPath<P extends MetricPoint>(path: readonly P[], at: MetricP
       split = p;
     }
   }
-  return [[...path.slice(0, where + 1), split], [split, ...path.slice(where + 1)]];
+  return [
+    [...path.slice(0, where + 1), split],
+    [split, ...path.slice(where + 1)],
+  ];
 }

@@ -21,8 +21,26 @@ export interface ButtonProps {
 
 /** A plain button. Two-step commands to vehicles are CommandButton. */
 export function Button(props: ButtonProps) {
-  const { children, icon, primary, motion, quiet, label, disabled, pressed, type = "button", className } = props;
-  const classes = ["btn", primary && "primary", motion && "motion", quiet && "quiet", !children && "icon", className];
+  const {
+    children,
+    icon,
+    primary,
+    motion,
+    quiet,
+    label,
+    disabled,
+    pressed,
+    type = "button",
+    className,
+  } = props;
+  const classes = [
+    "btn",
+    primary && "primary",
+    motion && "motion",
+    quiet && "quiet",
+    !children && "icon",
+    className,
+  ];
   return (
     <button
       ref={props.ref}

@@ -122,9 +122,15 @@ export function CommandButton(props: CommandButtonProps) {
 
   function face() {
     if (disabled) {
-      return { className: "", title: label, small: disabledReason, mark: <StatusSymbol name="c-no" className="gk" /> };
+      return {
+        className: "",
+        title: label,
+        small: disabledReason,
+        mark: <StatusSymbol name="c-no" className="gk" />,
+      };
     }
-    if (holding && !armed) return { className: "armed", title: label, small: t("command.hold"), mark: <Ring /> };
+    if (holding && !armed)
+      return { className: "armed", title: label, small: t("command.hold"), mark: <Ring /> };
     if (armed) {
       const left = Math.max(0, Math.ceil((kArmMs - (now - armedAt)) / 1000));
       return {

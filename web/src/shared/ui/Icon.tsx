@@ -1,13 +1,47 @@
 import sprite from "./sprite.svg?raw";
 
 export type IconName =
-  | "map" | "send" | "orders" | "stations" | "veh" | "alarm" | "rec" | "eng" | "pause" | "play" | "chev" | "search"
-  | "plus" | "minus" | "fit" | "follow" | "layers" | "sun" | "link" | "right" | "back" | "x" | "del" | "out";
+  | "map"
+  | "send"
+  | "orders"
+  | "stations"
+  | "veh"
+  | "alarm"
+  | "rec"
+  | "eng"
+  | "pause"
+  | "play"
+  | "chev"
+  | "search"
+  | "plus"
+  | "minus"
+  | "fit"
+  | "follow"
+  | "layers"
+  | "sun"
+  | "link"
+  | "right"
+  | "back"
+  | "x"
+  | "del"
+  | "out";
 
 /** moving .. measure: what a vehicle does; a-1 .. a-3: alarm priority; c-ok, c-no: result of a check. */
 export type SymbolName =
-  | "s-moving" | "s-stand" | "s-feet" | "s-wait" | "s-charge" | "s-stale" | "s-measure"
-  | "a-1" | "a-1o" | "a-2" | "a-2s" | "a-3" | "c-ok" | "c-no";
+  | "s-moving"
+  | "s-stand"
+  | "s-feet"
+  | "s-wait"
+  | "s-charge"
+  | "s-stale"
+  | "s-measure"
+  | "a-1"
+  | "a-1o"
+  | "a-2"
+  | "a-2s"
+  | "a-3"
+  | "c-ok"
+  | "c-no";
 
 export type ModeIconName = "m-auto" | "m-lin" | "m-arc" | "m-rot" | "m-lat" | "m-free";
 
@@ -31,7 +65,15 @@ export function Icon({ name, size, className }: { name: IconName; size?: number;
 }
 
 /** A status shape of 18 px in the colour of the text (alarm shapes carry their own colours). */
-export function StatusSymbol({ name, size, className }: { name: SymbolName; size?: number; className?: string }) {
+export function StatusSymbol({
+  name,
+  size,
+  className,
+}: {
+  name: SymbolName;
+  size?: number;
+  className?: string;
+}) {
   return (
     <svg
       className={`g ${className ?? ""}`}

@@ -28,9 +28,18 @@ export function PanelLoading({ what }: { what: string }) {
 }
 
 /** What failed, with the request id; that nothing was changed; and a way to try again. */
-export function PanelFailed({ what, error, onRetry }: { what: string; error: unknown; onRetry?: () => void }) {
+export function PanelFailed({
+  what,
+  error,
+  onRetry,
+}: {
+  what: string;
+  error: unknown;
+  onRetry?: () => void;
+}) {
   const { t } = useTranslation();
-  const problem = error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
+  const problem =
+    error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
   return (
     <div className="pin" role="alert">
       <StatusSymbol name="a-2" size={44} />

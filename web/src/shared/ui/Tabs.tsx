@@ -8,7 +8,12 @@ export interface TabItem {
 }
 
 /** Tabs of 48 px. Arrow keys move between them. */
-export function Tabs({ label, items, selected, onSelect }: {
+export function Tabs({
+  label,
+  items,
+  selected,
+  onSelect,
+}: {
   label: string;
   items: readonly TabItem[];
   selected?: string;

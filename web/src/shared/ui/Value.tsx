@@ -30,9 +30,20 @@ export interface ValueProps {
 
 export function Value({ caption, value, unit, ageS, atMs, size, outside, boxed }: ValueProps) {
   const { t } = useTranslation();
-  const state = ageS === undefined ? (value === undefined ? "never" : "live") : freshness(ageS === "never" ? undefined : ageS);
+  const state =
+    ageS === undefined
+      ? value === undefined
+        ? "never"
+        : "live"
+      : freshness(ageS === "never" ? undefined : ageS);
   const old = state === "late" || state === "lost";
-  const classes = [boxed && "vb", old && "stale", state === "lost" && "lost", outside !== undefined && "hi", "value"];
+  const classes = [
+    boxed && "vb",
+    old && "stale",
+    state === "lost" && "lost",
+    outside !== undefined && "hi",
+    "value",
+  ];
   const foot =
     outside ??
     (state === "never"

@@ -5,7 +5,15 @@ export { CheckRow, sortChecks, type CheckResult } from "./CheckRow";
 export { Chip } from "./Chip";
 export { CommandButton, type CommandButtonProps } from "./CommandButton";
 export { type CommandProgress } from "./command";
-export { Icon, ModeIcon, Sprite, StatusSymbol, type IconName, type ModeIconName, type SymbolName } from "./Icon";
+export {
+  Icon,
+  ModeIcon,
+  Sprite,
+  StatusSymbol,
+  type IconName,
+  type ModeIconName,
+  type SymbolName,
+} from "./Icon";
 export { PanelEmpty, PanelFailed, PanelLoading } from "./Panel";
 export { Tabs, type TabItem } from "./Tabs";
 export { freshness, kLateS, kLostS, Value, type Freshness } from "./Value";

@@ -9,7 +9,11 @@ export type Asked =
   | { kind: "failed"; problem: ApiProblem };
 
 /** Sends a command once, however often it is pressed meanwhile. */
-export function useCommand(send: () => Promise<unknown>): { asked: Asked; run: () => void; reset: () => void } {
+export function useCommand(send: () => Promise<unknown>): {
+  asked: Asked;
+  run: () => void;
+  reset: () => void;
+} {
   const [asked, setAsked] = useState<Asked>({ kind: "idle" });
   const busy = useRef(false);
   const run = useCallback(() => {
@@ -22,7 +26,10 @@ export function useCommand(send: () => Promise<unknown>): { asked: Asked; run: (
         () => setAsked({ kind: "stored", atMs }),
         (error: unknown) => {
           const known = error instanceof ApiProblem;
-          setAsked({ kind: "failed", problem: known ? error : new ApiProblem({ status: 0, code: "unexpected_answer" }) });
+          setAsked({
+            kind: "failed",
+            problem: known ? error : new ApiProblem({ status: 0, code: "unexpected_answer" }),
+          });
         },
       )
       .finally(() => {
