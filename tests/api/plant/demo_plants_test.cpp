@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "api/plant/plant_file.hpp"
+#include "core/planning/leg_planner.hpp"
+#include "core/plant/validate.hpp"
+
+// The shipped plants: without a fault, and their vehicles can do what the demos ask of them.
+namespace pulseline::plant {
+namespace {
+
+Plant demo(const std::string& name) {
+    auto plant = load_plant_file(std::string(PULSELINE_PLANTS) + "/" + name + ".json");
+    EXPECT_TRUE(plant) << (plant ? "" : plant.error().what);
+    return plant ? *plant : Plant();
+}
+
+class DemoPlant : public testing::TestWithParam<const char*> {};
+
+TEST_P(DemoPlant, HasNoFault) {
+    const Plant plant = demo(GetParam());
+    EXPECT_EQ(plant.id, GetParam());
+    for (const Fault& fault : validate(plant)) {
+        ADD_FAILURE() << fault.element << " " << fault.code << ": " << fault.what;
+    }
+}
+
+/// What the other vehicles take up when each stands at home.
+std::vector<planning::StandingBody> others_at_home(const Plant& plant, const VehicleId& moving) {
+    std::vector<planning::StandingBody> bodies;
+    for (const Vehicle& vehicle : plant.vehicles) {
+        if (vehicle.id == moving) continue;
+        planning::StandingBody body{vehicle.id, {}};
+        const Pose2 home = find_station(plant, vehicle.home)->pose;
+        const auto& type = *find_vehicle_type(plant, vehicle.type);
+        for (const Polygon& piece : outline_with_load(type, !vehicle.load_name.empty())) {
+            body.outline.push_back(geometry::transformed(home, piece));
+        }
+        bodies.push_back(std::move(body));
+    }
+    return bodies;
+}
+
+Result<planning::LegPlan> plan(const planning::LegPlanner& planner, const Plant& plant,
+                               const Vehicle& vehicle, const Station& from, const Station& to,
+                               MotionMode mode) {
+    planning::LegRequest request;
+    request.type = find_vehicle_type(plant, vehicle.type);
+    request.loaded = !vehicle.load_name.empty();
+    request.hall = from.hall;
+    request.start = from.pose;
+    request.from_station = from.id;
+    request.target = to.id;
+    request.mode = mode;
+    return planner.plan_leg(request, others_at_home(plant, vehicle.id));
+}
+
+TEST_P(DemoPlant, EveryVehicleCanDriveHomeFromEveryStationOfItsTypeAndBack) {
+    const Plant plant = demo(GetParam());
+    const planning::LegPlanner planner(plant);
+    for (const Vehicle& vehicle : plant.vehicles) {
+        const Station& home = *find_station(plant, vehicle.home);
+        for (const Station& station : plant.stations) {
+            const auto& types = station.vehicle_types;
+            if (station.id == home.id ||
+                std::find(types.begin(), types.end(), vehicle.type) == types.end()) {
+                continue;
+            }
+            const auto out = plan(planner, plant, vehicle, home, station, MotionMode::kAuto);
+            EXPECT_TRUE(out) << vehicle.id.str() << " to " << station.number << ": "
+                             << out.error().what;
+            const auto back = plan(planner, plant, vehicle, station, home, MotionMode::kAuto);
+            EXPECT_TRUE(back) << vehicle.id.str() << " from " << station.number << ": "
+                              << back.error().what;
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlant,
+                         testing::Values("pulse-line", "measuring-hall", "landmark-lab",
+                                         "igps-cell", "final-assembly"),
+                         [](const auto& shipped) {
+                             std::string name = shipped.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+class Tour : public testing::TestWithParam<const char*> {};
+
+TEST_P(Tour, LoadedPlatformDrivesTangsStationsClearOfEverybody) {
+    const Plant plant = demo(GetParam());
+    const planning::LegPlanner planner(plant);
+    const Vehicle& platform = *find_vehicle(plant, VehicleId("TP-01"));
+    ASSERT_FALSE(platform.load_name.empty());
+    const MotionMode modes[] = {MotionMode::kLinear,
+                                MotionMode::kLinear,
+                                MotionMode::kFixedAxisRotation,
+                                MotionMode::kFixedAxisRotation,
+                                MotionMode::kFixedAxisRotation,
+                                MotionMode::kLinear};
+    for (int from = 1; from <= 6; ++from) {
+        const auto leg = plan(planner, plant, platform, *find_station(plant, from),
+                              *find_station(plant, from + 1), modes[from - 1]);
+        ASSERT_TRUE(leg) << from << ": " << leg.error().what;
+        EXPECT_GE(leg->clearance_m, 0.5) << from << " near " << leg->nearest;
+        EXPECT_TRUE(leg->route.empty()) << "drives straight there";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, Tour, testing::Values("pulse-line", "final-assembly"),
+                         [](const auto& shipped) {
+                             std::string name = shipped.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(PulseLine, StationsAreTangsTable4) {
+    const Plant plant = demo("pulse-line");
+    const double table[7][3] = {{10, 20, 90},  {20, 30, 0}, {30, 20, -90}, {50, 20, 45},
+                                {70, 20, -90}, {85, 20, 0}, {95, 20, 90}};
+    ASSERT_EQ(plant.stations.size(), 7u);
+    ASSERT_EQ(plant.vehicles.size(), 1u);
+    for (int n = 1; n <= 7; ++n) {
+        const Station& station = *find_station(plant, n);
+        const auto& [x, y, degrees_] = table[n - 1];
+        EXPECT_DOUBLE_EQ(station.pose.x_m, x);
+        EXPECT_DOUBLE_EQ(station.pose.y_m, y);
+        EXPECT_NEAR(station.pose.heading_rad, radians(degrees_), 1e-12);
+        const std::string code = "ST0" + std::to_string(n);
+        EXPECT_NEAR(distance(find_marker_by_payload(plant, code + "-F")->pose.position(),
+                             station.pose * Point2{5.346, 0}),
+                    0, 1e-6);
+        EXPECT_NEAR(distance(find_marker_by_payload(plant, code + "-B")->pose.position(),
+                             station.pose * Point2{-5.346, 0}),
+                    0, 1e-6);
+    }
+}
+
+TEST(FinalAssembly, HasFortyStationsAndTwelveVehiclesOfFourTypes) {
+    const Plant plant = demo("final-assembly");
+
+    EXPECT_EQ(plant.stations.size(), 40u);
+    EXPECT_EQ(plant.vehicles.size(), 12u);
+    EXPECT_EQ(plant.vehicle_types.size(), 4u);
+}
+
+}  // namespace
+}  // namespace pulseline::plant
