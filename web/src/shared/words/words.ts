@@ -17,8 +17,10 @@ const stationParams = new Set(["station", "from", "to"]);
 /** One parameter in words. */
 export function paramText(name: string, value: string | number | boolean, names: Names): string {
   if (typeof value === "boolean") return value ? "\u2713" : "\u2717";
-  if (vehicleParams.has(name)) return names.vehicle(String(value)) ?? names.station(String(value)) ?? String(value);
-  if (stationParams.has(name)) return names.station(String(value)) ?? names.vehicle(String(value)) ?? String(value);
+  if (vehicleParams.has(name))
+    return names.vehicle(String(value)) ?? names.station(String(value)) ?? String(value);
+  if (stationParams.has(name))
+    return names.station(String(value)) ?? names.vehicle(String(value)) ?? String(value);
   return typeof value === "number" ? parameter(name, value) : value;
 }
 
@@ -63,6 +65,9 @@ const unitSuffix = /_(mps|m2|m|rad|s|n|kg|c|percent|px)$/;
 /** Every parameter, for a code that has no wording here. */
 export function listParams(params: Params, names: Names, join: string): string {
   return Object.entries(params)
-    .map(([name, value]) => `${name.replace(unitSuffix, "").replaceAll("_", " ")} ${paramText(name, value, names)}`)
+    .map(
+      ([name, value]) =>
+        `${name.replace(unitSuffix, "").replaceAll("_", " ")} ${paramText(name, value, names)}`,
+    )
     .join(join);
 }

@@ -1,0 +1,63 @@
+import { readdirSync, readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { describe, expect, it } from "vitest";
+
+const src = fileURLToPath(new URL("../..", import.meta.url));
+
+function catalogFiles(dir: string): string[] {
+  return readdirSync(dir, { withFileTypes: true, recursive: true })
+    .filter((entry) => entry.isFile() && entry.name.endsWith(".en.json"))
+    .map((entry) => `${entry.parentPath}/${entry.name}`);
+}
+
+function flat(value: unknown, prefix = ""): Map<string, string> {
+  const all = new Map<string, string>();
+  for (const [key, item] of Object.entries(value as Record<string, unknown>)) {
+    if (typeof item === "string") all.set(prefix + key, item);
+    else for (const [k, v] of flat(item, `${prefix}${key}.`)) all.set(k, v);
+  }
+  return all;
+}
+
+const read = (file: string) => flat(JSON.parse(readFileSync(file, "utf8")));
+/** English has a singular that Chinese lacks. */
+const withoutPlural = (keys: Iterable<string>) =>
+  new Set([...keys].map((k) => k.replace(/_(one|other)$/, "")));
+const holes = (text: string) => new Set([...text.matchAll(/\{\{\s*(\w+)/g)].map((m) => m[1]));
+
+const files = catalogFiles(src);
+
+describe.each(files)("%s", (file) => {
+  const en = read(file);
+  const zh = read(file.replace(".en.json", ".zh.json"));
+
+  it("has the same keys in both languages", () => {
+    expect([...withoutPlural(zh.keys())].sort()).toEqual([...withoutPlural(en.keys())].sort());
+  });
+  it("names the same values in both languages", () => {
+    for (const [key, text] of en) {
+      const other = zh.get(key);
+      if (other !== undefined && !/_(one|other)$/.test(key))
+        expect([key, holes(other)]).toEqual([key, holes(text)]);
+    }
+  });
+  it("leaves nothing empty", () => {
+    for (const [key, text] of [...en, ...zh]) expect([key, text.trim()]).not.toEqual([key, ""]);
+  });
+});
+
+describe("reason codes of the fleet", () => {
+  const core = fileURLToPath(new URL("../../../../core", import.meta.url));
+  const codes = new Set<string>();
+  for (const folder of ["fleet", "planning", "kinematics"]) {
+    for (const name of readdirSync(`${core}/${folder}`).filter((n) => n.endsWith(".cpp"))) {
+      const text = readFileSync(`${core}/${folder}/${name}`, "utf8");
+      for (const match of text.matchAll(/(?:because\(|fail\(Errc::\w+,\s*|Reason\{)"([a-z_]+)"/g))
+        codes.add(match[1]!);
+    }
+  }
+  const known = read(`${src}shared/i18n/reasons.en.json`);
+
+  it("are found in the source", () => expect(codes.size).toBeGreaterThan(10));
+  it.each([...codes])("%s has words", (code) => expect(known.has(code)).toBe(true));
+});

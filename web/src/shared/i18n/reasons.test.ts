@@ -1,0 +1,52 @@
+import i18next from "i18next";
+import { beforeAll, describe, expect, it } from "vitest";
+import en from "./reasons.en.json";
+import { paramText, problemText, reasonText, type Translate } from "./reasons";
+import zh from "./reasons.zh.json";
+
+let t: Translate;
+beforeAll(async () => {
+  await i18next.init({
+    lng: "en",
+    resources: { en: { reasons: en }, zh: { reasons: zh } },
+    interpolation: { escapeValue: false, skipOnVariables: true },
+  });
+  t = (key, values) => i18next.t(key, values ?? {});
+});
+
+describe("reasonText", () => {
+  it("fills a sentence with its values", () => {
+    expect(reasonText({ code: "floor_held", params: { vehicle: "TP-02" } }, t)).toContain("TP-02");
+  });
+  it("takes the shorter wording when a value is missing", () => {
+    const text = reasonText({ code: "floor_held", params: {} }, t);
+    expect(text).toBe(en.floor_held_c);
+    expect(text).not.toContain("{{");
+  });
+  it("puts a cause that is itself a code into words", () => {
+    const text = reasonText({ code: "needs_person", params: { cause: "server_restarted" } }, t);
+    expect(text).toContain(en.server_restarted);
+  });
+  it("shows an unknown code with all it carries", () => {
+    const text = reasonText({ code: "brand_new", params: { gap_m: 0.2 } }, t);
+    expect(text).toContain("brand new");
+    expect(text).toContain("200\u00a0mm");
+  });
+  it("does not run a value as a template", () => {
+    expect(reasonText({ code: "floor_held", params: { vehicle: "{{evil}}" } }, t)).not.toContain("undefined");
+  });
+});
+
+describe("problemText", () => {
+  it("prefers our words, then the server's sentence", () => {
+    expect(problemText({ code: "stale_revision", params: {}, detail: "x" }, t)).toBe(en.stale_revision);
+    expect(problemText({ code: "brand_new", params: {}, detail: "Say this." }, t)).toBe("Say this.");
+  });
+});
+
+it.each([
+  ["clearance_m", 0.31, "310\u00a0mm"],
+  ["length_m", 12.5, "12.50\u00a0m"],
+  ["load_kg", 21500, "21.5\u00a0t"],
+  ["count", 3, "3"],
+])("paramText(%s, %s) is %s", (name, value, text) => expect(paramText(name, value)).toBe(text));
