@@ -49,10 +49,7 @@ public:
 
     Result<GridRoute> run() {
         if (request_.start == request_.goal) return arrived_at_once();
-        for (int d = 0; d < kDirections; ++d) {
-            if (request_.start_heading && d != static_cast<int>(*request_.start_heading)) continue;
-            if (!blocked(d, request_.start)) reach(request_.start, d, 0, kNone);
-        }
+        begin();
         while (!open_.empty()) {
             const Open top = open_.top();
             open_.pop();
@@ -66,7 +63,8 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t kNone = 255;
+    static constexpr std::uint8_t kNone = 255;   // stands at the start
+    static constexpr std::uint8_t kFirst = 254;  // first step with free heading: no turn
 
     struct Open {
         std::int64_t estimate;
@@ -86,6 +84,20 @@ private:
         const auto width = static_cast<std::size_t>(layers_.width);
         const std::size_t index = state / kDirections;
         return {static_cast<int>(index % width), static_cast<int>(index / width)};
+    }
+
+    void begin() {
+        if (request_.start_heading) {
+            const int d = static_cast<int>(*request_.start_heading);
+            if (!blocked(d, request_.start)) reach(request_.start, d, 0, kNone);
+            return;
+        }
+        for (int d = 0; d < kDirections; ++d) {
+            const Cell step = kStep[static_cast<std::size_t>(d)];
+            const Cell next{request_.start.col + step.col, request_.start.row + step.row};
+            if (blocked(d, request_.start) || blocked(d, next)) continue;
+            reach(next, d, request_.cost.step, kFirst);
+        }
     }
 
     std::int64_t bound(Cell cell, int d) const {
@@ -130,10 +142,11 @@ private:
             if (before == kNone) break;
             const Cell step = kStep[static_cast<std::size_t>(d)];
             cell = {cell.col - step.col, cell.row - step.row};
-            route.turns += before != d ? 1 : 0;
             ++route.length;
-            d = before;
             route.cells.push_back(cell);
+            if (before == kFirst) break;
+            route.turns += before != d ? 1 : 0;
+            d = before;
         }
         std::reverse(route.cells.begin(), route.cells.end());
         return route;

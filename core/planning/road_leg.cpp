@@ -186,7 +186,7 @@ RoadQuery query_of(const LegTask& task, const std::vector<Entry>& entries, int g
 
 /// Why the search found nothing: the first lane in the way on the route that a small vehicle of any
 /// type would take.
-Error no_route(const LegTask& task, int goal) {
+Error no_route(const LegTask& task, int goal, bool entered) {
     const RoadGraph& graph = task.roads.graph();
     Error error{
         Errc::kUnreachable,
@@ -233,8 +233,11 @@ Error no_route(const LegTask& task, int goal) {
                     ". Send a smaller vehicle or clear the lane.",
                 {}};
     }
-    error.reason.params.push_back({"blocked_by", std::string("no_room_to_turn")});
-    error.what += " It cannot turn where it would have to.";
+    // Every lane is wide enough: it is a turn that is not free.
+    error.reason.params.push_back(
+        {"blocked_by", std::string(entered ? "no_room_to_turn" : "no_way_onto_roadmap")});
+    error.what += entered ? " It cannot turn where it would have to."
+                          : " It cannot turn and drive from where it stands onto a lane.";
     return error;
 }
 
@@ -243,10 +246,10 @@ Error no_route(const LegTask& task, int goal) {
 Result<LegDraft> draft_road_leg(const LegTask& task) {
     if (const auto ok = check(task.cost); !ok) return fail(ok.error());
     const int goal = task.roads.node(task.station.node);
-    if (goal < 0) return fail(no_route(task, goal));
+    if (goal < 0) return fail(no_route(task, goal, false));
     const auto entries = entries_of(task);
     const auto path = search_road(task.roads.graph(), task.cost, query_of(task, entries, goal));
-    if (!path) return fail(no_route(task, goal));
+    if (!path) return fail(no_route(task, goal, !entries.empty()));
     // Several entries may lead onto the first arc: the search took the cheapest.
     const auto rank = [&](const Entry& entry) {
         const double length =
