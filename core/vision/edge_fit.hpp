@@ -25,6 +25,9 @@ struct CodePlacement {
     }
 };
 
+/// What the standard prints in a module whatever the payload (true: dark); nothing for data.
+std::optional<bool> fixed_module(int row, int column);
+
 /// Grey level of each module and of the ring of quiet zone around them, and what is dark.
 class ModuleGrid {
 public:

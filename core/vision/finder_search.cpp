@@ -7,7 +7,6 @@
 namespace pulseline::vision {
 namespace {
 
-constexpr int kShrink = 4;
 constexpr float kLeastScore = 0.35F;
 constexpr std::size_t kMostPeaks = 14;
 constexpr std::size_t kMostPlacements = 4;
@@ -41,18 +40,18 @@ cv::Mat round_finder(double module_px) {
     return pattern;
 }
 
-std::vector<Peak> find_peaks(const cv::Mat& grey, const plant::Camera& camera, double module_px) {
+std::vector<Peak> find_peaks(const cv::Mat& grey, const plant::Camera& camera, double module_px,
+                             int shrink) {
     cv::Mat small;
-    cv::resize(grey, small, cv::Size(grey.cols / kShrink, grey.rows / kShrink), 0, 0,
-               cv::INTER_AREA);
-    const cv::Mat pattern = round_finder(module_px / kShrink);
+    cv::resize(grey, small, cv::Size(grey.cols / shrink, grey.rows / shrink), 0, 0, cv::INTER_AREA);
+    const cv::Mat pattern = round_finder(module_px / shrink);
     const int reach = pattern.cols / 2;
     cv::Mat padded;  // finders near the border of the image
     cv::copyMakeBorder(small, padded, reach, reach, reach, reach, cv::BORDER_REPLICATE);
     cv::Mat score;
     cv::matchTemplate(padded, pattern, score, cv::TM_CCOEFF_NORMED);
     cv::Mat highest;
-    const int side = 2 * static_cast<int>(1.5 * module_px / kShrink) + 1;
+    const int side = 2 * static_cast<int>(1.5 * module_px / shrink) + 1;
     cv::dilate(score, highest, cv::Mat::ones(side, side, CV_8U));
     std::vector<Peak> peaks;
     for (int v = 1; v + 1 < score.rows; ++v) {
@@ -65,7 +64,7 @@ std::vector<Peak> find_peaks(const cv::Mat& grey, const plant::Camera& camera, d
             };
             const double su = u + vertex(score.at<float>(v, u - 1), score.at<float>(v, u + 1));
             const double sv = v + vertex(score.at<float>(v - 1, u), score.at<float>(v + 1, u));
-            const Pixel image{kShrink * (su + 0.5) - 0.5, kShrink * (sv + 0.5) - 0.5};
+            const Pixel image{shrink * (su + 0.5) - 0.5, shrink * (sv + 0.5) - 0.5};
             peaks.push_back({undistorted(camera, image), s});
         }
     }
@@ -77,8 +76,8 @@ std::vector<Peak> find_peaks(const cv::Mat& grey, const plant::Camera& camera, d
 }  // namespace
 
 std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
-                                          double expected_module_px) {
-    const std::vector<Peak> peaks = find_peaks(grey, camera, expected_module_px);
+                                          double expected_module_px, int shrink) {
+    const std::vector<Peak> peaks = find_peaks(grey, camera, expected_module_px, shrink);
     const double leg_px = kLeg * expected_module_px;
     struct Candidate {
         CodePlacement placement;

@@ -8,11 +8,11 @@
 
 namespace pulseline::vision {
 
-/// Where three finder patterns of a code of known size could be, best first: for codes whose
-/// finders are too dirty for the decoder's line scans. Method: correlation of the quarter-size
-/// image with a finder averaged over all rotations, then triples of peaks with two equal legs of
-/// 14 modules at a right angle.
+/// Where three finder patterns of a code of known size could be, best first; never mirrored.
+/// Method: correlation of the image, shrunk to 1/`shrink`, with a finder averaged over all
+/// rotations, then triples of peaks with two equal legs of 14 modules at a right angle. It needs no
+/// intact scan line, so dirt on a finder does not hide it.
 std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
-                                          double expected_module_px);
+                                          double expected_module_px, int shrink);
 
 }  // namespace pulseline::vision

@@ -5,21 +5,17 @@
 #include "core/vision/sample.hpp"
 
 namespace pulseline::vision {
-namespace {
 
-/// What the standard prints whatever the payload: 1 dark, 0 light, -1 data.
-int fixed_module(int row, int column) {
+std::optional<bool> fixed_module(int row, int column) {
     const auto finder = [&](int top, int left) {
         const int r = std::max(std::abs(row - top - 3), std::abs(column - left - 3));
         return r > 4 ? -1 : (r == 4 || r == 2 ? 0 : 1);
     };
     for (const auto& [top, left] : {std::pair{0, 0}, {0, kModules - 7}, {kModules - 7, 0}})
-        if (const int m = finder(top, left); m >= 0) return m;
-    if (row == 6 || column == 6) return (row + column) % 2 == 0 ? 1 : 0;
-    return -1;
+        if (const int m = finder(top, left); m >= 0) return m == 1;
+    if (row == 6 || column == 6) return (row + column) % 2 == 0;
+    return std::nullopt;
 }
-
-}  // namespace
 
 ModuleGrid::ModuleGrid(const cv::Mat& grey, const plant::Camera& camera,
                        const CodePlacement& placement) {
@@ -63,10 +59,10 @@ double ModuleGrid::fixed_pattern_share() const {
     int right = 0;
     for (int row = 0; row < kModules; ++row) {
         for (int column = 0; column < kModules; ++column) {
-            const int expected = fixed_module(row, column);
-            if (expected < 0 || !valid(row, column)) continue;
+            const auto expected = fixed_module(row, column);
+            if (!expected || !valid(row, column)) continue;
             ++known;
-            right += dark(row, column) == (expected == 1);
+            right += dark(row, column) == *expected;
         }
     }
     return known == 0 ? 0 : static_cast<double>(right) / known;

@@ -38,9 +38,8 @@ using ReadResult = Result<QrReading>;
 
 /// Finds, decodes and places the code in an 8-bit grey image of `camera`. Refuses with
 /// - bad_image: size or type does not fit the camera
-/// - no_code: nothing decodable in view
+/// - no_code: no version 1 code of about the expected size can be decoded
 /// - mirrored: a code printed or seen mirrored
-/// - unsupported_symbol: decodable, but its modules are not those of a version 1 symbol
 /// - scale_off {ratio}: wrong print size, camera height or tilt
 /// - fit_poor {inlier_share, rms_px, sigma_px}: the edges do not agree on one place
 /// Whether the payload is the expected one is the caller's business.
