@@ -58,8 +58,14 @@ Result<std::vector<MotionPlan>> motion_variants(const plant::VehicleType& type, 
 /// Within 1 mm and 0.005 deg.
 bool is_there(const Pose2& from, const Pose2& to);
 
+/// How finely a turning body is cut into steps; the pieces always hold all of it.
+struct SweepDetail {
+    double step_rad = radians(3.0);
+    double excess_m = 0.005;  // how far a piece may stand out
+};
 /// Swept area of body pieces (convex, body frame) along segments: overlapping convex pieces.
 std::vector<geometry::Polygon> sweep(const std::vector<geometry::Polygon>& body,
-                                     const std::vector<Segment>& segments);
+                                     const std::vector<Segment>& segments,
+                                     const SweepDetail& detail = {});
 
 }  // namespace pulseline::kinematics

@@ -11,13 +11,10 @@ namespace {
 
 using geometry::Polygon;
 
-constexpr double kMaxStep_rad = radians(3.0);
-constexpr double kMaxExcess_m = 0.005;  // how far the tangent points may stand out
-
-int steps_of(const Segment& segment, double reach_m) {
+int steps_of(const Segment& segment, double reach_m, const SweepDetail& detail) {
     // excess = r (1 / cos(step / 2) - 1), about r step^2 / 8
     const double step =
-        std::min(kMaxStep_rad, std::sqrt(8 * kMaxExcess_m / std::max(reach_m, 1e-3)));
+        std::min(detail.step_rad, std::sqrt(8 * detail.excess_m / std::max(reach_m, 1e-3)));
     return std::max(1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) / step - 1e-9)));
 }
 
@@ -28,13 +25,14 @@ void sweep_straight(const Polygon& piece, const Segment& segment, std::vector<Po
     swept.push_back(geometry::convex_hull(std::move(points)));
 }
 
-void sweep_turn(const Polygon& piece, const Segment& segment, std::vector<Polygon>& swept) {
+void sweep_turn(const Polygon& piece, const Segment& segment, const SweepDetail& detail,
+                std::vector<Polygon>& swept) {
     const Point2 centre =
         segment.kind == Segment::Kind::kArc ? segment.centre : segment.start.position();
     const Polygon first = geometry::transformed(segment.start, piece);
     double reach = 0;
     for (const Point2& p : first) reach = std::max(reach, geometry::distance(p, centre));
-    const int steps = steps_of(segment, reach);
+    const int steps = steps_of(segment, reach, detail);
     const double step = segment.turn_rad / steps;
     const double stretch = 1 / std::cos(step / 2);
 
@@ -56,14 +54,15 @@ void sweep_turn(const Polygon& piece, const Segment& segment, std::vector<Polygo
 
 }  // namespace
 
-std::vector<Polygon> sweep(const std::vector<Polygon>& body, const std::vector<Segment>& segments) {
+std::vector<Polygon> sweep(const std::vector<Polygon>& body, const std::vector<Segment>& segments,
+                           const SweepDetail& detail) {
     std::vector<Polygon> swept;
     for (const Segment& segment : segments) {
         for (const Polygon& piece : body) {
             if (segment.kind == Segment::Kind::kStraight) {
                 sweep_straight(piece, segment, swept);
             } else {
-                sweep_turn(piece, segment, swept);
+                sweep_turn(piece, segment, detail, swept);
             }
         }
     }

@@ -19,6 +19,8 @@ using plant::MotionMode;
 constexpr std::array kOrder{MotionMode::kLinear, MotionMode::kFixedAxisRotation,
                             MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kFree};
 
+constexpr kinematics::SweepDetail kOutlineDetail{.step_rad = radians(10.0), .excess_m = 0.05};
+
 double clearance_to(const StandingBody& body, const std::vector<Polygon>& pieces, double stop_m) {
     double least = stop_m;
     for (const Polygon& outline : body.outline) {
@@ -93,13 +95,18 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft,
         plan.clearance_m = distance;
         plan.nearest = body.vehicle.str();
     }
-    plan.swept = geometry::union_outline(pieces);
-    for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
     return plan;
 }
 
-Result<LegPlan> assess(const LegTask& task, MotionMode mode,
-                       const std::vector<StandingBody>& standing) {
+/// The outline is for people and the dearest part of all: only for plans that are handed out.
+void add_outline(const Body& body, LegPlan& plan) {
+    plan.swept =
+        geometry::union_outline(kinematics::sweep(body.pieces, plan.segments, kOutlineDetail));
+    for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
+}
+
+Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode,
+                            const std::vector<StandingBody>& standing) {
     const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
                                                       task.station.pose, mode);
     if (!variants) return fail(variants.error());
@@ -131,6 +138,13 @@ std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
         if (std::find(own.begin(), own.end(), mode) != own.end()) modes.push_back(mode);
     }
     return modes;
+}
+
+Error unknown_hall(const plant::HallId& hall) {
+    return {Errc::kNotFound,
+            {"unknown_hall", {{"hall", hall.str()}}},
+            "There is no hall " + hall.str() + " in the plant.",
+            {}};
 }
 
 /// The station of a request, when the vehicle may go there at all.
@@ -184,6 +198,36 @@ struct LegPlanner::Static {
         return fresh.emplace(roads.passage(type, loaded));
     }
 
+    /// Options of the given modes, without outlines.
+    std::vector<ModeOption> assess(const LegRequest& request, const Passage& passage,
+                                   const std::vector<MotionMode>& modes,
+                                   const std::vector<StandingBody>& standing) const {
+        std::vector<ModeOption> options;
+        const auto station = target_of(plant, request);
+        const Obstacles* obstacles = roads.obstacles(request.hall);
+        if (!station || !obstacles) {
+            const Error error = station ? unknown_hall(request.hall) : station.error();
+            for (const MotionMode mode : modes) options.push_back({mode, fail(error), false});
+            return options;
+        }
+        std::vector<Polygon> body;
+        for (const Polygon& piece : passage.body.pieces) {
+            body.push_back(geometry::transformed(request.start, piece));
+        }
+        const LegTask task{request,
+                           **station,
+                           plant.routing,
+                           roads,
+                           passage,
+                           *obstacles,
+                           obstacles->limits_from(body, passage.body.clearance_m)};
+        for (const MotionMode mode : modes) {
+            options.push_back({mode, assess_mode(task, mode, standing), false});
+        }
+        suggest_fastest(options);
+        return options;
+    }
+
     const plant::Plant& plant;
     RoadmapIndex roads;
     std::map<Key, Passage> passages;
@@ -197,55 +241,39 @@ LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;
 std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
                                                  const std::vector<StandingBody>& standing) const {
     assert(request.type);
-    std::vector<ModeOption> options;
-    const auto station = target_of(static_->plant, request);
-    const Obstacles* obstacles = static_->roads.obstacles(request.hall);
-    if (!station || !obstacles) {
-        const Error error = station
-                                ? Error{Errc::kNotFound,
-                                        {"unknown_hall", {{"hall", request.hall.str()}}},
-                                        "There is no hall " + request.hall.str() + " in the plant.",
-                                        {}}
-                                : station.error();
-        for (const MotionMode mode : modes_of(*request.type)) {
-            options.push_back({mode, fail(error), false});
-        }
-        return options;
-    }
     std::optional<Passage> fresh;
     const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
-    std::vector<Polygon> body;
-    for (const Polygon& piece : passage.body.pieces) {
-        body.push_back(geometry::transformed(request.start, piece));
+    auto options = static_->assess(request, passage, modes_of(*request.type), standing);
+    for (ModeOption& option : options) {
+        if (option.plan) add_outline(passage.body, *option.plan);
     }
-    const LegTask task{request,
-                       **station,
-                       static_->plant.routing,
-                       static_->roads,
-                       passage,
-                       *obstacles,
-                       obstacles->limits_from(body, passage.body.clearance_m)};
-    for (const MotionMode mode : modes_of(*request.type)) {
-        options.push_back({mode, assess(task, mode, standing), false});
-    }
-    suggest_fastest(options);
     return options;
 }
 
 Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
                                      const std::vector<StandingBody>& standing) const {
-    auto options = assess_modes(request, standing);
+    assert(request.type);
+    auto modes = modes_of(*request.type);
+    if (request.mode != MotionMode::kAuto) {
+        std::erase_if(modes, [&](MotionMode mode) { return mode != request.mode; });
+    }
+    if (modes.empty()) {
+        return fail(Errc::kUnreachable, "mode_not_supported",
+                    request.type->name + " cannot drive this motion mode. Choose one of its own.",
+                    {},
+                    {{"mode", std::string(plant::to_string(request.mode))},
+                     {"vehicle_type", request.type->id.str()}});
+    }
+    std::optional<Passage> fresh;
+    const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
+    auto options = static_->assess(request, passage, modes, standing);
     for (ModeOption& option : options) {
-        const bool wanted =
-            request.mode == MotionMode::kAuto ? option.suggested : option.mode == request.mode;
-        if (wanted) return std::move(option.plan);
+        if (!option.suggested) continue;
+        add_outline(passage.body, *option.plan);
+        return std::move(option.plan);
     }
     // Nothing feasible: the first mode, linear, has the widest choice of ways.
-    if (request.mode == MotionMode::kAuto && !options.empty()) return std::move(options[0].plan);
-    return fail(Errc::kUnreachable, "mode_not_supported",
-                request.type->name + " cannot drive this motion mode. Choose one of its own.", {},
-                {{"mode", std::string(plant::to_string(request.mode))},
-                 {"vehicle_type", request.type->id.str()}});
+    return std::move(options.front().plan);
 }
 
 }  // namespace pulseline::planning

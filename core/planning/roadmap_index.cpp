@@ -102,7 +102,21 @@ std::vector<Polygon> RoadmapIndex::swept(const Body& body, int arc) const {
     return kinematics::sweep(body.pieces, way);
 }
 
-std::vector<char> RoadmapIndex::free_turns(const Body& body, int node) const {
+std::vector<char> RoadmapIndex::headings_in_use(const Passage& passage, int node) const {
+    std::vector<char> used(headings_[static_cast<std::size_t>(node)].size(), 0);
+    for (const int arc : graph_.out[static_cast<std::size_t>(node)]) {
+        const auto i = static_cast<std::size_t>(arc);
+        if (usable(passage, arc)) used[static_cast<std::size_t>(ends_[i].at_from)] = 1;
+    }
+    for (const int arc : graph_.in[static_cast<std::size_t>(node)]) {
+        const auto i = static_cast<std::size_t>(arc);
+        if (usable(passage, arc)) used[static_cast<std::size_t>(ends_[i].at_to)] = 1;
+    }
+    return used;
+}
+
+std::vector<char> RoadmapIndex::free_turns(const Passage& passage, int node) const {
+    const Body& body = passage.body;
     const auto& headings = headings_[static_cast<std::size_t>(node)];
     const std::size_t count = headings.size();
     std::vector<char> free(count * count, 1);
@@ -111,8 +125,10 @@ std::vector<char> RoadmapIndex::free_turns(const Body& body, int node) const {
     const auto limits = obstacles->limits(body.clearance_m);
     const auto& at = graph_.nodes[static_cast<std::size_t>(node)];
     if (obstacles->keeps({circle_around(at, reach_of(body))}, limits)) return free;
+    const auto used = headings_in_use(passage, node);
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = 0; b < count; ++b) {
+            if (a == b || !used[a] || !used[b]) continue;
             std::vector<kinematics::Segment> turn;
             kinematics::append_turn(turn, {at.x_m, at.y_m, headings[a]},
                                     kinematics::shortest_turn_rad(headings[a], headings[b]));
@@ -136,7 +152,7 @@ Passage RoadmapIndex::passage(const plant::VehicleType& type, bool loaded) const
             obstacles->keeps(swept(result.body, arc), obstacles->limits(type.clearance_m)));
     }
     for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-        result.turn_free.push_back(free_turns(result.body, static_cast<int>(i)));
+        result.turn_free.push_back(free_turns(result, static_cast<int>(i)));
     }
     return result;
 }

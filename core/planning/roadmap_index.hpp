@@ -53,7 +53,8 @@ private:
     };
     int heading_number(int node, double heading_rad);
     std::vector<geometry::Polygon> swept(const Body& body, int arc) const;
-    std::vector<char> free_turns(const Body& body, int node) const;
+    std::vector<char> headings_in_use(const Passage& passage, int node) const;
+    std::vector<char> free_turns(const Passage& passage, int node) const;
 
     const plant::Plant& plant_;
     RoadGraph graph_;
