@@ -70,6 +70,7 @@ export default tseslint.config(
         setTimeout: "readonly",
         setInterval: "readonly",
         clearInterval: "readonly",
+        structuredClone: "readonly",
         document: "readonly",
       },
     },

@@ -45,8 +45,10 @@ export class Stream {
   private watchdog: ReturnType<typeof setInterval> | undefined;
   private lastShown = 0;
 
+  /** `onRetry` is called before each new try: the session may have ended, which a closed socket cannot say. */
   constructor(
     private readonly store: LiveStore,
+    private readonly onRetry: () => void = () => {},
     private readonly url: string = `${window.location.origin.replace(/^http/, "ws")}/api/v1/stream`,
   ) {}
 
@@ -106,7 +108,13 @@ export class Stream {
     this.lostSince ??= this.heardAt ?? performance.now();
     this.store.setLink({ kind: "lost", since: this.lostSince, heardAt: this.heardAt });
     clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.connect(), retryDelayMs(this.attempt++, Math.random()));
+    this.timer = setTimeout(
+      () => {
+        this.onRetry();
+        this.connect();
+      },
+      retryDelayMs(this.attempt++, Math.random()),
+    );
   }
 
   private drop(): void {

@@ -20,7 +20,8 @@ function become(next: SessionState): void {
   setCsrfToken(next.kind === "signed_in" ? next.session.csrf_token : "");
   if (next.kind === "signed_in") {
     if (stream === undefined) {
-      stream = new Stream(liveStore);
+      // A 401 here signs out through the handler; anything else is the link's own trouble.
+      stream = new Stream(liveStore, () => void call(api.GET("/api/v1/session")).catch(() => {}));
       stream.start();
     }
   } else {

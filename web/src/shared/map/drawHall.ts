@@ -18,8 +18,9 @@ export function drawHall(pen: Pen, model: HallModel, layers: MapLayers): void {
   g.save();
   pen.path(model.hall.outline, true);
   g.clip();
+  drawZones(pen, model);
   drawGrid(pen, model);
-  drawAreas(pen, model);
+  drawLaneAreas(pen, model);
   if (layers.roadmap) drawLanes(pen, model);
   g.restore();
   if (layers.markers && detailOf(pen.k) !== "far") drawMarkers(pen, model);
@@ -50,13 +51,17 @@ function drawGrid(pen: Pen, model: HallModel): void {
   lines(10, 0, pen.palette["map-grid-10"]);
 }
 
-function drawAreas(pen: Pen, model: HallModel): void {
+function drawZones(pen: Pen, model: HallModel): void {
   const { palette } = pen;
   for (const area of model.areas.filter((a) => a.kind === "zone")) {
     pen.path(area.outline, true);
     pen.fill(palette["map-zone"]);
     pen.stroke(palette["map-rule"], 1, [10, 3, 2, 3], 0.55);
   }
+}
+
+function drawLaneAreas(pen: Pen, model: HallModel): void {
+  const { palette } = pen;
   // All lanes as one shape: crossing lanes must not show their edges inside one another.
   const lanes = model.areas.filter((a) => a.kind === "lane");
   for (const lane of lanes) {
