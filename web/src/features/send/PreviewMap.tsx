@@ -1,16 +1,19 @@
 import { useEffect, useRef, useState, type CSSProperties } from "react";
 import { useTranslation } from "react-i18next";
-import type { ModeOption, Plant, Point, Pose, Ring, StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import type { Leg, ModeOption, Plant, Point, Pose, Ring, StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { number } from "@/shared/words/format";
 import {
+  dimension,
   inView,
   linePath,
+  nearestStation,
   placed,
   ringPath,
   toShare,
   turnArc,
   viewOf,
   wayOf,
+  type Dimension,
   type View,
 } from "./previewView";
 
@@ -21,12 +24,17 @@ export interface PreviewMapProps {
   vehicle: Vehicle | undefined;
   target: number | undefined;
   option: ModeOption | undefined;
-  /** Whole hall with stations to press. */
+  /** The drive under way, drawn instead of a preview. */
+  leg?: Leg | undefined;
+  /** A press on the map takes the nearest station. */
   picking: boolean;
   onPick: (station: number) => void;
 }
 
 const kTurnArc_m = 3.6;
+const kPick_px = 40;
+/** Below this scale plates are bare digits and only the selected vehicle is named. */
+const kNear_pxPerM = 8;
 const kNamedTurn_rad = 0.5 * (Math.PI / 180);
 
 /** Plan view of the previewed move to scale: swept area hatched, way, target ghost, dimensions. */
@@ -37,7 +45,18 @@ export function PreviewMap(props: PreviewMapProps) {
   const scene = sceneOf(props);
   const view = size && viewOf(scene.fit, size.width / size.height, props.picking ? 0.03 : 0.12);
   return (
-    <div className="mapbox pmap" ref={box}>
+    <div
+      className={`mapbox pmap ${props.picking ? "picking" : ""}`}
+      ref={box}
+      // The number pad is the way without a pointer.
+      onClick={(event) => {
+        if (!props.picking || !view || !box.current) return;
+        const frame = box.current.getBoundingClientRect();
+        const at = { x: (event.clientX - frame.left) / frame.width, y: (event.clientY - frame.top) / frame.height };
+        const hit = nearestStation(props.plant, scene.hall, view, at, kPick_px / frame.width);
+        if (hit !== undefined) props.onPick(hit);
+      }}
+    >
       {view && size && (
         <>
           <svg className="m" viewBox={`0 0 ${view.width} ${view.height}`} role="img" aria-label={t("preview.map")}>
@@ -60,7 +79,7 @@ export function PreviewMap(props: PreviewMapProps) {
               <Drawing {...props} scene={scene} />
             </g>
           </svg>
-          <Labels {...props} scene={scene} view={view} />
+          <Labels {...props} scene={scene} view={view} near={size.width / view.width >= kNear_pxPerM} />
         </>
       )}
     </div>
@@ -75,11 +94,12 @@ interface Scene {
   end: Pose | undefined;
   turn: Point[];
   turn_rad: number;
+  dim: Dimension | undefined;
   fit: Ring[];
   hall: string | undefined;
 }
 
-function sceneOf({ plant, vehicle, target, option, picking }: PreviewMapProps): Scene {
+function sceneOf({ plant, vehicle, target, option, leg, picking }: PreviewMapProps): Scene {
   const station = plant.stations.find((s) => s.number === target);
   const type = plant.vehicle_types.find((v) => v.id === vehicle?.type);
   const segments = option?.segments ?? [];
@@ -91,12 +111,16 @@ function sceneOf({ plant, vehicle, target, option, picking }: PreviewMapProps): 
   const hall = vehicle?.hall ?? station?.hall ?? plant.halls[0]?.id;
   const outline = plant.halls.find((h) => h.id === hall)?.outline ?? [];
   const own = vehicle?.pose && type ? [placed(type.footprint, vehicle.pose)] : [];
-  const about = [...swept, ...ghost, ...own];
+  const way = leg ? leg.path : wayOf(segments);
+  const dim = leg ? undefined : dimension(way, swept);
+  const about = [...swept, ...ghost, ...own, ...(leg ? [leg.path, ...leg.granted_area] : [])];
+  if (dim) about.push([dim.from, dim.to]);
   return {
     type,
     swept,
     ghost,
-    way: wayOf(segments),
+    way,
+    dim,
     end,
     turn: turn ? turnArc(turn, kTurnArc_m) : [],
     turn_rad: turn?.turn_rad ?? 0,
@@ -109,7 +133,7 @@ function isLoaded(vehicle: Vehicle | undefined): boolean {
   return vehicle !== undefined && (vehicle.load_kg > 0 || vehicle.load_name !== "");
 }
 
-function Drawing({ plant, vehicles, vehicle, option, scene }: PreviewMapProps & { scene: Scene }) {
+function Drawing({ plant, vehicles, vehicle, option, leg, scene }: PreviewMapProps & { scene: Scene }) {
   const hall = plant.halls.find((h) => h.id === scene.hall);
   const areas = plant.areas.filter((a) => a.hall === scene.hall);
   const areaClass = { zone: "zone", lane: "lane", no_go: "zone", obstacle: "wall" } as const;
@@ -122,10 +146,10 @@ function Drawing({ plant, vehicles, vehicle, option, scene }: PreviewMapProps & 
   return (
     <>
       {hall && <path className="floor" d={ringPath([hall.outline])} />}
-      {hall && <path className="grid10" d={gridPath(hall.outline, 10)} />}
       {areas.map((a) => (
         <path key={a.id} className={areaClass[a.kind]} d={ringPath([a.outline])} />
       ))}
+      {hall && <path className="grid10" d={gridPath(hall.outline, 10)} />}
       {hall && <path className="hallw" d={ringPath([hall.outline])} />}
       <path className="pfroute" d={lanes.join("")} />
       {plant.stations
@@ -139,9 +163,13 @@ function Drawing({ plant, vehicles, vehicle, option, scene }: PreviewMapProps & 
           <Body key={v.id} vehicle={v} plant={plant} />
         ))}
       {scene.swept.length > 0 && <path className="swept" d={ringPath(scene.swept)} />}
-      {scene.end && option && <GhostBody scene={scene} />}
+      {leg && <path className="grantband" d={ringPath(leg.granted_area)} />}
+      {scene.end && (option || leg) && <GhostBody scene={scene} />}
       {vehicle?.pose && <Body vehicle={vehicle} plant={plant} selected />}
-      {scene.way.length > 1 && <path className="prevline" d={linePath(scene.way)} />}
+      {scene.way.length > 1 && !leg && <path className="prevline" d={linePath(scene.way)} />}
+      {leg && <path className="granted" d={linePath(leg.path.slice(0, leg.granted_points))} />}
+      {leg && <path className="horizon" d={linePath(leg.path.slice(Math.max(0, leg.granted_points - 1)))} />}
+      {scene.dim && <DimensionLine dim={scene.dim} />}
       {scene.turn.length > 1 && <TurnArc points={scene.turn} />}
     </>
   );
@@ -227,15 +255,27 @@ function TurnArc({ points }: { points: readonly Point[] }) {
   );
 }
 
-function Labels(props: PreviewMapProps & { scene: Scene; view: View }) {
-  const { plant, vehicles, states, vehicle, target, option, picking, scene, view, onPick } = props;
+/** Extension lines, dimension line and its two arrow heads. */
+function DimensionLine({ dim }: { dim: Dimension }) {
+  const angle = (Math.atan2(dim.to.y_m - dim.from.y_m, dim.to.x_m - dim.from.x_m) * 180) / Math.PI;
+  const head = (p: Point, turn: number) => `translate(${p.x_m} ${p.y_m}) rotate(${angle + turn})`;
+  return (
+    <>
+      <path className="dim" d={linePath(dim.extensions[0]) + linePath(dim.extensions[1]) + linePath([dim.from, dim.to])} />
+      <path className="dimh" transform={head(dim.from, 0)} d="M0 0l.6 .2v-.4z" />
+      <path className="dimh" transform={head(dim.to, 180)} d="M0 0l.6 .2v-.4z" />
+    </>
+  );
+}
+
+function Labels(props: PreviewMapProps & { scene: Scene; view: View; near: boolean }) {
+  const { plant, vehicles, states, vehicle, target, option, scene, view, near } = props;
   const { t } = useTranslation("send");
   const at = (p: Point): CSSProperties => {
     const s = toShare(view, p);
     return { left: `${s.x * 100}%`, top: `${s.y * 100}%` };
   };
   const stateOf = (id: string) => states.find((s) => s.station === id);
-  const drive = scene.way.length === 2 ? scene.way : undefined;
   return (
     <>
       {plant.stations
@@ -243,26 +283,14 @@ function Labels(props: PreviewMapProps & { scene: Scene; view: View }) {
         .map((s) => {
           const state = stateOf(s.id);
           const look = s.number === target ? "goal" : state?.occupied_by ? "occ" : state?.reserved_by ? "res" : "";
-          const place = plate(s.pose, view);
-          return picking ? (
-            <button
-              key={s.id}
-              type="button"
-              className={`tag big pickable ${look}`}
-              style={at(s.pose)}
-              onClick={() => onPick(s.number)}
-              aria-label={`${s.number}, ${s.name}`}
-            >
-              {s.number}
-            </button>
-          ) : (
-            <span key={s.id} className={`tag big ${look}`} style={at(place)}>
+          return (
+            <span key={s.id} className={`tag ${near ? "big" : "sm"} ${look}`} style={at(near ? plate(s.pose, view) : s.pose)}>
               {s.number}
             </span>
           );
         })}
       {vehicles
-        .filter((v) => v.pose && v.hall === scene.hall && inView(view, v.pose))
+        .filter((v) => v.pose && v.hall === scene.hall && inView(view, v.pose) && (near || v.id === vehicle?.id))
         .map((v) => {
           const own = v.id === vehicle?.id;
           if (!v.pose) return null;
@@ -273,8 +301,8 @@ function Labels(props: PreviewMapProps & { scene: Scene; view: View }) {
             </span>
           );
         })}
-      {drive && option?.length_m !== undefined && (
-        <span className="lb dimt" style={at(middle(drive))}>
+      {scene.dim && option?.length_m !== undefined && (
+        <span className="lb dimt" style={at(middle(scene.dim))}>
           {t("preview.metres", { value: number(option.length_m, { decimals: 3 }) })}
         </span>
       )}
@@ -295,10 +323,8 @@ function plate(pose: Pose, view: View): Point {
   return { x_m: pose.x_m - 4.4 * c - (1.6 + off) * s, y_m: pose.y_m - 4.4 * s + (1.6 + off) * c };
 }
 
-function middle(way: readonly Point[]): Point {
-  const [a, b] = way;
-  if (!a || !b) return { x_m: 0, y_m: 0 };
-  return { x_m: (a.x_m + b.x_m) / 2, y_m: (a.y_m + b.y_m) / 2 };
+function middle({ from, to }: Dimension): Point {
+  return { x_m: (from.x_m + to.x_m) / 2, y_m: (from.y_m + to.y_m) / 2 };
 }
 
 function outside(arc: readonly Point[], centre: Point | undefined): Point {

@@ -3,7 +3,6 @@ import { useTranslation } from "react-i18next";
 import type { MotionMode, NewJobOrder } from "@/shared/api/types";
 import {
   useCommandsEnabled,
-  useJobOrder,
   useLive,
   useMayCommand,
   usePlant,
@@ -30,7 +29,7 @@ import { lookUpStation, stationOf } from "./stationEntry";
 import { StationStep } from "./StationStep";
 import { Step } from "./Step";
 import { usePreview, type PreviewQuestion } from "./usePreview";
-import { useStart } from "./useStart";
+import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
 import "./send.css";
 
@@ -96,7 +95,7 @@ export function SendPage() {
   const { command } = start;
 
   const orderId = command.kind === "accepted" ? command.orderId : undefined;
-  const order = useJobOrder(orderId);
+  const order = useSentOrder(orderId);
   const mover = useVehicle(order?.vehicle || (command.kind === "accepted" ? command.vehicle : "") || undefined);
   const progress = moveProgress(order, mover, stops);
 
@@ -156,6 +155,7 @@ export function SendPage() {
           answer={station && t("station.answer", { number: station.number, place: station.name })}
           open={current === 2}
           onOpen={() => setOpenStep(2)}
+          onNext={station ? () => setOpenStep(undefined) : undefined}
         >
           <StationStep
             digits={digits}
@@ -169,11 +169,6 @@ export function SendPage() {
             }}
             onPick={() => setPicking((on) => !on)}
           />
-          {narrow && station && (
-            <Button className="wide" onPress={() => setOpenStep(undefined)}>
-              {t("station.next")}
-            </Button>
-          )}
         </Step>
       </div>
       <div className="c2">
@@ -228,7 +223,8 @@ export function SendPage() {
               vehicle={orderId ? mover : vehicle}
               target={target}
               option={orderId ? undefined : feasible}
-              picking={picking && !orderId}
+              leg={orderId ? mover?.leg : undefined}
+              picking={(picking || !station) && !orderId}
               onPick={pick}
             />
           ) : (

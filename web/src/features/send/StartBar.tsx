@@ -82,6 +82,11 @@ function ArmButton({ start, ready }: { start: Start; ready: boolean }) {
     >
       <svg viewBox="0 0 36 36" className="ring" aria-hidden="true">
         <circle cx="18" cy="18" r="15" stroke="var(--rule-2)" />
+        {!armed && (
+          <text x="18" y="23" textAnchor="middle">
+            1
+          </text>
+        )}
         {armed && (
           <circle
             cx="18"
@@ -94,7 +99,7 @@ function ArmButton({ start, ready }: { start: Start; ready: boolean }) {
         )}
       </svg>
       <span>
-        <small>1 {armed ? t("start.armed") : ""}</small>
+        {armed && <small>1 {t("start.armed")}</small>}
         <b>{armed ? t("start.left", { seconds: Math.ceil(left) }) : t("start.arm")}</b>
       </span>
     </button>

@@ -9,12 +9,14 @@ export interface StepProps {
   right?: string | undefined;
   open: boolean;
   onOpen?: () => void;
+  /** On tablets, closes an open step that is answered. */
+  onNext?: (() => void) | undefined;
   className?: string;
   children: ReactNode;
 }
 
 /** One numbered step of the page. Below 1280 px only the open one shows its body. */
-export function Step({ number, title, answer, right, open, onOpen, className, children }: StepProps) {
+export function Step({ number, title, answer, right, open, onOpen, onNext, className, children }: StepProps) {
   const { t } = useTranslation("send");
   return (
     <section className={`card step s${number} ${open ? "open" : "folded"} ${className ?? ""}`} aria-label={title}>
@@ -26,6 +28,11 @@ export function Step({ number, title, answer, right, open, onOpen, className, ch
         {onOpen && !open && (
           <button type="button" className="chg" onClick={onOpen} aria-label={`${t("change")}: ${title}`}>
             {t("change")}
+          </button>
+        )}
+        {onNext && open && (
+          <button type="button" className="nxt" onClick={onNext}>
+            {t("station.next")}
           </button>
         )}
       </header>

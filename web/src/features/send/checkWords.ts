@@ -1,4 +1,5 @@
 import type { Check, Params, Reason } from "@/shared/api/types";
+import { degrees, millimetres } from "@/shared/words/format";
 import { listParams, say, type Names, type Template } from "@/shared/words/words";
 
 /** Adds what the wording needs and the server does not send as such: shares as percent, reasons in words. */
@@ -10,6 +11,11 @@ function wordParams(check: Check, reasonOf: (reason: Reason) => string): Params 
   };
   share("unbalance", "unbalance_percent");
   share("limit", "limit_percent");
+  const { dx_m, dy_m, dheading_rad } = params;
+  if (typeof dx_m === "number" && typeof dy_m === "number" && typeof dheading_rad === "number") {
+    const mm = (v: number) => `${millimetres(v, { decimals: 1, sign: true })} mm`;
+    params.offset = `${mm(dx_m)}, ${mm(dy_m)}, ${degrees(dheading_rad, { sign: true })}°`;
+  }
   if (typeof params.reason === "string") params.why = reasonOf({ code: params.reason, params: check.params });
   return params;
 }

@@ -1,4 +1,4 @@
-import type { Point, Pose, Ring } from "@/shared/api/types";
+import type { Plant, Point, Pose, Ring } from "@/shared/api/types";
 
 /** A window on the hall, in metres; y grows north. */
 export interface View {
@@ -106,3 +106,61 @@ export function turnArc(s: Segment, radius_m: number): Point[] {
 }
 
 const round = (v: number): number => Math.round(v * 1000) / 1000;
+
+/** A dimension beside a straight drive: where its line and its two extension lines run. */
+export interface Dimension {
+  from: Point;
+  to: Point;
+  extensions: [Point[], Point[]];
+}
+
+const kDimensionGap_m = 1.6;
+
+/** Only for one straight drive: beside the swept area, on the side where that reaches less far. */
+export function dimension(way: readonly Point[], swept: readonly Ring[]): Dimension | undefined {
+  const [a, b] = way;
+  if (way.length !== 2 || !a || !b) return undefined;
+  const length = Math.hypot(b.x_m - a.x_m, b.y_m - a.y_m);
+  if (length < 0.5) return undefined;
+  const n = { x: (b.y_m - a.y_m) / length, y: -(b.x_m - a.x_m) / length }; // to the right of the drive
+  let right = 1.5;
+  let left = 1.5;
+  for (const p of swept.flat()) {
+    const off = (p.x_m - a.x_m) * n.x + (p.y_m - a.y_m) * n.y;
+    right = Math.max(right, off);
+    left = Math.max(left, -off);
+  }
+  const out = right <= left ? right + kDimensionGap_m : -(left + kDimensionGap_m);
+  const move = (p: Point, by: number): Point => ({ x_m: p.x_m + n.x * by, y_m: p.y_m + n.y * by });
+  const past = out + Math.sign(out) * 0.4;
+  return {
+    from: move(a, out),
+    to: move(b, out),
+    extensions: [
+      [move(a, Math.sign(out) * 1.6), move(a, past)],
+      [move(b, Math.sign(out) * 1.6), move(b, past)],
+    ],
+  };
+}
+
+/** The station nearest to a press, at shares of the window; none within `reach` (share of the width). */
+export function nearestStation(
+  plant: Plant,
+  hall: string | undefined,
+  view: View,
+  at: { x: number; y: number },
+  reach: number,
+): number | undefined {
+  let best: number | undefined;
+  let least = reach;
+  for (const station of plant.stations) {
+    if (station.hall !== hall) continue;
+    const s = toShare(view, station.pose);
+    const distance = Math.hypot(s.x - at.x, ((s.y - at.y) * view.height) / view.width);
+    if (distance < least) {
+      least = distance;
+      best = station.number;
+    }
+  }
+  return best;
+}

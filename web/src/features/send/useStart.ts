@@ -1,8 +1,9 @@
+import { useQuery } from "@tanstack/react-query";
 import { useCallback, useEffect, useReducer, useRef } from "react";
 import { api, ApiProblem, call } from "@/shared/api";
 import type { JobOrder, NewJobOrder } from "@/shared/api/types";
 import { navigate, useLocation } from "@/shared/router";
-import { useNow } from "@/shared/live";
+import { useJobOrder, useNow } from "@/shared/live";
 import { startCommand, type StartCommand } from "./startCommand";
 
 export interface Start {
@@ -87,4 +88,16 @@ export function useStart(body: NewJobOrder | undefined): Start {
     navigate("/send", { replace: true });
   }, []);
   return { command, nowMs, arm, start, hold, cancel, retry, done };
+}
+
+/** The order that was sent: from the stream, or asked for once when it is no longer among the newest. */
+export function useSentOrder(id: string | undefined): JobOrder | undefined {
+  const live = useJobOrder(id);
+  const { data } = useQuery({
+    queryKey: ["job-order", id],
+    queryFn: () => call(api.GET("/api/v1/job-orders/{id}", { params: { path: { id: id ?? "" } } })),
+    enabled: id !== undefined && live === undefined,
+    retry: false,
+  });
+  return id === undefined ? undefined : (live ?? data);
 }
