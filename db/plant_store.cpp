@@ -71,30 +71,38 @@ void read_grids(soci::session& sql, std::vector<plant::Hall>& halls) {
     }
 }
 
+std::optional<plant::Plant> read_plant(soci::session& sql) {
+    PlantRow row;
+    Statement head(sql, std::string("SELECT ") + PlantRow::kColumns + " FROM plant", std::tuple<>(),
+                   row.fields());
+    if (!head.run()) return std::nullopt;
+    plant::Plant plant;
+    plant.id = row.id;
+    plant.name = row.name;
+    plant.revision = row.revision;
+    plant.routing = row.routing;
+    read_all<HallRow>(sql, plant.halls);
+    read_grids(sql, plant.halls);
+    read_all<NodeRow>(sql, plant.nodes);
+    read_all<EdgeRow>(sql, plant.edges);
+    read_all<VehicleTypeRow>(sql, plant.vehicle_types);
+    read_all<MarkerRow>(sql, plant.markers);
+    read_all<AreaRow>(sql, plant.areas);
+    read_all<StationRow>(sql, plant.stations);
+    read_all<PlantVehicleRow>(sql, plant.vehicles);
+    return plant;
+}
+
 }  // namespace
 
 std::optional<plant::Plant> PlantStore::load() {
-    return reading(database_.path(), [&]() -> std::optional<plant::Plant> {
-        soci::session& sql = database_.sql();
-        PlantRow row;
-        Statement head(sql, std::string("SELECT ") + PlantRow::kColumns + " FROM plant",
-                       std::tuple<>(), row.fields());
-        if (!head.run()) return std::nullopt;
-        plant::Plant plant;
-        plant.id = row.id;
-        plant.name = row.name;
-        plant.revision = row.revision;
-        plant.routing = row.routing;
-        read_all<HallRow>(sql, plant.halls);
-        read_grids(sql, plant.halls);
-        read_all<NodeRow>(sql, plant.nodes);
-        read_all<EdgeRow>(sql, plant.edges);
-        read_all<VehicleTypeRow>(sql, plant.vehicle_types);
-        read_all<MarkerRow>(sql, plant.markers);
-        read_all<AreaRow>(sql, plant.areas);
-        read_all<StationRow>(sql, plant.stations);
-        read_all<PlantVehicleRow>(sql, plant.vehicles);
-        return plant;
+    return reading(database_.path(), [&] { return read_plant(database_.sql()); });
+}
+
+std::optional<plant::Plant> load_plant(ReadOnly& connection) {
+    return reading(connection.path(), [&] {
+        soci::transaction snapshot(connection.sql());  // one state, though the server may import
+        return read_plant(connection.sql());
     });
 }
 

@@ -25,4 +25,7 @@ private:
     Database& database_;
 };
 
+/// What PlantStore::load() gives, read beside a running server.
+std::optional<plant::Plant> load_plant(ReadOnly& connection);
+
 }  // namespace pulseline::db
