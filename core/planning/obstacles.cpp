@@ -147,17 +147,22 @@ Obstacles::Hit Obstacles::approach(const Polygon& piece, const Box& box, std::si
 
 std::optional<Obstacles::Hit> Obstacles::worst(const std::vector<Polygon>& pieces,
                                                const Limits& limits, bool any) const {
+    std::vector<Box> boxes;
+    for (const Polygon& piece : pieces) {
+        if (!piece.empty() && !geometry::contains(hall_, piece.front())) {
+            return Hit{0, 0, piece.front()};
+        }
+        boxes.push_back(geometry::bounding_box(piece));
+    }
     std::optional<Hit> found;
     const std::size_t count = shapes_.size() + (grid_.empty() ? 0 : 1);
-    for (const Polygon& piece : pieces) {
-        if (piece.empty()) continue;
-        if (!geometry::contains(hall_, piece.front())) return Hit{0, 0, piece.front()};
-        const Box box = geometry::bounding_box(piece);
-        for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {  // the grid last: what is found bounds its search
+        for (std::size_t k = 0; k < pieces.size(); ++k) {
+            if (pieces[k].empty()) continue;
             const double stop = found ? std::min(limits[i], found->distance_m) : limits[i];
-            Hit hit = approach(piece, box, i, stop);
+            Hit hit = approach(pieces[k], boxes[k], i, stop);
             if (hit.distance_m >= stop - (found ? 0 : kRounding_m)) continue;
-            if (i < shapes_.size() && !any) hit.at = nearest_point(piece, shapes_[i].outline);
+            if (i < shapes_.size() && !any) hit.at = nearest_point(pieces[k], shapes_[i].outline);
             found = hit;
             if (any) return found;
         }

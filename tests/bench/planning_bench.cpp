@@ -1,0 +1,151 @@
+// Time per query of the planner on the final-assembly plant (or the plant file in
+// PULSELINE_BENCH_PLANT): mean, p50 and p99. JSON with --benchmark_format=json.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+
+#include "api/plant/plant_file.hpp"
+#include "core/planning/grid_search.hpp"
+#include "core/planning/leg_planner.hpp"
+#include "core/planning/roadmap_index.hpp"
+#include "core/traffic/tile_map.hpp"
+
+namespace pulseline::planning {
+namespace {
+
+const plant::Plant& bench_plant() {
+    static const plant::Plant plant = [] {
+        const char* path = std::getenv("PULSELINE_BENCH_PLANT");
+        auto loaded = plant::load_plant_file(path ? path : PULSELINE_DEFAULT_PLANT);
+        if (!loaded) {
+            std::cerr << loaded.error().what << '\n';
+            std::exit(2);
+        }
+        return std::move(*loaded);
+    }();
+    return plant;
+}
+
+/// Times every query by itself; the quantiles go into the counters, in microseconds.
+template <class Query>
+void measure(benchmark::State& state, Query query) {
+    using Timer = std::chrono::steady_clock;
+    std::vector<double> times_us;
+    for (auto _ : state) {
+        const auto begin = Timer::now();
+        query();
+        const std::chrono::duration<double, std::micro> time = Timer::now() - begin;
+        state.SetIterationTime(time.count() * 1e-6);
+        times_us.push_back(time.count());
+    }
+    std::sort(times_us.begin(), times_us.end());
+    double sum = 0;
+    for (const double t : times_us) sum += t;
+    state.counters["mean_us"] = sum / static_cast<double>(times_us.size());
+    state.counters["p50_us"] = times_us[times_us.size() / 2];
+    state.counters["p99_us"] = times_us[times_us.size() * 99 / 100];
+}
+
+std::vector<LegRequest> requests() {
+    const plant::Plant& plant = bench_plant();
+    std::vector<LegRequest> result;
+    for (const auto& type : plant.vehicle_types) {
+        const auto may_stop = [&](const plant::Station& station) {
+            const auto& types = station.vehicle_types;
+            return types.empty() || std::find(types.begin(), types.end(), type.id) != types.end();
+        };
+        for (const auto& from : plant.stations) {
+            for (const auto& to : plant.stations) {
+                if (&from == &to || from.hall != to.hall || !may_stop(from) || !may_stop(to)) {
+                    continue;
+                }
+                LegRequest request;
+                request.type = &type;
+                request.loaded = !type.load_footprint.empty();
+                request.hall = from.hall;
+                request.start = from.pose;
+                request.from_station = from.id;
+                request.target = to.id;
+                result.push_back(request);
+            }
+        }
+    }
+    std::shuffle(result.begin(), result.end(), std::mt19937(1));
+    return result;
+}
+
+void build(benchmark::State& state) {
+    measure(state, [] { LegPlanner planner(bench_plant()); });
+}
+
+void assess_modes(benchmark::State& state) {
+    const LegPlanner planner(bench_plant());
+    const auto all = requests();
+    std::size_t i = 0;
+    measure(state,
+            [&] { benchmark::DoNotOptimize(planner.assess_modes(all[i++ % all.size()], {})); });
+}
+
+void plan_leg(benchmark::State& state) {
+    const LegPlanner planner(bench_plant());
+    const auto all = requests();
+    std::size_t i = 0;
+    measure(state, [&] { benchmark::DoNotOptimize(planner.plan_leg(all[i++ % all.size()], {})); });
+}
+
+void roadmap(benchmark::State& state) {
+    const RoadmapIndex roads(bench_plant());
+    const auto passage = roads.passage(bench_plant().vehicle_types.back(), false);
+    std::mt19937 random(2);
+    const auto node = [&] { return static_cast<int>(random() % roads.graph().nodes.size()); };
+    const auto usable = [&](int arc) { return roads.usable(passage, arc); };
+    measure(state, [&] {
+        benchmark::DoNotOptimize(
+            find_path(roads.graph(), bench_plant().routing, node(), node(), std::nullopt, usable));
+    });
+}
+
+void grid(benchmark::State& state) {
+    const auto& hall = bench_plant().halls.front();
+    const auto& type = bench_plant().vehicle_types.back();
+    const auto layers =
+        footprint_layers(hall.grid, plant::outline_with_load(type, false), type.clearance_m);
+    const auto cost = *hall_cost(bench_plant().routing, hall.grid.resolution_m);
+    std::vector<Cell> free;
+    for (int row = 0; row < layers.height; row += 7) {
+        for (int col = 0; col < layers.width; col += 7) {
+            if (!layers.no_turn[layers.index({col, row})]) free.push_back({col, row});
+        }
+    }
+    if (free.empty()) return state.SkipWithError("no free cell");
+    std::mt19937 random(3);
+    const auto cell = [&] { return free[random() % free.size()]; };
+    measure(state, [&] {
+        benchmark::DoNotOptimize(plan_grid(layers, {cell(), cell(), std::nullopt, cost}));
+    });
+}
+
+void tiles_of_a_30_m_arc(benchmark::State& state) {
+    plant::VehicleType type;
+    type.motion_modes = {plant::MotionMode::kFixedAxisRotation};
+    const auto plan = kinematics::plan_motion(type, {0, 0, 0}, {19.1, 19.1, kPi / 2},
+                                              plant::MotionMode::kFixedAxisRotation);
+    const auto pieces = kinematics::sweep({geometry::rectangle(10.5, 2.5)}, plan->segments);
+    measure(state, [&] { benchmark::DoNotOptimize(traffic::tiles_under(0, pieces, 0.1)); });
+}
+
+BENCHMARK(build)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(10);
+BENCHMARK(assess_modes)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(400);
+BENCHMARK(plan_leg)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(400);
+BENCHMARK(roadmap)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(5000);
+BENCHMARK(grid)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(60);
+BENCHMARK(tiles_of_a_30_m_arc)->UseManualTime()->Unit(benchmark::kMicrosecond)->Iterations(500);
+
+}  // namespace
+}  // namespace pulseline::planning
+
+BENCHMARK_MAIN();
