@@ -34,7 +34,7 @@ export function enrich(snapshot, model) {
   const kn = { "front left": [25.8, 25.3], "front right": [25.2, 25.6], "back left": [28.9, 28.3], "back right": [28.0, 28.6] };
   tp.brackets = tp.brackets.map((b) => ({ name: b.name, force_a_n: kn[b.name][0] * 1000, force_b_n: kn[b.name][1] * 1000 }));
   const steer = { FL: 79.5, FR: -79.5, BL: -79.5, BR: 79.5, "drive front": 90, "drive back": 90 };
-  tp.wheels = tp.wheels.map((w) => ({ ...w, steering_rad: steer[w.name] * rad, temperature_c: w.name === "BR" ? 71 : 34 }));
+  tp.wheels = tp.wheels.map((w) => ({ ...w, steering_rad: (steer[w.name] ?? 90) * rad, temperature_c: w.name === "BR" ? 71 : 34 }));
   tp.parking_feet = ["front left", "front right", "back left", "back right"].map((name) => ({ name, extension_m: 0.0003 }));
   tp.cameras = [["front", 0.00275, -0.009, "ST06-F"], ["back", 0.00277, 0.00947, "ST06-B"]].map(([name, f, l, payload]) => ({
     name, found: true, payload, code: { x_m: 0, y_m: 0 }, forward_m: f, left_m: l, angle_rad: 0, sigma_m: 0.0001, rms_px: 0.21,

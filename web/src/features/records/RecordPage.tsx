@@ -10,7 +10,7 @@ import { dateTime, degrees, mass, millimetres, number } from "@/shared/words/for
 import { useWords } from "@/shared/words/useWords";
 import { DeviationBar } from "./Bars";
 import { RunTable } from "./RunTable";
-import { series, upTo, widerThanTolerance } from "./statistics";
+import { countedStops, series, upTo, widerThanTolerance } from "./statistics";
 import { TargetPlot } from "./TargetPlot";
 import { TrendRow } from "./Trend";
 import { useRun, useStop, useStopHistory } from "./useStopHistory";
@@ -233,6 +233,7 @@ function ThisStop({ stop }: { stop: StopRecord }) {
 function TrendCard({ stop, last, vehicle }: { stop: StopRecord; last: readonly StopRecord[]; vehicle: string }) {
   const { t } = useTranslation("records");
   const deg = 180 / Math.PI;
+  const counted = countedStops(last);
   const rows = [
     { name: "dx", unit: "mm", limit: stop.tolerance.dx_m * 1000, decimals: 0, values: last.map((s) => s.dx_m * 1000) },
     { name: "dy", unit: "mm", limit: stop.tolerance.dy_m * 1000, decimals: 0, values: last.map((s) => s.dy_m * 1000) },
@@ -243,7 +244,7 @@ function TrendCard({ stop, last, vehicle }: { stop: StopRecord; last: readonly S
       decimals: 1,
       values: last.map((s) => s.dheading_rad * deg),
     },
-  ].map((row) => ({ ...row, data: series(row.values, row.limit, 1.5) }));
+  ].map((row) => ({ ...row, data: series(row.values, counted) }));
   const wide = rows.filter((r) => widerThanTolerance(r.data, r.limit)).map((r) => r.name);
   return (
     <Card

@@ -52,12 +52,24 @@ export interface Series {
 /** d2 of a moving range of two: sigma = mean range / 1.128. */
 const kD2 = 1.128;
 
+/** A stop this many times outside tolerance is drawn at the edge of the trend. */
+export const kTrendScale = 1.1;
+
 /**
- * One row of the trend. `limit` is the tolerance; values beyond `scale` times it are drawn at the
- * edge and not counted, since a remote-controlled arrival says nothing about the automatic ones.
+ * Stops that count in the trend: one off scale in any direction counts in none, since a
+ * remote-controlled arrival says nothing about the automatic ones.
  */
-export function series(values: readonly number[], limit: number, scale: number): Series {
-  const inScale = values.map((v) => Math.abs(v) <= limit * scale);
+export function countedStops(stops: readonly StopRecord[]): boolean[] {
+  return stops.map(
+    (s) =>
+      Math.abs(s.dx_m) <= s.tolerance.dx_m * kTrendScale &&
+      Math.abs(s.dy_m) <= s.tolerance.dy_m * kTrendScale &&
+      Math.abs(s.dheading_rad) <= s.tolerance.dheading_rad * kTrendScale,
+  );
+}
+
+/** One row of the trend. Only stops that count make its figures and its control limits. */
+export function series(values: readonly number[], inScale: readonly boolean[]): Series {
   const kept = values.filter((_, i) => inScale[i]);
   const n = kept.length;
   const mean = n ? kept.reduce((s, v) => s + v, 0) / n : 0;
@@ -67,7 +79,7 @@ export function series(values: readonly number[], limit: number, scale: number):
   const sigma = n > 1 ? range / (n - 1) / kD2 : 0;
   return {
     values: [...values],
-    inScale,
+    inScale: [...inScale],
     meanAbs: n ? kept.reduce((s, v) => s + Math.abs(v), 0) / n : 0,
     largest: n ? Math.max(...kept.map(Math.abs)) : 0,
     lower: mean - 3 * sigma,

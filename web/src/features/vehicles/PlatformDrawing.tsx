@@ -206,7 +206,7 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
         const { x_m: x, y_m: y } = at.position;
         const middle = Math.abs(y) < sheet.halfWidth * 0.3;
         const place = middle
-          ? onSheet(sheet, { x_m: Math.sign(x) * sheet.halfLength * 0.7, y_m: y })
+          ? onSheet(sheet, { x_m: x - Math.sign(x) * 0.34, y_m: y })
           : onSheet(sheet, { x_m: Math.sign(x) * sheet.halfLength * 1.143, y_m: Math.sign(y) * sheet.height * 0.246 });
         const below = onSheet(sheet, {
           x_m: Math.sign(x) * sheet.halfLength * 1.143,
@@ -214,7 +214,7 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
         });
         return (
           <span key={w.name}>
-            <span className={`wl ${middle ? "in" : ""}`} style={place}>
+            <span className={`wl ${middle ? (x < 0 ? "in from" : "in to") : ""}`} style={place}>
               {state !== "ok" && <StatusSymbol name={state === "warm" ? "a-3" : "a-2"} />}
               <b>{w.name}</b> {degrees(w.steering_rad, { decimals: 1, sign: true })}°
               {middle && (
@@ -225,7 +225,9 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
               )}
             </span>
             {state !== "ok" && (
-              <span className={`wl ${state === "warm" ? "adv2" : "bad2"}`} style={middle ? { ...place, marginTop: 22 } : below}>
+              <span
+                className={`wl ${state === "warm" ? "adv2" : "bad2"} ${middle ? (x < 0 ? "from" : "to") : ""}`}
+                style={middle ? { ...place, marginTop: 22 } : below}>
                 {state === "warm" ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) }) : w.fault}
               </span>
             )}

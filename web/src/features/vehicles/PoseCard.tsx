@@ -1,13 +1,14 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
 import { Card, Value } from "@/shared/ui";
-import { age, fixed, heading, millimetres, secondsSince } from "@/shared/words/format";
+import { age, fixed, heading, millimetres } from "@/shared/words/format";
+import type { Heard } from "./useHeard";
 
-export function PoseCard({ vehicle, now }: { vehicle: Vehicle; now: number }) {
+export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Heard; now: number }) {
   const { t } = useTranslation("vehicles");
-  const { pose } = vehicle;
-  const ageS = secondsSince(vehicle.pose_at, now) ?? "never";
-  const atMs = vehicle.pose_at === undefined ? undefined : Date.parse(vehicle.pose_at);
+  const { pose, speed_mps } = heard;
+  const ageS = heard.pose_s ?? "never";
+  const atMs = heard.pose_s === undefined ? undefined : now - heard.pose_s * 1000;
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   return (
     <Card
@@ -26,7 +27,7 @@ export function PoseCard({ vehicle, now }: { vehicle: Vehicle; now: number }) {
         />
         <Value
           caption={t("pose.speed")}
-          value={vehicle.speed_mps === undefined ? undefined : fixed(vehicle.speed_mps, 2)}
+          value={speed_mps === undefined ? undefined : fixed(speed_mps, 2)}
           unit="m/s"
           {...shared}
         />

@@ -1,10 +1,11 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { useLive, useServerNow, useVehicles } from "@/shared/live";
+import { useLive, useVehicles } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
-import { age, fixed, mass, secondsSince } from "@/shared/words/format";
+import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { useHeard } from "./useHeard";
 import { activitySymbol, useAnswer } from "./WhyCard";
 
 /** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
@@ -12,7 +13,6 @@ export function VehicleListPage() {
   const { t } = useTranslation("vehicles");
   const vehicles = useVehicles();
   const ready = useLive((s) => s.ready);
-  const now = useServerNow(1000);
   const live = vehicles.filter((v) => v.link === "live").length;
   return (
     <Card
@@ -42,7 +42,7 @@ export function VehicleListPage() {
             </thead>
             <tbody>
               {vehicles.map((v) => (
-                <Row key={v.id} vehicle={v} now={now} />
+                <Row key={v.id} vehicle={v} />
               ))}
             </tbody>
           </table>
@@ -52,11 +52,11 @@ export function VehicleListPage() {
   );
 }
 
-function Row({ vehicle: v, now }: { vehicle: Vehicle; now: number }) {
+function Row({ vehicle: v }: { vehicle: Vehicle }) {
   const { t } = useTranslation(["vehicles", "words"]);
   const words = useWords();
   const answer = useAnswer();
-  const heard_s = secondsSince(v.last_heard_at, now);
+  const { heard_s } = useHeard(v);
   const silent = v.link !== "live";
   const to = `/vehicles/${encodeURIComponent(v.id)}`;
   return (

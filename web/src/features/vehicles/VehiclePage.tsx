@@ -15,7 +15,7 @@ import {
 import { Link } from "@/shared/router";
 import { Card, Chip, PanelEmpty, PanelLoading, StatusSymbol, Tabs } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
-import { age, fixed, mass, secondsSince } from "@/shared/words/format";
+import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { CameraCard } from "./CameraCard";
 import { feetDown } from "./faceplate";
@@ -24,6 +24,7 @@ import { summarise } from "./loads";
 import { PlatformDrawing } from "./PlatformDrawing";
 import { PoseCard } from "./PoseCard";
 import { StopsCard } from "./StopsCard";
+import { useHeard } from "./useHeard";
 import { VehicleCommands } from "./VehicleCommands";
 import { activitySymbol, useAnswer, WhyCard } from "./WhyCard";
 
@@ -66,7 +67,8 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const answer = useAnswer();
   const [tab, setTab] = useState("loads");
   const refused = !linkUp ? t("command.offline") : !mayCommand ? t("command.not_allowed") : undefined;
-  const heard_s = secondsSince(vehicle.last_heard_at, now);
+  const heard = useHeard(vehicle);
+  const { heard_s } = heard;
   const target = stations.find((s) => s.id === vehicle.leg?.station)?.state;
 
   const loads = <LoadsCard vehicle={vehicle} stale={(heard_s ?? Infinity) >= kLate_s} heard_s={heard_s} />;
@@ -89,8 +91,8 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const why = (
     <>
       {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
-      <WhyCard vehicle={vehicle} type={type} target={target} now={now} />
-      <PoseCard vehicle={vehicle} now={now} />
+      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} />
+      <PoseCard vehicle={vehicle} heard={heard} now={now} />
     </>
   );
   const last = <StopsCard stops={stops} now={now} />;

@@ -1,7 +1,7 @@
 import { useTranslation } from "react-i18next";
 import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { Card, CheckRow, StatusSymbol, type SymbolName } from "@/shared/ui";
-import { age, fixed, secondsSince } from "@/shared/words/format";
+import { age, fixed } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { whyRows, type WhyRow } from "./whyRows";
 
@@ -34,11 +34,11 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   };
 }
 
-export function WhyCard({ vehicle, type, target, now }: {
+export function WhyCard({ vehicle, type, target, heard_s }: {
   vehicle: Vehicle;
   type: VehicleType | undefined;
   target: StationState | undefined;
-  now: number;
+  heard_s: number | undefined;
 }) {
   const { t } = useTranslation("vehicles");
   const answer = useAnswer();
@@ -50,16 +50,15 @@ export function WhyCard({ vehicle, type, target, now }: {
         <span>{answer(vehicle)}</span>
       </p>
       {whyRows(vehicle, type, target).map((row, i) => (
-        <Row key={`${row.kind}${i}`} row={row} vehicle={vehicle} now={now} />
+        <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} />
       ))}
     </Card>
   );
 }
 
-function Row({ row, vehicle, now }: { row: WhyRow; vehicle: Vehicle; now: number }) {
+function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
   const { t } = useTranslation("vehicles");
   const words = useWords();
-  const ageS = secondsSince(vehicle.last_heard_at, now);
   const { name, value } = text();
   return (
     <CheckRow result={row.result} name={name} value={value} ageS={row.kind === "station" ? undefined : ageS} critical={row.kind === "fault"} />

@@ -1,5 +1,6 @@
 import type { Params, Reason } from "@/shared/api/types";
-import { deg, fixed, kThin, mass, metres, mm, age } from "./format";
+import { length } from "@/shared/words/format";
+import { age, deg, fixed, kThin, mass } from "./format";
 
 /** The part of i18next's `t` that is used here; a table in the tests. */
 export type Translate = (key: string, values?: Record<string, unknown>) => string;
@@ -25,7 +26,7 @@ export function paramText(name: string, value: string | number | boolean): strin
   if (typeof value !== "number") return String(value);
   if (name.endsWith("_m2")) return `${fixed(value, 1)}${kThin}m²`;
   if (name.endsWith("_mps")) return `${fixed(value, 2)}${kThin}m/s`;
-  if (name.endsWith("_m")) return Math.abs(value) < 1 ? mm(value) : metres(value, 2);
+  if (name.endsWith("_m")) return length(value);
   if (name.endsWith("_rad")) return deg(value, 2);
   if (name.endsWith("_s")) return age(value);
   if (name.endsWith("_kg")) return mass(value);

@@ -1,49 +1,9 @@
-/** Numbers as a person on the floor reads them: millimetres, degrees, real minus sign, fixed decimals. */
-export const kMinus = "\u2212";
-export const kThin = "\u2009";
-export const kNone = "\u2013"; // never received
+import { duration, fixed, kNone, kThin, mass, timeOfDay } from "@/shared/i18n/format";
+
+export { age, duration, fixed, kMinus, kNone, kThin, mass, timeOfDay } from "@/shared/i18n/format";
 
 const finite = (value: number | undefined): value is number => value !== undefined && Number.isFinite(value);
 const two = (n: number) => String(n).padStart(2, "0");
-
-/** Fixed decimals, real minus sign, never "-0.0". */
-export function fixed(value: number | undefined, decimals: number): string {
-  if (!finite(value)) return kNone;
-  const text = Math.abs(value).toFixed(decimals);
-  return value < 0 && Number(text) !== 0 ? kMinus + text : text;
-}
-
-/** Duration as m:ss, from an hour on h:mm:ss. */
-export function duration(s: number | undefined): string {
-  if (!finite(s)) return kNone;
-  const total = Math.max(0, Math.round(s));
-  const hours = Math.floor(total / 3600);
-  const minutes = Math.floor((total % 3600) / 60);
-  return hours > 0 ? `${hours}:${two(minutes)}:${two(total % 60)}` : `${minutes}:${two(total % 60)}`;
-}
-
-/** Age of a value: tenths below ten seconds, whole seconds below a minute, then m:ss. */
-export function age(s: number | undefined): string {
-  if (!finite(s)) return kNone;
-  const value = Math.max(0, s);
-  if (value < 9.95) return `${fixed(value, 1)}${kThin}s`;
-  if (value < 59.5) return `${Math.round(value)}${kThin}s`;
-  return duration(value);
-}
-
-/** Wall-clock time hh:mm:ss of this panel. */
-export function timeOfDay(when: string | number | Date | undefined): string {
-  if (when === undefined) return kNone;
-  const date = when instanceof Date ? when : new Date(when);
-  if (Number.isNaN(date.getTime())) return kNone;
-  return `${two(date.getHours())}:${two(date.getMinutes())}:${two(date.getSeconds())}`;
-}
-
-/** Mass: kilograms below a tonne, else tonnes. */
-export function mass(kg: number | undefined): string {
-  if (!finite(kg)) return kNone;
-  return kg >= 1000 ? `${fixed(kg / 1000, 1)}${kThin}t` : `${fixed(kg, 0)}${kThin}kg`;
-}
 
 export interface NumberStyle {
   decimals?: number;
@@ -78,11 +38,11 @@ export function wrap(angle_rad: number): number {
   return wrapped <= -Math.PI ? wrapped + turn : wrapped;
 }
 
-/** A length in the unit that suits it: mm below 1 m, km from 1000 m. */
+/** A length in the unit that suits it: mm below 0.1 m, km from 1000 m. */
 export function length(value_m: number | undefined): string {
   if (!finite(value_m)) return kNone;
   const size = Math.abs(value_m);
-  if (size < 1) return `${number(value_m * 1000, { decimals: size < 0.01 ? 1 : 0 })}${kThin}mm`;
+  if (size < 0.1) return `${number(value_m * 1000, { decimals: size < 0.01 ? 1 : 0 })}${kThin}mm`;
   if (size < 1000) return `${number(value_m, { decimals: size < 100 ? 2 : 0 })}${kThin}m`;
   return `${number(value_m / 1000, { decimals: 1 })}${kThin}km`;
 }
