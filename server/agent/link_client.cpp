@@ -262,9 +262,13 @@ LinkClient::LinkClient(net::io_context& io, ssl::context& tls, const ServerAddre
 LinkClient::~LinkClient() = default;
 
 net::awaitable<void> LinkClient::run() {
-    do {
+    for (;;) {
         co_await impl_->connect();
-    } while (!impl_->was_replaced && co_await impl_->pause_before_retry());
+        if (impl_->was_replaced) co_return;
+        // Not joined with the line above: g++ 12 miscompiles co_await behind && in a condition.
+        const bool again = co_await impl_->pause_before_retry();
+        if (!again) co_return;
+    }
 }
 
 void LinkClient::stop() {
