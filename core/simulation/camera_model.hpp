@@ -11,9 +11,9 @@ namespace pulseline::simulation {
 
 /// Errors of vision::read_qr as bench_vision measures them on nominal images.
 struct ReadingErrors {
-    double sigma_px = 0.0018;  // centre, per axis
-    double sigma_angle_rad = 1e-5;
-    double rms_px = 0.06;
+    double sigma_px = 0.0016;  // centre, per axis
+    double sigma_angle_rad = 9e-6;
+    double rms_px = 0.035;
     double inlier_share = 0.97;
 };
 

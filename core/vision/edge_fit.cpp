@@ -15,7 +15,7 @@ struct Round {
     int reach_px;
     bool thorough;
 };
-constexpr std::array<Round, 4> kRounds{{{7, false}, {5, false}, {4, true}, {4, true}}};
+constexpr std::array<Round, 3> kRounds{{{7, false}, {4, false}, {4, true}}};
 constexpr std::array<double, 3> kAlong{-0.25, 0, 0.25};  // places on an edge, in modules
 constexpr int kFewestEdges = 80;
 constexpr double kTukey = 4.685;  // 95 % efficiency for Gaussian residuals
@@ -182,13 +182,13 @@ Step solve(const std::vector<Observation>& seen, double module_px) {
             const double x = r / (kTukey * scale);
             if (std::abs(x) >= 1) continue;
             const double w = (1 - x * x) * (1 - x * x);
-            normal.selfadjointView<Eigen::Lower>().rankUpdate(j, w);
+            normal.noalias() += (w * j) * j.transpose();
             right += w * o.offset_px * j;
             squares += w * r * r;
             weights += w;
             ++step.inliers;
         }
-        step.information = normal.selfadjointView<Eigen::Lower>();
+        step.information = normal;
         step.change = step.information.ldlt().solve(right);
         step.rms_px = weights > 0 ? std::sqrt(squares / weights) : 0;
     }
