@@ -235,6 +235,10 @@ Server::Server(Options options, Parts parts)
     : impl_(std::make_unique<Impl>(std::move(options), parts)) {}
 Server::~Server() = default;
 
+Status Server::check(const Options& options) {
+    const auto address = parse_address(options.listen);
+    return address ? check_exposure(options, *address) : fail(address.error());
+}
 Status Server::start() { return impl_->start(); }
 void Server::run() { impl_->run(); }
 void Server::stop() {

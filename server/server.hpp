@@ -28,6 +28,8 @@ public:
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
+    /// Whether these options may be served at all; touches nothing.
+    static Status check(const Options& options);
     /// Loads the state, binds the address and begins to listen; nothing is answered before run().
     Status start();
     /// Serves until stop() was called and the sessions ended, at most two seconds later.

@@ -53,6 +53,7 @@ int serve(const Options& options) {
         fmt::print(stderr, "pulseline: name the database file with --db\n");
         return kUsage;
     }
+    if (const auto sound = Server::check(options); !sound) return failed(sound.error());
     auto storage = open_storage(options.database);
     if (!storage) return failed(storage.error());
     const auto plant = load_plant(**storage, options);
