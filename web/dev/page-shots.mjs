@@ -32,9 +32,11 @@ async function open({ path, size = [1920, 1080], lang = "en", theme = "light", c
     if (url.pathname.startsWith("/api/")) {
       if (url.pathname.endsWith("/session")) return json(session);
       if (url.pathname.endsWith("/plant")) return json(model);
-      if (url.pathname.includes("/cameras/")) return route.fulfill({ body: picture, contentType: "image/svg+xml" });
+      if (url.pathname.includes("/cameras/"))
+        return route.fulfill({ body: picture, contentType: "image/svg+xml" });
       if (url.pathname.endsWith("/stop-records")) return json({ items: first.stop_records });
-      if (url.pathname.endsWith("/job-orders") && request.method() === "GET") return json({ items: first.job_orders });
+      if (url.pathname.endsWith("/job-orders") && request.method() === "GET")
+        return json({ items: first.job_orders });
       if (url.pathname.endsWith("/job-orders")) {
         const body = request.postDataJSON();
         sent.push({ dry: url.searchParams.has("dryRun"), body, key: request.headers()["idempotency-key"] });
@@ -44,7 +46,10 @@ async function open({ path, size = [1920, 1080], lang = "en", theme = "light", c
       return json({ code: "not_found", detail: "not in the fixture", request_id: "7f3a0000" }, 404);
     }
     const file = extname(url.pathname) === "" ? "index.html" : url.pathname.slice(1);
-    return route.fulfill({ body: readFileSync(join(dist, file)), contentType: types[extname(file)] ?? "text/plain" });
+    return route.fulfill({
+      body: readFileSync(join(dist, file)),
+      contentType: types[extname(file)] ?? "text/plain",
+    });
   });
   await page.routeWebSocket("ws://pulse.test/api/v1/stream", (ws) => {
     socket = ws;
@@ -77,7 +82,11 @@ const shots = {
   "send-zh": { path: send, lang: "zh" },
   "send-1024": { path: send, size: small },
   "send-1024-2": { path: "/send?vehicle=TP-01", size: small },
-  "send-1024-3": { path: send, size: small, act: (c) => c.page.getByRole("button", { name: /Change: Motion/ }).click() },
+  "send-1024-3": {
+    path: send,
+    size: small,
+    act: (c) => c.page.getByRole("button", { name: /Change: Motion/ }).click(),
+  },
   "send-empty": { path: "/send" },
   "send-wrong": { path: "/send?vehicle=TP-01&station=99" },
   "send-armed": { path: send, act: (c) => c.page.getByRole("button", { name: /Arm/ }).click() },
@@ -94,10 +103,25 @@ const shots = {
       c.send({
         type: "vehicle",
         vehicle: {
-          ...tp, activity: "moving", speed_mps: 0.31, order: kOrder, at_station: "",
-          leg: { id: kOrder, station: "st07", mode: "linear", path: [{ x_m: 85, y_m: 20 }, { x_m: 95, y_m: 20 }],
-            granted_points: 2, granted_area: [], duration_s: 91, progress: 0.42,
-            expected_at: new Date(Date.now() + 52000).toISOString() },
+          ...tp,
+          activity: "moving",
+          speed_mps: 0.31,
+          order: kOrder,
+          at_station: "",
+          leg: {
+            id: kOrder,
+            station: "st07",
+            mode: "linear",
+            path: [
+              { x_m: 85, y_m: 20 },
+              { x_m: 95, y_m: 20 },
+            ],
+            granted_points: 2,
+            granted_area: [],
+            duration_s: 91,
+            progress: 0.42,
+            expected_at: new Date(Date.now() + 52000).toISOString(),
+          },
         },
       });
       await c.page.waitForTimeout(500);
@@ -121,8 +145,15 @@ const shots = {
     answer: (route) =>
       route.fulfill({
         status: 409,
-        json: { type: "urn:pulseline:problem:vehicle_gone", title: "Gone", status: 409, code: "vehicle_gone",
-          detail: "TP-01 is gone.", params: { vehicle: "TP-01", silent_s: 84 }, request_id: "7f3a0000" },
+        json: {
+          type: "urn:pulseline:problem:vehicle_gone",
+          title: "Gone",
+          status: 409,
+          code: "vehicle_gone",
+          detail: "TP-01 is gone.",
+          params: { vehicle: "TP-01", silent_s: 84 },
+          request_id: "7f3a0000",
+        },
       }),
   },
   "vehicle-light": { path: "/vehicles/TP-01" },
@@ -131,7 +162,12 @@ const shots = {
   "vehicle-1024": { path: "/vehicles/TP-01", size: small },
   "vehicle-init": {
     path: "/vehicles/TP-01",
-    change: (f) => Object.assign(vehicle(f, "TP-01"), { pose_known: false, activity: "unknown", reason: { code: "pose_unknown", params: {} } }),
+    change: (f) =>
+      Object.assign(vehicle(f, "TP-01"), {
+        pose_known: false,
+        activity: "unknown",
+        reason: { code: "pose_unknown", params: {} },
+      }),
   },
   "vehicle-late": { path: "/vehicles/MV-02" },
   "vehicle-list": { path: "/vehicles" },
@@ -149,7 +185,10 @@ const shots = {
     async act(c) {
       await c.page.getByRole("button", { name: "New order" }).click();
       for (const n of ["1", "2"]) {
-        await c.page.getByLabel(/^Station \d+$/).last().fill(n);
+        await c.page
+          .getByLabel(/^Station \d+$/)
+          .last()
+          .fill(n);
         await c.page.getByRole("button", { name: "Add station" }).click();
       }
     },
@@ -162,9 +201,7 @@ const shots = {
 for (const [name, shot] of Object.entries(shots)) {
   if (only !== undefined && !new RegExp(only).test(name)) continue;
   const probe = enrich(snapshot(plant()), plant());
-  const path = shot.path
-    .replace("REC", probe.stop_records[0].id)
-    .replace("ORD", probe.job_orders[0].id);
+  const path = shot.path.replace("REC", probe.stop_records[0].id).replace("ORD", probe.job_orders[0].id);
   const ctx = await open({ ...shot, path });
   try {
     await shot.act?.(ctx);
@@ -173,12 +210,19 @@ for (const [name, shot] of Object.entries(shots)) {
     console.log(name, "act failed:", error.message.split("\n")[0]);
   }
   await ctx.page.screenshot({ path: join(out, `${name}.png`) });
-  const axe = await new AxeBuilder({ page: ctx.page }).include("main").analyze().catch((e) => ({ violations: [], e }));
+  const axe = await new AxeBuilder({ page: ctx.page })
+    .include("main")
+    .analyze()
+    .catch((e) => ({ violations: [], e }));
   if (axe.e) console.log(name, "axe:", axe.e.message.split("\n")[0]);
-  for (const v of axe.violations) console.log(name, "axe:", v.id, v.nodes.length, v.nodes[0].html.slice(0, 150));
+  for (const v of axe.violations)
+    console.log(name, "axe:", v.id, v.nodes.length, v.nodes[0].html.slice(0, 150));
   const little = await ctx.page.evaluate(() =>
     [...document.querySelectorAll("main button, main a, main select, main input")]
-      .map((e) => ({ r: e.getBoundingClientRect(), t: e.className + " " + (e.textContent ?? "").slice(0, 20) }))
+      .map((e) => ({
+        r: e.getBoundingClientRect(),
+        t: e.className + " " + (e.textContent ?? "").slice(0, 20),
+      }))
       .filter(({ r }) => r.width > 0 && (r.height < 47.5 || r.width < 47.5))
       .map(({ r, t }) => `${t} ${Math.round(r.width)}x${Math.round(r.height)}`),
   );

@@ -67,7 +67,10 @@ function OrderCommand({ order, method, requested }: { order: JobOrder; method: M
       />
       {asked.kind === "failed" && (
         <p className="lab" role="alert">
-          {t("command.failed", { detail: words.problem(asked.problem), request: asked.problem.requestId.slice(0, 8) })}
+          {t("command.failed", {
+            detail: words.problem(asked.problem),
+            request: asked.problem.requestId.slice(0, 8),
+          })}
         </p>
       )}
     </div>

@@ -7,7 +7,13 @@ import { dateTime, timeOfDay } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { isOpen, stateSymbol } from "./orderLook";
 
-export function OrderTable({ orders, selected }: { orders: readonly JobOrder[]; selected: string | undefined }) {
+export function OrderTable({
+  orders,
+  selected,
+}: {
+  orders: readonly JobOrder[];
+  selected: string | undefined;
+}) {
   const { t } = useTranslation("orders");
   const now = useServerNow(60_000);
   return (
@@ -38,7 +44,10 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
   const to = `/orders/${order.id}`;
   const vehicle = order.vehicle || order.wanted_vehicle;
   return (
-    <tr className={`go ${selected ? "on" : ""} ${isOpen(order) ? "" : "closed"}`} onClick={() => navigate(to)}>
+    <tr
+      className={`go ${selected ? "on" : ""} ${isOpen(order) ? "" : "closed"}`}
+      onClick={() => navigate(to)}
+    >
       <td className="b">
         <Link
           className="cell-link"

@@ -64,7 +64,11 @@ export function OrdersPage({ id }: { id: string | undefined }) {
   );
   if (side === undefined) return table;
   const panel =
-    side === "tour" ? <TourForm plant={plant} onClose={() => setWriting(false)} /> : <Selected id={id ?? ""} />;
+    side === "tour" ? (
+      <TourForm plant={plant} onClose={() => setWriting(false)} />
+    ) : (
+      <Selected id={id ?? ""} />
+    );
   return narrow ? (
     panel
   ) : (

@@ -9,7 +9,14 @@ import { useCommand } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
 import { emptyTour, faults, toRequest, tour, type TourFault } from "./tour";
 
-const modes: readonly MotionMode[] = ["auto", "linear", "fixed_axis_rotation", "self_rotation", "lateral", "free"];
+const modes: readonly MotionMode[] = [
+  "auto",
+  "linear",
+  "fixed_axis_rotation",
+  "self_rotation",
+  "lateral",
+  "free",
+];
 
 function newKey(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
@@ -61,7 +68,10 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
       <div className="fields">
         <label className="field">
           <span className="cap">{t("tour.vehicle")}</span>
-          <select value={state.vehicle} onChange={(e) => dispatch({ kind: "vehicle", vehicle: e.target.value })}>
+          <select
+            value={state.vehicle}
+            onChange={(e) => dispatch({ kind: "vehicle", vehicle: e.target.value })}
+          >
             <option value="">{t("tour.any")}</option>
             {vehicles.map((v) => (
               <option key={v.id} value={v.id}>
@@ -136,7 +146,9 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
               >
                 <Icon name="x" />
               </button>
-              <span className={fault ? "lab bad" : "lab"}>{fault ? faultText(fault) : (station?.name ?? "")}</span>
+              <span className={fault ? "lab bad" : "lab"}>
+                {fault ? faultText(fault) : (station?.name ?? "")}
+              </span>
             </li>
           );
         })}

@@ -64,7 +64,10 @@ export function tour(state: Tour, event: TourEvent): Tour {
         ),
       };
     case "mode":
-      return { ...state, steps: state.steps.map((s) => (s.id === event.id ? { ...s, mode: event.mode } : s)) };
+      return {
+        ...state,
+        steps: state.steps.map((s) => (s.id === event.id ? { ...s, mode: event.mode } : s)),
+      };
     case "reset":
       return emptyTour();
   }

@@ -1,7 +1,14 @@
 import { number } from "@/shared/words/format";
 
 /** A deviation on its tolerance band: the band takes 5/6 of the width, so that outside can be seen. */
-export function DeviationBar({ name, value, limit, text, unit, decimals }: {
+export function DeviationBar({
+  name,
+  value,
+  limit,
+  text,
+  unit,
+  decimals,
+}: {
   name: string;
   /** In the unit of `limit`. */
   value: number;
@@ -23,7 +30,12 @@ export function DeviationBar({ name, value, limit, text, unit, decimals }: {
         <svg className="gg" viewBox="0 0 100 28" preserveAspectRatio="none" aria-hidden="true">
           <rect x="0" y="10" width="100" height="8" fill="var(--surface-3)" />
           <rect x="8.33" y="6" width="83.33" height="16" fill="var(--band)" />
-          <path d="M8.33 2V26M91.67 2V26" stroke="var(--ink-2)" strokeWidth="1.5" vectorEffect="non-scaling-stroke" />
+          <path
+            d="M8.33 2V26M91.67 2V26"
+            stroke="var(--ink-2)"
+            strokeWidth="1.5"
+            vectorEffect="non-scaling-stroke"
+          />
           <path d="M50 6V22" stroke="var(--band-edge)" strokeWidth="1" vectorEffect="non-scaling-stroke" />
           <path d={`M${x} 0V28`} stroke="var(--needle)" strokeWidth="4" vectorEffect="non-scaling-stroke" />
         </svg>

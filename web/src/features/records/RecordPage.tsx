@@ -81,7 +81,10 @@ function Record({ stop }: { stop: StopRecord }) {
         run.length > 0 &&
         t("run_summary", {
           count: run.length,
-          mm: millimetres(far((s) => Math.max(Math.abs(s.dx_m), Math.abs(s.dy_m))), { decimals: 2 }),
+          mm: millimetres(
+            far((s) => Math.max(Math.abs(s.dx_m), Math.abs(s.dy_m))),
+            { decimals: 2 },
+          ),
           deg: degrees(far((s) => Math.abs(s.dheading_rad))),
         })
       }
@@ -106,7 +109,10 @@ function Record({ stop }: { stop: StopRecord }) {
             </span>
           </span>
         </div>
-        <Link className="btn motion" to={`/send?vehicle=${encodeURIComponent(stop.vehicle)}&station=${stop.number}`}>
+        <Link
+          className="btn motion"
+          to={`/send?vehicle=${encodeURIComponent(stop.vehicle)}&station=${stop.number}`}
+        >
           {t("again")}
         </Link>
         <Link className="btn primary motion" to={`/send?vehicle=${encodeURIComponent(stop.vehicle)}`}>
@@ -230,13 +236,33 @@ function ThisStop({ stop }: { stop: StopRecord }) {
   );
 }
 
-function TrendCard({ stop, last, vehicle }: { stop: StopRecord; last: readonly StopRecord[]; vehicle: string }) {
+function TrendCard({
+  stop,
+  last,
+  vehicle,
+}: {
+  stop: StopRecord;
+  last: readonly StopRecord[];
+  vehicle: string;
+}) {
   const { t } = useTranslation("records");
   const deg = 180 / Math.PI;
   const counted = countedStops(last);
   const rows = [
-    { name: "dx", unit: "mm", limit: stop.tolerance.dx_m * 1000, decimals: 0, values: last.map((s) => s.dx_m * 1000) },
-    { name: "dy", unit: "mm", limit: stop.tolerance.dy_m * 1000, decimals: 0, values: last.map((s) => s.dy_m * 1000) },
+    {
+      name: "dx",
+      unit: "mm",
+      limit: stop.tolerance.dx_m * 1000,
+      decimals: 0,
+      values: last.map((s) => s.dx_m * 1000),
+    },
+    {
+      name: "dy",
+      unit: "mm",
+      limit: stop.tolerance.dy_m * 1000,
+      decimals: 0,
+      values: last.map((s) => s.dy_m * 1000),
+    },
     {
       name: "dθ",
       unit: "°",

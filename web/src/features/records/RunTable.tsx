@@ -9,7 +9,15 @@ const two = { decimals: 2 };
 const dev = { decimals: 2, sign: true };
 
 /** The stops of one order: theoretical, actual, deviation, as Tang's Table 6. */
-export function RunTable({ run, current, now }: { run: readonly StopRecord[]; current: string; now: number }) {
+export function RunTable({
+  run,
+  current,
+  now,
+}: {
+  run: readonly StopRecord[];
+  current: string;
+  now: number;
+}) {
   const { t } = useTranslation("records");
   const words = useWords();
   return (
@@ -33,7 +41,11 @@ export function RunTable({ run, current, now }: { run: readonly StopRecord[]; cu
       </thead>
       <tbody>
         {run.map((s) => (
-          <tr key={s.id} className={s.id === current ? "on" : ""} aria-current={s.id === current || undefined}>
+          <tr
+            key={s.id}
+            className={s.id === current ? "on" : ""}
+            aria-current={s.id === current || undefined}
+          >
             <td className="b">
               {s.id === current ? (
                 s.number

@@ -97,7 +97,10 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
         {ellipse && (
           <span
             className="lb tlb"
-            style={{ left: percent(ellipse.cx + ellipse.rx * 0.75), top: percent(-ellipse.cy + ellipse.ry * 0.85) }}
+            style={{
+              left: percent(ellipse.cx + ellipse.rx * 0.75),
+              top: percent(-ellipse.cy + ellipse.ry * 0.85),
+            }}
           >
             {t("ellipse")}
           </span>

@@ -4,7 +4,14 @@ import { number } from "@/shared/words/format";
 import type { Series } from "./statistics";
 
 /** One row of the trend: tolerance solid, control limits dashed, off-scale stops as triangles at the edge. */
-export function TrendRow({ name, unit, data, limit, decimals, slots }: {
+export function TrendRow({
+  name,
+  unit,
+  data,
+  limit,
+  decimals,
+  slots,
+}: {
   name: string;
   unit: string;
   data: Series;

@@ -46,7 +46,10 @@ export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps)
           <span>{sentence()}</span>
         </p>
         {(progress.kind === "moving" || progress.kind === "measuring") && (
-          <Bar progress={progress.kind === "moving" ? progress.progress : 1} granted={progress.kind === "moving" ? progress.granted : 1} />
+          <Bar
+            progress={progress.kind === "moving" ? progress.progress : 1}
+            granted={progress.kind === "moving" ? progress.granted : 1}
+          />
         )}
         {progress.kind === "arrived" && <Arrival stop={progress.stop} />}
         <p className="lab next">{next()}</p>
@@ -79,7 +82,9 @@ export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps)
       case "held":
         return reason ? t("move.held", { why: words.reason(reason) }) : t("move.held_plain");
       case "aborted":
-        return order?.reason ? t("move.aborted", { why: words.reason(order.reason) }) : t("move.aborted_plain");
+        return order?.reason
+          ? t("move.aborted", { why: words.reason(order.reason) })
+          : t("move.aborted_plain");
       case "arrived":
         return progress.stop ? t(progress.stop.inside ? "move.inside" : "move.outside") : t("move.arrived");
       default:
@@ -141,15 +146,43 @@ function Arrival({ stop }: { stop: StopRecord | undefined }) {
   const { tolerance } = stop;
   return (
     <div className="arrival">
-      <Deviation name="dx" text={millimetres(stop.dx_m, { decimals: 2, sign: true })} unit="mm" value={stop.dx_m} limit={tolerance.dx_m} limitText={millimetres(tolerance.dx_m)} />
-      <Deviation name="dy" text={millimetres(stop.dy_m, { decimals: 2, sign: true })} unit="mm" value={stop.dy_m} limit={tolerance.dy_m} limitText={millimetres(tolerance.dy_m)} />
-      <Deviation name="dθ" text={`${degrees(stop.dheading_rad, { sign: true })}°`} unit="" value={stop.dheading_rad} limit={tolerance.dheading_rad} limitText={degrees(tolerance.dheading_rad, { decimals: 1 })} />
+      <Deviation
+        name="dx"
+        text={millimetres(stop.dx_m, { decimals: 2, sign: true })}
+        unit="mm"
+        value={stop.dx_m}
+        limit={tolerance.dx_m}
+        limitText={millimetres(tolerance.dx_m)}
+      />
+      <Deviation
+        name="dy"
+        text={millimetres(stop.dy_m, { decimals: 2, sign: true })}
+        unit="mm"
+        value={stop.dy_m}
+        limit={tolerance.dy_m}
+        limitText={millimetres(tolerance.dy_m)}
+      />
+      <Deviation
+        name="dθ"
+        text={`${degrees(stop.dheading_rad, { sign: true })}°`}
+        unit=""
+        value={stop.dheading_rad}
+        limit={tolerance.dheading_rad}
+        limitText={degrees(tolerance.dheading_rad, { decimals: 1 })}
+      />
     </div>
   );
 }
 
 /** A deviation on its tolerance band: the band is 5/6 of the width, so that outside can be seen. */
-function Deviation(props: { name: string; text: string; unit: string; value: number; limit: number; limitText: string }) {
+function Deviation(props: {
+  name: string;
+  text: string;
+  unit: string;
+  value: number;
+  limit: number;
+  limitText: string;
+}) {
   const x = 50 + Math.max(-1.18, Math.min(1.18, props.value / props.limit)) * 41.67;
   return (
     <div className="dv">
@@ -162,7 +195,12 @@ function Deviation(props: { name: string; text: string; unit: string; value: num
         <svg className="gg" viewBox="0 0 100 28" preserveAspectRatio="none" aria-hidden="true">
           <rect x="0" y="10" width="100" height="8" fill="var(--surface-3)" />
           <rect x="8.33" y="6" width="83.33" height="16" fill="var(--band)" />
-          <path d="M8.33 2V26M91.67 2V26" stroke="var(--ink-2)" strokeWidth="1.5" vectorEffect="non-scaling-stroke" />
+          <path
+            d="M8.33 2V26M91.67 2V26"
+            stroke="var(--ink-2)"
+            strokeWidth="1.5"
+            vectorEffect="non-scaling-stroke"
+          />
           <path d="M50 6V22" stroke="var(--band-edge)" strokeWidth="1" vectorEffect="non-scaling-stroke" />
           <path d={`M${x} 0V28`} stroke="var(--needle)" strokeWidth="4" vectorEffect="non-scaling-stroke" />
         </svg>

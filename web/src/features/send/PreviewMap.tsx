@@ -1,6 +1,16 @@
 import { useEffect, useRef, useState, type CSSProperties } from "react";
 import { useTranslation } from "react-i18next";
-import type { Leg, ModeOption, Plant, Point, Pose, Ring, StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import type {
+  Leg,
+  ModeOption,
+  Plant,
+  Point,
+  Pose,
+  Ring,
+  StationState,
+  Vehicle,
+  VehicleType,
+} from "@/shared/api/types";
 import { number } from "@/shared/words/format";
 import {
   dimension,
@@ -52,14 +62,22 @@ export function PreviewMap(props: PreviewMapProps) {
       onClick={(event) => {
         if (!props.picking || !view || !box.current) return;
         const frame = box.current.getBoundingClientRect();
-        const at = { x: (event.clientX - frame.left) / frame.width, y: (event.clientY - frame.top) / frame.height };
+        const at = {
+          x: (event.clientX - frame.left) / frame.width,
+          y: (event.clientY - frame.top) / frame.height,
+        };
         const hit = nearestStation(props.plant, scene.hall, view, at, kPick_px / frame.width);
         if (hit !== undefined) props.onPick(hit);
       }}
     >
       {view && size && (
         <>
-          <svg className="m" viewBox={`0 0 ${view.width} ${view.height}`} role="img" aria-label={t("preview.map")}>
+          <svg
+            className="m"
+            viewBox={`0 0 ${view.width} ${view.height}`}
+            role="img"
+            aria-label={t("preview.map")}
+          >
             <defs>
               <pattern
                 id="hsw"
@@ -107,7 +125,9 @@ function sceneOf({ plant, vehicle, target, option, leg, picking }: PreviewMapPro
   const swept = option?.swept ?? [];
   const bodies = type ? [type.footprint, ...(isLoaded(vehicle) ? [type.load_footprint] : [])] : [];
   const ghost = end ? bodies.filter((b) => b.length > 2).map((b) => placed(b, end)) : [];
-  const turn = [...segments].reverse().find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
+  const turn = [...segments]
+    .reverse()
+    .find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
   const hall = vehicle?.hall ?? station?.hall ?? plant.halls[0]?.id;
   const outline = plant.halls.find((h) => h.id === hall)?.outline ?? [];
   const own = vehicle?.pose && type ? [placed(type.footprint, vehicle.pose)] : [];
@@ -261,7 +281,10 @@ function DimensionLine({ dim }: { dim: Dimension }) {
   const head = (p: Point, turn: number) => `translate(${p.x_m} ${p.y_m}) rotate(${angle + turn})`;
   return (
     <>
-      <path className="dim" d={linePath(dim.extensions[0]) + linePath(dim.extensions[1]) + linePath([dim.from, dim.to])} />
+      <path
+        className="dim"
+        d={linePath(dim.extensions[0]) + linePath(dim.extensions[1]) + linePath([dim.from, dim.to])}
+      />
       <path className="dimh" transform={head(dim.from, 0)} d="M0 0l.6 .2v-.4z" />
       <path className="dimh" transform={head(dim.to, 180)} d="M0 0l.6 .2v-.4z" />
     </>
@@ -282,21 +305,32 @@ function Labels(props: PreviewMapProps & { scene: Scene; view: View; near: boole
         .filter((s) => s.hall === scene.hall && inView(view, s.pose))
         .map((s) => {
           const state = stateOf(s.id);
-          const look = s.number === target ? "goal" : state?.occupied_by ? "occ" : state?.reserved_by ? "res" : "";
+          const look =
+            s.number === target ? "goal" : state?.occupied_by ? "occ" : state?.reserved_by ? "res" : "";
           return (
-            <span key={s.id} className={`tag ${near ? "big" : "sm"} ${look}`} style={at(near ? plate(s.pose, view) : s.pose)}>
+            <span
+              key={s.id}
+              className={`tag ${near ? "big" : "sm"} ${look}`}
+              style={at(near ? plate(s.pose, view) : s.pose)}
+            >
               {s.number}
             </span>
           );
         })}
       {vehicles
-        .filter((v) => v.pose && v.hall === scene.hall && inView(view, v.pose) && (near || v.id === vehicle?.id))
+        .filter(
+          (v) => v.pose && v.hall === scene.hall && inView(view, v.pose) && (near || v.id === vehicle?.id),
+        )
         .map((v) => {
           const own = v.id === vehicle?.id;
           if (!v.pose) return null;
           const below = { x_m: v.pose.x_m, y_m: v.pose.y_m - Math.max(2.6, view.height * 0.06) };
           return (
-            <span key={v.id} className={`vt ${own ? "sel" : v.link === "live" ? "" : "stl"}`} style={at(below)}>
+            <span
+              key={v.id}
+              className={`vt ${own ? "sel" : v.link === "live" ? "" : "stl"}`}
+              style={at(below)}
+            >
               {v.name} {v.load_name && <em>{v.load_name}</em>}
             </span>
           );

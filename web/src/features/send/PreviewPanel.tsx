@@ -27,7 +27,9 @@ export function Measures(props: {
           <b>{duration(option?.duration_s)}</b>
           <u>min</u>
         </div>
-        <span className="cap">{ready === undefined ? kNone : t("preview.ready_at", { time: timeOfDay(ready) })}</span>
+        <span className="cap">
+          {ready === undefined ? kNone : t("preview.ready_at", { time: timeOfDay(ready) })}
+        </span>
       </div>
       <div className="met">
         <span className="cap">{t("preview.clearance")}</span>

@@ -78,7 +78,8 @@ export function SendPage() {
       }
     : undefined;
   const { preview, retry } = usePreview(question);
-  const data = preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
+  const data =
+    preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
   const step = data?.steps[0];
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
@@ -87,7 +88,11 @@ export function SendPage() {
   const body = useMemo<NewJobOrder | undefined>(
     () =>
       canStart.kind === "ready" && vehicle && station && feasible
-        ? { vehicle: vehicle.id, priority: 0, steps: [{ station: station.number, motion_mode: feasible.mode }] }
+        ? {
+            vehicle: vehicle.id,
+            priority: 0,
+            steps: [{ station: station.number, motion_mode: feasible.mode }],
+          }
         : undefined,
     [canStart.kind, vehicle, station, feasible],
   );
@@ -96,7 +101,9 @@ export function SendPage() {
 
   const orderId = command.kind === "accepted" ? command.orderId : undefined;
   const order = useSentOrder(orderId);
-  const mover = useVehicle(order?.vehicle || (command.kind === "accepted" ? command.vehicle : "") || undefined);
+  const mover = useVehicle(
+    order?.vehicle || (command.kind === "accepted" ? command.vehicle : "") || undefined,
+  );
   const progress = moveProgress(order, mover, stops);
 
   const selectVehicle = useCallback((id: string) => {
@@ -176,7 +183,8 @@ export function SendPage() {
           number={3}
           title={t("mode.title")}
           answer={
-            feasible && t("mode.answer", { mode: words.mode(feasible.mode), time: duration(feasible.duration_s) })
+            feasible &&
+            t("mode.answer", { mode: words.mode(feasible.mode), time: duration(feasible.duration_s) })
           }
           open={current === 3}
           onOpen={() => setOpenStep(3)}

@@ -106,7 +106,15 @@ function ArmButton({ start, ready }: { start: Start; ready: boolean }) {
   );
 }
 
-function GoButton({ start, readiness, why }: { start: Start; readiness: Readiness; why: string | undefined }) {
+function GoButton({
+  start,
+  readiness,
+  why,
+}: {
+  start: Start;
+  readiness: Readiness;
+  why: string | undefined;
+}) {
   const { t } = useTranslation("send");
   const button = useRef<HTMLButtonElement>(null);
   const holding = useRef<ReturnType<typeof setTimeout>>(undefined);

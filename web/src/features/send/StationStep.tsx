@@ -10,7 +10,7 @@ import { padKeyOf, pressKey, stationOf, type PadKey, type StationEntry } from ".
 export function numberRanges(numbers: readonly number[]): string {
   const sorted = [...new Set(numbers)].sort((a, b) => a - b);
   const parts: string[] = [];
-  for (let i = 0; i < sorted.length; ) {
+  for (let i = 0; i < sorted.length;) {
     let end = i;
     while (end + 1 < sorted.length && sorted[end + 1] === (sorted[end] ?? 0) + 1) ++end;
     parts.push(end > i ? `${sorted[i]}\u2013${sorted[end]}` : `${sorted[i]}`);

@@ -19,7 +19,10 @@ export interface StepProps {
 export function Step({ number, title, answer, right, open, onOpen, onNext, className, children }: StepProps) {
   const { t } = useTranslation("send");
   return (
-    <section className={`card step s${number} ${open ? "open" : "folded"} ${className ?? ""}`} aria-label={title}>
+    <section
+      className={`card step s${number} ${open ? "open" : "folded"} ${className ?? ""}`}
+      aria-label={title}
+    >
       <header className="stp">
         <i aria-hidden="true">{number}</i>
         <h2>{title}</h2>

@@ -72,7 +72,12 @@ export function VehicleStep({ vehicles, selected, choosing, onChoose, onSelect }
   return (
     <div className="vlist" role="listbox" aria-label={t("vehicle.list")} tabIndex={-1}>
       {vehicles.map((vehicle) => (
-        <VehicleRow key={vehicle.id} vehicle={vehicle} selected={vehicle.id === selected?.id} onSelect={onSelect} />
+        <VehicleRow
+          key={vehicle.id}
+          vehicle={vehicle}
+          selected={vehicle.id === selected?.id}
+          onSelect={onSelect}
+        />
       ))}
     </div>
   );

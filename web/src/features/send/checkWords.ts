@@ -29,7 +29,8 @@ export function checkWords(
 ): string {
   const params = wordParams(check, reasonOf);
   const total = params.total_n;
-  const isEmpty = check.code === "load" && check.result === "pass" && typeof total === "number" && total < 1000;
+  const isEmpty =
+    check.code === "load" && check.result === "pass" && typeof total === "number" && total < 1000;
   const key = isEmpty ? "checks.pass.load_empty" : `checks.${check.result}.${check.code}`;
   return say(key, params, names, template) ?? listParams(check.params, names, template("words.join") ?? ", ");
 }

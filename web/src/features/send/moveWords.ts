@@ -37,7 +37,8 @@ export function segmentWords(s: Segment, say: Say): string {
 function straightKey(s: Segment): string {
   const direction = s.direction_rad ?? 0;
   const sideways = Math.abs(Math.sin(direction)) > Math.SQRT1_2;
-  if (sideways) return Math.sin(direction) * Math.sign(s.length_m || 1) > 0 ? "sideways_left" : "sideways_right";
+  if (sideways)
+    return Math.sin(direction) * Math.sign(s.length_m || 1) > 0 ? "sideways_left" : "sideways_right";
   const ahead = Math.cos(direction) * Math.sign(s.length_m || 1) > 0;
   return ahead ? "drive" : "back";
 }

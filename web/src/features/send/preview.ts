@@ -58,7 +58,12 @@ export function worst(checks: readonly Check[]): Check["result"] | undefined {
   );
 }
 
-export function countChecks(checks: readonly Check[]): { pass: number; note: number; fail: number; total: number } {
+export function countChecks(checks: readonly Check[]): {
+  pass: number;
+  note: number;
+  fail: number;
+  total: number;
+} {
   const of = (r: Check["result"]) => checks.filter((c) => c.result === r).length;
   // A note does not hold the move: it counts as passed.
   return { pass: of("pass") + of("note"), note: of("note"), fail: of("fail"), total: checks.length };

@@ -23,7 +23,12 @@ export function boundsOf(rings: readonly Ring[]): { min: Point; max: Point } | u
 }
 
 /** The smallest window of the given shape that shows all rings with a margin round them. */
-export function viewOf(rings: readonly Ring[], aspect: number, margin = 0.12, least_m = 12): View | undefined {
+export function viewOf(
+  rings: readonly Ring[],
+  aspect: number,
+  margin = 0.12,
+  least_m = 12,
+): View | undefined {
   const box = boundsOf(rings);
   if (!box || !(aspect > 0)) return undefined;
   let width = Math.max(least_m, box.max.x_m - box.min.x_m) * (1 + 2 * margin);

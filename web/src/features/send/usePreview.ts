@@ -16,7 +16,8 @@ function isAbout(data: DryRun | undefined, question: PreviewQuestion): boolean {
 }
 
 function failure(error: unknown): Preview {
-  const problem = error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
+  const problem =
+    error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
   return { kind: "failed", problem };
 }
 
@@ -25,7 +26,10 @@ function failure(error: unknown): Preview {
  * time are one question; an answer that is not to the newest question is dropped.
  */
 export function usePreview(question: PreviewQuestion | undefined): { preview: Preview; retry: () => void } {
-  const [answer, setAnswer] = useState<{ key: string; preview: Preview }>({ key: "", preview: { kind: "none" } });
+  const [answer, setAnswer] = useState<{ key: string; preview: Preview }>({
+    key: "",
+    preview: { kind: "none" },
+  });
   const [tries, setTries] = useState(0);
   const [newest] = useState(() => new NewestOnly());
   const latest = useRef(question);
@@ -49,7 +53,11 @@ export function usePreview(question: PreviewQuestion | undefined): { preview: Pr
       const asked = latest.current;
       if (asked === undefined) return;
       const turn = newest.next();
-      const body = { vehicle: asked.vehicle, priority: 0, steps: [{ station: asked.station, motion_mode: asked.mode }] };
+      const body = {
+        vehicle: asked.vehicle,
+        priority: 0,
+        steps: [{ station: asked.station, motion_mode: asked.mode }],
+      };
       call(api.POST("/api/v1/job-orders", { params: { query: { dryRun: true } }, body }))
         .then((data): Preview => ({ kind: "ready", data: data as DryRun }), failure)
         .then((preview) => {
@@ -70,7 +78,8 @@ export function shownPreview(
   answerKey: string,
 ): Preview {
   if (question === undefined) return { kind: "none" };
-  if (answer.kind === "failed") return answerKey === question.key ? answer : { kind: "loading", last: undefined };
+  if (answer.kind === "failed")
+    return answerKey === question.key ? answer : { kind: "loading", last: undefined };
   const data = answer.kind === "ready" ? answer.data : undefined;
   if (data === undefined || !isAbout(data, question)) return { kind: "loading", last: undefined };
   return answerKey === question.key ? { kind: "ready", data } : { kind: "loading", last: data };

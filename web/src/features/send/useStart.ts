@@ -36,7 +36,10 @@ export function useStart(body: NewJobOrder | undefined): Start {
 
   useEffect(() => dispatch({ kind: "tick", nowMs }), [nowMs]);
   useEffect(() => {
-    dispatch({ kind: "subject", body: bodyText === undefined ? undefined : (JSON.parse(bodyText) as NewJobOrder) });
+    dispatch({
+      kind: "subject",
+      body: bodyText === undefined ? undefined : (JSON.parse(bodyText) as NewJobOrder),
+    });
   }, [bodyText]);
 
   const sentTry = command.kind === "requested" ? `${command.key}#${command.tries}` : undefined;
@@ -48,7 +51,10 @@ export function useStart(body: NewJobOrder | undefined): Start {
     const sent = requested.current;
     if (sentTry === undefined || sent === undefined) return;
     call(
-      api.POST("/api/v1/job-orders", { params: { header: { "Idempotency-Key": sent.key } }, body: sent.body }),
+      api.POST("/api/v1/job-orders", {
+        params: { header: { "Idempotency-Key": sent.key } },
+        body: sent.body,
+      }),
     ).then(
       (data) => {
         const order = data as JobOrder;
@@ -57,7 +63,8 @@ export function useStart(body: NewJobOrder | undefined): Start {
         navigate(`/send?order=${order.id}`, { replace: true });
       },
       (error: unknown) => {
-        const problem = error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
+        const problem =
+          error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
         // Without an answer nobody knows whether it is stored: only asking again with the same key tells.
         if (problem.status === 0) {
           dispatch({ kind: "unanswered", why: problem.code === "no_answer" ? "timeout" : "network" });

@@ -1,7 +1,15 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
-import { useLive, useMayCommand, usePlant, useStations, useStopRecords, useVehicle, useServerNow } from "@/shared/live";
+import {
+  useLive,
+  useMayCommand,
+  usePlant,
+  useStations,
+  useStopRecords,
+  useVehicle,
+  useServerNow,
+} from "@/shared/live";
 import type { LiveStation } from "@/shared/live/hooks";
 import { Link } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
@@ -49,7 +57,12 @@ export function StationsPage() {
                 {t("filter_all")} {stations.length}
               </button>
               {looks.map((look) => (
-                <button key={look} type="button" aria-pressed={filter === look} onClick={() => setFilter(look)}>
+                <button
+                  key={look}
+                  type="button"
+                  aria-pressed={filter === look}
+                  onClick={() => setFilter(look)}
+                >
                   {t(`state.${look}`)} {count(look)}
                 </button>
               ))}
@@ -138,8 +151,8 @@ function Last({ stop, time }: { stop: StopRecord; time: string }) {
       <div className="row">
         <StatusSymbol name={stop.inside ? "c-ok" : "a-2"} size={16} />
         <b>
-          {millimetres(stop.dx_m, { decimals: 1, sign: true })}, {millimetres(stop.dy_m, { decimals: 1, sign: true })}{" "}
-          mm
+          {millimetres(stop.dx_m, { decimals: 1, sign: true })},{" "}
+          {millimetres(stop.dy_m, { decimals: 1, sign: true })} mm
         </b>
         <b>{degrees(stop.dheading_rad, { sign: true })}°</b>
       </div>

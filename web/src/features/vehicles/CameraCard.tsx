@@ -8,7 +8,12 @@ export type Camera = Vehicle["cameras"][number];
 type CameraType = VehicleType["cameras"][number];
 
 /** One camera: newest picture, the code found, how far it is off the camera's axis. */
-export function CameraCard({ vehicle, camera, type, now }: {
+export function CameraCard({
+  vehicle,
+  camera,
+  type,
+  now,
+}: {
   vehicle: Vehicle;
   camera: Camera;
   type: CameraType | undefined;
@@ -37,11 +42,18 @@ export function CameraCard({ vehicle, camera, type, now }: {
 }
 
 function whyNot(why: string, t: (key: string, options?: Record<string, unknown>) => string): string {
-  return why === "" ? t("camera.not_found") : t(`camera.why_not.${why}`, { defaultValue: why.replaceAll("_", " ") });
+  return why === ""
+    ? t("camera.not_found")
+    : t(`camera.why_not.${why}`, { defaultValue: why.replaceAll("_", " ") });
 }
 
 /** The picture changes when the server says that there is a newer one: nothing polls. */
-function Picture({ vehicle, camera, type, title }: {
+function Picture({
+  vehicle,
+  camera,
+  type,
+  title,
+}: {
   vehicle: string;
   camera: Camera;
   type: CameraType | undefined;
@@ -135,12 +147,27 @@ function Readings({ camera }: { camera: Camera }) {
         value={left === undefined ? kNone : millimetres(Math.abs(left), { decimals: 2 })}
         unit="mm"
       />
-      <Reading caption={t("camera.residual")} value={seen ? fixed(camera.rms_px, 2) : kNone} unit="px" small />
+      <Reading
+        caption={t("camera.residual")}
+        value={seen ? fixed(camera.rms_px, 2) : kNone}
+        unit="px"
+        small
+      />
     </div>
   );
 }
 
-function Reading({ caption, value, unit, small }: { caption: string; value: string; unit: string; small?: boolean }) {
+function Reading({
+  caption,
+  value,
+  unit,
+  small,
+}: {
+  caption: string;
+  value: string;
+  unit: string;
+  small?: boolean;
+}) {
   return (
     <div>
       <span className="cap">{caption}</span>

@@ -9,7 +9,11 @@ import { progressOf } from "./commandProgress";
 import { emptyDraft, readDraft, type InitDraft } from "./initPosition";
 
 /** A person says where a vehicle stands that lost its position. Nothing moves by it. */
-export function InitPositionCard({ vehicle, plant, refused }: {
+export function InitPositionCard({
+  vehicle,
+  plant,
+  refused,
+}: {
   vehicle: Vehicle;
   plant: Plant | undefined;
   /** Why commands are off. */
@@ -25,7 +29,12 @@ export function InitPositionCard({ vehicle, plant, refused }: {
       () =>
         pose === undefined
           ? Promise.resolve()
-          : call(api.POST("/api/v1/vehicles/{id}/init-position", { params: { path: { id: vehicle.id } }, body: pose })),
+          : call(
+              api.POST("/api/v1/vehicles/{id}/init-position", {
+                params: { path: { id: vehicle.id } },
+                body: pose,
+              }),
+            ),
       [vehicle.id, pose],
     ),
   );
@@ -47,7 +56,11 @@ export function InitPositionCard({ vehicle, plant, refused }: {
           <>
             <Field label={t("init.x")} value={draft.x_mm} onChange={(x_mm) => set({ x_mm })} />
             <Field label={t("init.y")} value={draft.y_mm} onChange={(y_mm) => set({ y_mm })} />
-            <Field label={t("init.heading")} value={draft.heading_deg} onChange={(heading_deg) => set({ heading_deg })} />
+            <Field
+              label={t("init.heading")}
+              value={draft.heading_deg}
+              onChange={(heading_deg) => set({ heading_deg })}
+            />
           </>
         )}
         <CommandButton
@@ -60,7 +73,10 @@ export function InitPositionCard({ vehicle, plant, refused }: {
       </div>
       {asked.kind === "failed" && (
         <p className="lab" role="alert">
-          {t("failed", { detail: words.problem(asked.problem), request: asked.problem.requestId.slice(0, 8) })}
+          {t("failed", {
+            detail: words.problem(asked.problem),
+            request: asked.problem.requestId.slice(0, 8),
+          })}
         </p>
       )}
     </Card>
@@ -82,11 +98,24 @@ export function InitPositionCard({ vehicle, plant, refused }: {
   }
 }
 
-function Field({ label, value, onChange }: { label: string; value: string; onChange: (value: string) => void }) {
+function Field({
+  label,
+  value,
+  onChange,
+}: {
+  label: string;
+  value: string;
+  onChange: (value: string) => void;
+}) {
   return (
     <label className="field">
       <span className="cap">{label}</span>
-      <input type="text" inputMode="decimal" value={value} onChange={(event) => onChange(event.target.value)} />
+      <input
+        type="text"
+        inputMode="decimal"
+        value={value}
+        onChange={(event) => onChange(event.target.value)}
+      />
     </label>
   );
 }

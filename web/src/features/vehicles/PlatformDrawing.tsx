@@ -194,7 +194,15 @@ function Sensor({ name, sensor }: { name: string; sensor: SensorShare }) {
   );
 }
 
-function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: VehicleType | undefined; sheet: Sheet }) {
+function WheelLabels({
+  vehicle,
+  type,
+  sheet,
+}: {
+  vehicle: Vehicle;
+  type: VehicleType | undefined;
+  sheet: Sheet;
+}) {
   const { t } = useTranslation("vehicles");
   const row = sheet.height * 0.049;
   return (
@@ -207,7 +215,10 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
         const middle = Math.abs(y) < sheet.halfWidth * 0.3;
         const place = middle
           ? onSheet(sheet, { x_m: x - Math.sign(x) * 0.34, y_m: y })
-          : onSheet(sheet, { x_m: Math.sign(x) * sheet.halfLength * 1.143, y_m: Math.sign(y) * sheet.height * 0.246 });
+          : onSheet(sheet, {
+              x_m: Math.sign(x) * sheet.halfLength * 1.143,
+              y_m: Math.sign(y) * sheet.height * 0.246,
+            });
         const below = onSheet(sheet, {
           x_m: Math.sign(x) * sheet.halfLength * 1.143,
           y_m: Math.sign(y) * sheet.height * 0.246 - (y >= 0 ? 2 : 2.2) * row,
@@ -227,7 +238,8 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
             {state !== "ok" && (
               <span
                 className={`wl ${state === "warm" ? "adv2" : "bad2"} ${middle ? (x < 0 ? "from" : "to") : ""}`}
-                style={middle ? { ...place, marginTop: 22 } : below}>
+                style={middle ? { ...place, marginTop: 22 } : below}
+              >
                 {state === "warm" ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) }) : w.fault}
               </span>
             )}
@@ -250,7 +262,15 @@ function WheelLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: Vehicle
   );
 }
 
-function LoadLabels({ vehicle, type, sheet }: { vehicle: Vehicle; type: VehicleType | undefined; sheet: Sheet }) {
+function LoadLabels({
+  vehicle,
+  type,
+  sheet,
+}: {
+  vehicle: Vehicle;
+  type: VehicleType | undefined;
+  sheet: Sheet;
+}) {
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle.brackets, type);
   const centre = centreOfLoad(vehicle.brackets, type);

@@ -18,8 +18,18 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
       right={ageS === "never" ? undefined : age(ageS)}
     >
       <div className="pvs">
-        <Value caption={t("pose.x")} value={pose && millimetres(pose.x_m, { decimals: 2 })} unit="mm" {...shared} />
-        <Value caption={t("pose.y")} value={pose && millimetres(pose.y_m, { decimals: 2 })} unit="mm" {...shared} />
+        <Value
+          caption={t("pose.x")}
+          value={pose && millimetres(pose.x_m, { decimals: 2 })}
+          unit="mm"
+          {...shared}
+        />
+        <Value
+          caption={t("pose.y")}
+          value={pose && millimetres(pose.y_m, { decimals: 2 })}
+          unit="mm"
+          {...shared}
+        />
         <Value
           caption={t("pose.heading")}
           value={pose && `${heading(pose.heading_rad, { sign: true })}°`}

@@ -9,7 +9,11 @@ import { useWords } from "@/shared/words/useWords";
 import { progressOf } from "./commandProgress";
 
 /** Pause or resume, withdraw, send. What is shown as done was reported, never assumed. */
-export function VehicleCommands({ vehicle, order, refused }: {
+export function VehicleCommands({
+  vehicle,
+  order,
+  refused,
+}: {
   vehicle: Vehicle;
   order: JobOrder | undefined;
   refused: string | undefined;
@@ -23,7 +27,10 @@ export function VehicleCommands({ vehicle, order, refused }: {
     ),
   );
   const resume = useCommand(
-    useCallback(() => call(api.POST("/api/v1/fleet/resume", { body: { vehicles: [vehicle.id] } })), [vehicle.id]),
+    useCallback(
+      () => call(api.POST("/api/v1/fleet/resume", { body: { vehicles: [vehicle.id] } })),
+      [vehicle.id],
+    ),
   );
   const orderId = order?.id;
   const withdraw = useCommand(
@@ -44,7 +51,10 @@ export function VehicleCommands({ vehicle, order, refused }: {
     <>
       {failed?.kind === "failed" && (
         <p className="lab failedline" role="alert">
-          {t("failed", { detail: words.problem(failed.problem), request: failed.problem.requestId.slice(0, 8) })}
+          {t("failed", {
+            detail: words.problem(failed.problem),
+            request: failed.problem.requestId.slice(0, 8),
+          })}
         </p>
       )}
       {held ? (
@@ -72,7 +82,9 @@ export function VehicleCommands({ vehicle, order, refused }: {
         label={t("command.withdraw")}
         primary={false}
         progress={
-          order?.cancel_requested ? { kind: "accepted", waitingFor: vehicle.name } : progressOf(withdraw.asked, vehicle.name)
+          order?.cancel_requested
+            ? { kind: "accepted", waitingFor: vehicle.name }
+            : progressOf(withdraw.asked, vehicle.name)
         }
         disabledReason={refused ?? (orderId === undefined ? t("command.no_order") : undefined)}
         onRun={withdraw.run}

@@ -72,9 +72,16 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
           {silent ? t(`words:link.${v.link}`) : t(`words:activity.${v.activity}`)}
         </span>
       </td>
-      <td>{v.at_station ? t("list.at", { number: words.stationNumber(v.at_station) }) : t("list.between")}</td>
+      <td>
+        {v.at_station ? t("list.at", { number: words.stationNumber(v.at_station) }) : t("list.between")}
+      </td>
       <td className="wrap">{answer(v)}</td>
-      <td>{v.link === "never" ? "\u2013" : [v.load_name, v.load_kg > 0 ? mass(v.load_kg) : ""].filter(Boolean).join(", ") || t("chip.no_load")}</td>
+      <td>
+        {v.link === "never"
+          ? "\u2013"
+          : [v.load_name, v.load_kg > 0 ? mass(v.load_kg) : ""].filter(Boolean).join(", ") ||
+            t("chip.no_load")}
+      </td>
       <td className="n">{v.link === "never" ? "\u2013" : `${fixed(v.battery_percent, 0)} %`}</td>
       <td className="n">{heard_s === undefined ? t("list.never") : age(heard_s)}</td>
     </tr>

@@ -149,7 +149,15 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   );
 }
 
-function LoadsCard({ vehicle, stale, heard_s }: { vehicle: Vehicle; stale: boolean; heard_s: number | undefined }) {
+function LoadsCard({
+  vehicle,
+  stale,
+  heard_s,
+}: {
+  vehicle: Vehicle;
+  stale: boolean;
+  heard_s: number | undefined;
+}) {
   const { t } = useTranslation("vehicles");
   const type = usePlant().data?.vehicle_types.find((v) => v.id === vehicle.type);
   const summary = summarise(vehicle.brackets, type);
@@ -167,7 +175,13 @@ function LoadsCard({ vehicle, stale, heard_s }: { vehicle: Vehicle; stale: boole
     parts.push(t(feetDown(vehicle.parking_feet) ? "loads.feet_lowered" : "loads.feet_raised"));
   }
   return (
-    <Card className="pcard" title={t("loads.title")} summary={parts.join(t("join"))} right={age(heard_s)} flush>
+    <Card
+      className="pcard"
+      title={t("loads.title")}
+      summary={parts.join(t("join"))}
+      right={age(heard_s)}
+      flush
+    >
       <PlatformDrawing vehicle={vehicle} type={type} stale={stale} />
     </Card>
   );
@@ -191,15 +205,23 @@ function Chips({ vehicle }: { vehicle: Vehicle }) {
       {vehicle.link !== "never" && (
         <>
           <span className="gt-sm">
-            <Chip>{t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}</Chip>
+            <Chip>
+              {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
+            </Chip>
           </span>
-          <Chip>{loaded ? [vehicle.load_name, mass(vehicle.load_kg)].filter(Boolean).join(", ") : t("chip.no_load")}</Chip>
+          <Chip>
+            {loaded
+              ? [vehicle.load_name, mass(vehicle.load_kg)].filter(Boolean).join(", ")
+              : t("chip.no_load")}
+          </Chip>
           <span className="gt-sm">
             <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
           </span>
           <span className={stopped || vehicle.field_violation ? "" : "gt-sm"}>
             <Chip symbol={stopped || vehicle.field_violation ? "a-2" : "c-ok"}>
-              {stopped ? t("chip.e_stop") : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
+              {stopped
+                ? t("chip.e_stop")
+                : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
             </Chip>
           </span>
         </>

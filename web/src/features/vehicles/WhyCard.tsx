@@ -34,7 +34,12 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   };
 }
 
-export function WhyCard({ vehicle, type, target, heard_s }: {
+export function WhyCard({
+  vehicle,
+  type,
+  target,
+  heard_s,
+}: {
   vehicle: Vehicle;
   type: VehicleType | undefined;
   target: StationState | undefined;
@@ -61,13 +66,22 @@ function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
   const words = useWords();
   const { name, value } = text();
   return (
-    <CheckRow result={row.result} name={name} value={value} ageS={row.kind === "station" ? undefined : ageS} critical={row.kind === "fault"} />
+    <CheckRow
+      result={row.result}
+      name={name}
+      value={value}
+      ageS={row.kind === "station" ? undefined : ageS}
+      critical={row.kind === "fault"}
+    />
   );
 
   function text(): { name: string; value: string } {
     switch (row.kind) {
       case "link":
-        return { name: t("why.link"), value: ageS === undefined ? t("list.never") : t("why.heard", { age: age(ageS) }) };
+        return {
+          name: t("why.link"),
+          value: ageS === undefined ? t("list.never") : t("why.heard", { age: age(ageS) }),
+        };
       case "resume":
         return { name: t("why.resume"), value: t("why.resume_needed") };
       case "order":

@@ -21,7 +21,10 @@ export interface SensorShare {
  * Each sensor is compared with the mean of its end (front or back): a load aft of the middle is
  * normal, a pin that carries more than its neighbours at the same end is not.
  */
-export function summarise(brackets: readonly BracketReading[], type: VehicleType | undefined): LoadSummary | undefined {
+export function summarise(
+  brackets: readonly BracketReading[],
+  type: VehicleType | undefined,
+): LoadSummary | undefined {
   if (brackets.length === 0) return undefined;
   const total = brackets.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0);
   const endOf = (name: string) => {

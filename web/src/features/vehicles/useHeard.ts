@@ -18,7 +18,11 @@ export function newest(
 ): Heard {
   const record_s = secondsSince(vehicle.pose_at, now_ms);
   const heard_s = secondsSince(vehicle.last_heard_at, now_ms);
-  if (stream === undefined || !Number.isFinite(stream.age_s) || (record_s !== undefined && record_s <= stream.age_s)) {
+  if (
+    stream === undefined ||
+    !Number.isFinite(stream.age_s) ||
+    (record_s !== undefined && record_s <= stream.age_s)
+  ) {
     return { pose: vehicle.pose, speed_mps: vehicle.speed_mps, pose_s: record_s, heard_s };
   }
   const { x_m, y_m, heading_rad, speed_mps, age_s } = stream;

@@ -16,11 +16,19 @@ export type WhyRow =
 const rank = { fail: 0, note: 1, pass: 2 } as const;
 
 /** What a person would look at next, worst first. Only what the vehicle or the server reported. */
-export function whyRows(vehicle: Vehicle, type: VehicleType | undefined, target: StationState | undefined): WhyRow[] {
+export function whyRows(
+  vehicle: Vehicle,
+  type: VehicleType | undefined,
+  target: StationState | undefined,
+): WhyRow[] {
   const rows: WhyRow[] = [];
-  rows.push({ kind: "link", result: vehicle.link === "live" ? "pass" : vehicle.link === "late" ? "note" : "fail" });
+  rows.push({
+    kind: "link",
+    result: vehicle.link === "live" ? "pass" : vehicle.link === "late" ? "note" : "fail",
+  });
   if (vehicle.needs_resume) rows.push({ kind: "resume", result: "fail" });
-  for (const error of vehicle.errors) rows.push({ kind: "fault", result: error.fatal ? "fail" : "note", error });
+  for (const error of vehicle.errors)
+    rows.push({ kind: "fault", result: error.fatal ? "fail" : "note", error });
   if (target) {
     const other = (target.occupied_by || target.reserved_by) !== vehicle.id;
     const taken = (target.occupied_by !== "" || target.reserved_by !== "") && other;

@@ -30,7 +30,7 @@ describe("reasonText", () => {
   it("shows an unknown code with all it carries", () => {
     const text = reasonText({ code: "brand_new", params: { gap_m: 0.2 } }, t);
     expect(text).toContain("brand new");
-    expect(text).toContain("200\u00a0mm");
+    expect(text).toContain("0.20\u00a0m");
   });
   it("does not run a value as a template", () => {
     expect(reasonText({ code: "floor_held", params: { vehicle: "{{evil}}" } }, t)).not.toContain("undefined");
@@ -45,7 +45,7 @@ describe("problemText", () => {
 });
 
 it.each([
-  ["clearance_m", 0.31, "310\u00a0mm"],
+  ["clearance_m", 0.31, "0.31\u00a0m"],
   ["length_m", 12.5, "12.50\u00a0m"],
   ["load_kg", 21500, "21.5\u00a0t"],
   ["count", 3, "3"],

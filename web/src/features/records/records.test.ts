@@ -1,0 +1,102 @@
+import { describe, expect, it } from "vitest";
+import type { StopRecord } from "@/shared/api/types";
+import { countedStops, ellipse95, series, upTo, widerThanTolerance } from "./statistics";
+import { headingFactor, niceStep, plotScale } from "./targetScale";
+import { unbroken } from "./Trend";
+import { matches, mergeStops } from "./useStopHistory";
+
+const tolerance = { shape: "box" as const, dx_m: 0.025, dy_m: 0.025, dheading_rad: (0.2 * Math.PI) / 180 };
+const stop = (id: string, at: string, over: Partial<StopRecord> = {}): StopRecord =>
+  ({
+    id,
+    at,
+    dx_m: 0,
+    dy_m: 0,
+    dheading_rad: 0,
+    tolerance,
+    vehicle: "TP-01",
+    number: 7,
+    ...over,
+  }) as StopRecord;
+const all = (n: number) => Array.from({ length: n }, () => true);
+
+describe("ellipse95", () => {
+  it("lies along the spread", () => {
+    const e = ellipse95([
+      { x: -2, y: -2 },
+      { x: 0, y: 0 },
+      { x: 2, y: 2 },
+    ]);
+
+    expect(e?.angle_rad).toBeCloseTo(Math.PI / 4, 12);
+    expect(e?.ry).toBeCloseTo(0, 6);
+    expect(e?.rx).toBeCloseTo(Math.sqrt(5.991 * 8), 6);
+  });
+  it("needs three stops", () =>
+    expect(
+      ellipse95([
+        { x: 0, y: 0 },
+        { x: 1, y: 1 },
+      ]),
+    ).toBeUndefined());
+});
+
+describe("trend", () => {
+  it("leaves a stop that is off scale in one direction out of every row", () => {
+    const stops = [stop("a", "1"), stop("b", "2", { dx_m: 0.0512, dy_m: 0.001 })];
+
+    expect(countedStops(stops)).toEqual([true, false]);
+    expect(series([1, 99], countedStops(stops))).toMatchObject({ largest: 1, meanAbs: 1 });
+  });
+  it("has limits three sigma of the moving range round the mean", () => {
+    const s = series([1, -1, 1, -1, 1, -1, 1, -1], all(8));
+
+    expect(s.upper).toBeCloseTo((3 * 2) / 1.128, 9);
+    expect(s.lower).toBeCloseTo(-s.upper, 9);
+    expect(widerThanTolerance(s, 5)).toBe(true);
+    expect(widerThanTolerance(s, 6)).toBe(false);
+  });
+  it("has no limits from seven stops", () =>
+    expect(series([1, 2, 3, 4, 5, 6, 7], all(7)).hasLimits).toBe(false));
+  it("breaks its line at a stop that does not count", () => {
+    expect(unbroken({ inScale: [true, true, false, true] })).toEqual([[0, 1], [3]]);
+  });
+  it("ends with this stop, later ones left out", () => {
+    const stops = [stop("c", "3"), stop("a", "1"), stop("b", "2")];
+
+    expect(upTo(stops, stop("b", "2"), 30).map((s) => s.id)).toEqual(["a", "b"]);
+    expect(upTo(stops, stop("c", "3"), 2).map((s) => s.id)).toEqual(["b", "c"]);
+  });
+});
+
+describe("target plot", () => {
+  it("gives the tolerance 5/6 of the plot", () =>
+    expect(plotScale(stop("a", "1"))).toEqual({ half: 30, step: 10 }));
+  it("widens for a stop far outside", () =>
+    expect(plotScale(stop("a", "1", { dx_m: 0.05 })).half).toBeCloseTo(60));
+  it("draws the heading a hundred times larger when the wedge allows", () => {
+    expect(headingFactor(stop("a", "1"))).toBe(100);
+    expect(headingFactor(stop("a", "1", { tolerance: { ...tolerance, dheading_rad: 0.02 } }))).toBe(10);
+  });
+  it.each([
+    [10, 10],
+    [9, 5],
+    [0.34, 0.2],
+    [120, 100],
+  ])("a step near %s is %s", (about, step) => expect(niceStep(about)).toBeCloseTo(step, 12));
+});
+
+describe("history", () => {
+  it("has each stop once, newest first", () => {
+    expect(mergeStops([stop("b", "2")], [stop("a", "1"), stop("b", "2")]).map((s) => s.id)).toEqual([
+      "b",
+      "a",
+    ]);
+  });
+  it.each([
+    [{}, true],
+    [{ vehicle: "TP-02" }, false],
+    [{ station: 7 }, true],
+    [{ station: 0 }, false],
+  ])("filter %o", (filter, kept) => expect(matches(stop("a", "1"), filter)).toBe(kept));
+});

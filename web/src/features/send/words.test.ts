@@ -1,0 +1,181 @@
+import { describe, expect, it } from "vitest";
+import type { Check, Plant, Reason, StationState, Vehicle } from "@/shared/api/types";
+import { noNames } from "@/shared/words/words";
+import { checkWords } from "./checkWords";
+import en from "./i18n.en.json";
+import { moveWords, type Segment } from "./moveWords";
+import { dimension, nearestStation, viewOf, wayOf } from "./previewView";
+import { lookUpStation, padKeyOf, pressKey } from "./stationEntry";
+import { numberRanges } from "./StationStep";
+
+const at = (key: string): unknown =>
+  key.split(".").reduce<unknown>((o, k) => (o as Record<string, unknown>)?.[k], en);
+const template = (key: string) => (typeof at(key) === "string" ? (at(key) as string) : undefined);
+const say = (key: string, params: Record<string, unknown>) =>
+  (template(key) ?? key).replace(/\{\{(\w+)\}\}/g, (_, name: string) => String(params[name]));
+const pose = { x_m: 0, y_m: 0, heading_rad: 0 };
+const segment = (over: Partial<Segment>): Segment => ({
+  kind: "straight",
+  start: pose,
+  end: pose,
+  turn_rad: 0,
+  length_m: 0,
+  duration_s: 1,
+  ...over,
+});
+
+describe("moveWords", () => {
+  it("says what the wheels will do", () => {
+    const segments = [
+      segment({ kind: "rotate", turn_rad: -0.0017453 }),
+      segment({ length_m: 10.0028, direction_rad: 0 }),
+      segment({ kind: "rotate", turn_rad: Math.PI / 2 }),
+    ];
+
+    expect(moveWords(segments, say, ", ")).toBe("turn 0.1° right, drive 10.003 m, turn 90.0° left");
+  });
+  it.each([
+    [{ length_m: 2, direction_rad: Math.PI }, "reverse 2.000 m"],
+    [{ length_m: -2, direction_rad: 0 }, "reverse 2.000 m"],
+    [{ length_m: 2, direction_rad: Math.PI / 2 }, "move 2.000 m left"],
+    [{ length_m: 2, direction_rad: -Math.PI / 2 }, "move 2.000 m right"],
+    [{ kind: "arc" as const, turn_rad: Math.PI / 2, length_m: 5 * Math.PI }, "arc 90.0° left, radius 10.0 m"],
+    [
+      { kind: "arc" as const, turn_rad: -Math.PI, length_m: -10 * Math.PI },
+      "arc 180.0° right backwards, radius 10.0 m",
+    ],
+  ])("%o is %s", (over, words) => expect(moveWords([segment(over)], say, ", ")).toBe(words));
+  it("leaves out a turn that nobody can see", () => {
+    expect(moveWords([segment({ kind: "rotate", turn_rad: 1e-5 })], say, ", ")).toBe("");
+  });
+});
+
+describe("checkWords", () => {
+  const words = (check: Partial<Check>) =>
+    checkWords(
+      { code: "load", result: "pass", params: {}, ...check } as Check,
+      noNames,
+      template,
+      (r: Reason) => `why ${r.code}`,
+    );
+  it.each<[Partial<Check>, string]>([
+    [
+      { code: "load", params: { total_n: 215700, unbalance: 0.031 } },
+      "215.7\u00a0kN, brackets within 3.1\u00a0%",
+    ],
+    [{ code: "load", params: { total_n: 12, unbalance: 0 } }, "No load"],
+    [
+      { code: "clearance", params: { clearance_m: 2.25, limit_m: 0.5, nearest: "A-104" } },
+      "2.25\u00a0m to A-104, limit 0.50\u00a0m",
+    ],
+    [
+      { code: "pose", params: { dx_m: -0.0028, dy_m: -0.0002, dheading_rad: 0.00173 } },
+      "−2.8 mm, −0.2 mm, +0.099°",
+    ],
+    [
+      { code: "parking_feet", result: "fail", params: { furthest_m: 0.12, feet: 4 } },
+      "On the floor: 0.12\u00a0m out",
+    ],
+    [{ code: "mode", result: "note", params: { reason: "vehicle_busy" } }, "why vehicle_busy"],
+    [{ code: "codes_in_view", params: { back: "B", found: 1, cameras: 2 } }, "1 of 2 cameras see a code"],
+  ])("%o", (check, text) => expect(words(check).replaceAll("\u2009", "\u00a0")).toBe(text));
+  it("shows what it carries when it has no words for it", () => {
+    expect(words({ code: "battery", result: "pass", params: { charge_percent: 50 } })).toContain("charge 50");
+  });
+});
+
+describe("station number", () => {
+  const station = (number: number, vehicle_types: string[] = []) => ({
+    id: `s${number}`,
+    number,
+    name: `N${number}`,
+    vehicle_types,
+  });
+  const plant = { stations: [station(6), station(7), station(8, ["cart"])] } as unknown as Plant;
+  const vehicle = { id: "TP-01", type: "platform", at_station: "s6" } as Vehicle;
+  const state = (over: Partial<StationState>): StationState[] => [
+    { station: "s7", number: 7, occupied_by: "", reserved_by: "", ready: false, ...over },
+  ];
+  it.each([
+    ["", [], "empty"],
+    ["9", [], "unknown"],
+    ["6", [], "here"],
+    ["7", [], "free"],
+    ["8", [], "wrong_type"],
+    ["7", state({ occupied_by: "TP-02" }), "occupied"],
+    ["7", state({ reserved_by: "TP-02" }), "reserved"],
+    ["7", state({ reserved_by: "TP-01" }), "free"],
+  ])("%s is %s: %s", (digits, states, kind) =>
+    expect(lookUpStation(digits, plant, states, vehicle).kind).toBe(kind),
+  );
+  it("takes at most four digits, no leading zero, and can be put right", () => {
+    expect("12345".split("").reduce((d, k) => pressKey(d, k as "1"), "")).toBe("1234");
+    expect(pressKey("0", "7")).toBe("7");
+    expect(pressKey("12", "delete")).toBe("1");
+    expect(pressKey("12", "clear")).toBe("");
+    expect(padKeyOf("a")).toBeUndefined();
+  });
+  it("names the numbers there are", () =>
+    expect(numberRanges([3, 1, 2, 7, 31, 32])).toBe("1\u20133, 7, 31\u201332"));
+});
+
+describe("preview geometry", () => {
+  it("fits all rings into a window of the given shape", () => {
+    const view = viewOf(
+      [
+        [
+          { x_m: 0, y_m: 0 },
+          { x_m: 100, y_m: 10 },
+        ],
+      ],
+      2,
+      0,
+    );
+
+    expect(view).toMatchObject({ left: 0, width: 100, height: 50, bottom: -20 });
+  });
+  it("follows an arc by chords that end where it ends", () => {
+    const way = wayOf([
+      {
+        kind: "arc",
+        start: { x_m: 10, y_m: 0, heading_rad: 0 },
+        end: { x_m: 0, y_m: 10, heading_rad: 0 },
+        turn_rad: Math.PI / 2,
+        centre: { x_m: 0, y_m: 0 },
+      },
+    ]);
+
+    expect(way.at(-1)).toEqual({ x_m: 0, y_m: 10 });
+    expect(way.every((p) => Math.abs(Math.hypot(p.x_m, p.y_m) - 10) < 1e-9)).toBe(true);
+  });
+  it("puts the dimension outside the swept area, on its nearer side", () => {
+    const swept = [
+      [
+        { x_m: 0, y_m: -3 },
+        { x_m: 10, y_m: -3 },
+        { x_m: 10, y_m: 9 },
+        { x_m: 0, y_m: 9 },
+      ],
+    ];
+
+    expect(
+      dimension(
+        [
+          { x_m: 0, y_m: 0 },
+          { x_m: 10, y_m: 0 },
+        ],
+        swept,
+      )?.from.y_m,
+    ).toBeLessThan(-3);
+  });
+  it("picks the nearest station within reach only", () => {
+    const plant = {
+      stations: [{ hall: "h", number: 4, pose: { x_m: 50, y_m: 25, heading_rad: 0 } }],
+    } as Plant;
+    const view = { left: 0, bottom: 0, width: 100, height: 50 };
+
+    expect(nearestStation(plant, "h", view, { x: 0.52, y: 0.5 }, 0.05)).toBe(4);
+    expect(nearestStation(plant, "h", view, { x: 0.7, y: 0.5 }, 0.05)).toBeUndefined();
+    expect(nearestStation(plant, "other", view, { x: 0.5, y: 0.5 }, 0.05)).toBeUndefined();
+  });
+});

@@ -1,0 +1,157 @@
+import { describe, expect, it } from "vitest";
+import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
+import { footCorner, onSheet, sheetOf } from "./faceplate";
+import { emptyDraft, parseNumber, readDraft } from "./initPosition";
+import { centreOfLoad, summarise } from "./loads";
+import { newest } from "./useHeard";
+import { whyRows } from "./whyRows";
+
+const type = {
+  footprint: [
+    { x_m: -5.25, y_m: -1.25 },
+    { x_m: 5.25, y_m: 1.25 },
+  ],
+  brackets: [
+    { name: "front left", position: { x_m: 3, y_m: 1 } },
+    { name: "front right", position: { x_m: 3, y_m: -1 } },
+    { name: "back left", position: { x_m: -3, y_m: 1 } },
+    { name: "back right", position: { x_m: -3, y_m: -1 } },
+  ],
+} as unknown as VehicleType;
+const forces = (...n: number[]) =>
+  type.brackets.map((b, i) => ({ name: b.name, force_a_n: n[2 * i] ?? 0, force_b_n: n[2 * i + 1] ?? 0 }));
+
+describe("load", () => {
+  it("lies in the middle when all eight sensors carry the same", () => {
+    const at = centreOfLoad(forces(1000, 1000, 1000, 1000, 1000, 1000, 1000, 1000), type);
+
+    expect(at?.x_m).toBeCloseTo(0, 12);
+    expect(at?.y_m).toBeCloseTo(0, 12);
+  });
+  it("moves to where the force is", () => {
+    const at = centreOfLoad(forces(0, 0, 0, 0, 1000, 1000, 0, 0), type);
+
+    expect(at).toEqual({ x_m: -3, y_m: 1 });
+  });
+  it("has no centre without load or with a bracket nobody knows", () => {
+    expect(centreOfLoad(forces(1, 1), type)).toBeUndefined();
+    expect(centreOfLoad([{ name: "x", force_a_n: 5000, force_b_n: 5000 }], type)).toBeUndefined();
+  });
+  it("compares a sensor with its own end, so that a load aft is balanced", () => {
+    const summary = summarise(forces(1000, 1000, 1000, 1000, 3000, 3000, 3000, 3000), type);
+
+    expect(summary).toMatchObject({ total_n: 16000, balanced: true });
+  });
+  it("is not balanced with one sensor 6 % over its mean", () => {
+    const summary = summarise(forces(1060, 980, 980, 980, 1000, 1000, 1000, 1000), type);
+
+    expect(summary?.balanced).toBe(false);
+    expect(summary?.worst).toBeCloseTo(0.06, 12);
+  });
+  it("is unknown without readings", () => expect(summarise([], type)).toBeUndefined());
+});
+
+describe("drawing", () => {
+  it("has forward on the right and left on top", () => {
+    const sheet = sheetOf(type);
+    const front = onSheet(sheet, { x_m: 5, y_m: 1 });
+
+    expect(parseFloat(front.left)).toBeGreaterThan(50);
+    expect(parseFloat(front.top)).toBeLessThan(50);
+  });
+  it.each([
+    ["front left", 3, { x: 1, y: 1 }],
+    ["back_right", 0, { x: -1, y: -1 }],
+    ["FL", 2, { x: 1, y: 1 }],
+    ["BR", 0, { x: -1, y: -1 }],
+    ["P3", 2, { x: -1, y: 1 }],
+  ])("foot %s stands at its corner", (name, index, corner) =>
+    expect(footCorner(name, index)).toEqual(corner),
+  );
+});
+
+describe("initial position", () => {
+  const pose = { x_m: 10, y_m: 20, heading_rad: 1 };
+  const plant = { stations: [{ number: 7, pose }] } as unknown as Plant;
+  it.each([
+    ["84,997.24", 84997.24],
+    ["−12,5", -12.5],
+    ["+3", 3],
+    ["84 997", 84997],
+    ["1,234", 1234],
+    ["", undefined],
+    ["1e3", undefined],
+    ["abc", undefined],
+    ["1.2.3", undefined],
+  ])("reads %s", (text, value) => expect(parseNumber(text)).toBe(value));
+  it.each([
+    [{ station: "7" }, { kind: "pose", pose }],
+    [{ station: "9" }, { kind: "bad_station", number: "9" }],
+    [{ station: "" }, { kind: "empty" }],
+    [{ how: "numbers" as const, x_mm: "1", y_mm: "2", heading_deg: "361" }, { kind: "bad_heading" }],
+    [
+      { how: "numbers" as const, x_mm: "1", y_mm: "b", heading_deg: "0" },
+      { kind: "bad_number", field: "y" },
+    ],
+    [
+      { how: "numbers" as const, x_mm: "1500", y_mm: "-2000", heading_deg: "180" },
+      { kind: "pose", pose: { x_m: 1.5, y_m: -2, heading_rad: Math.PI } },
+    ],
+  ])("%o", (draft, result) => expect(readDraft({ ...emptyDraft, ...draft }, plant)).toEqual(result));
+});
+
+describe("why it stands", () => {
+  const vehicle = {
+    id: "TP-01",
+    link: "live",
+    needs_resume: false,
+    errors: [],
+    brackets: [],
+    wheels: [],
+    parking_feet: [],
+  } as unknown as Vehicle;
+  const wheel = (temperature_c: number, fault = "") => ({
+    name: "FL",
+    steering_rad: 0,
+    speed_mps: 0,
+    temperature_c,
+    fault,
+  });
+  it("puts what holds it on top", () => {
+    const rows = whyRows({ ...vehicle, needs_resume: true, wheels: [wheel(70)] }, type, undefined);
+
+    expect(rows.map((r) => `${r.kind} ${r.result}`)).toEqual(["resume fail", "wheel note", "link pass"]);
+  });
+  it("does not call its own reservation taken", () => {
+    const state = { station: "s", number: 7, occupied_by: "", reserved_by: "TP-01", ready: false };
+
+    expect(whyRows(vehicle, type, state).find((r) => r.kind === "station")?.result).toBe("pass");
+    expect(
+      whyRows(vehicle, type, { ...state, reserved_by: "TP-02" }).find((r) => r.kind === "station")?.result,
+    ).toBe("note");
+  });
+  it("calls silence and a wheel fault what they are", () => {
+    const rows = whyRows({ ...vehicle, link: "lost", wheels: [wheel(30, "encoder")] }, type, undefined);
+
+    expect(rows.map((r) => r.result)).toEqual(["fail", "fail"]);
+  });
+});
+
+describe("newest word", () => {
+  const now = Date.parse("2026-01-01T00:00:10Z");
+  const vehicle = {
+    pose: { x_m: 1, y_m: 1, heading_rad: 0 },
+    pose_at: "2026-01-01T00:00:05Z",
+    last_heard_at: "2026-01-01T00:00:06Z",
+  } as Vehicle;
+  it("is the stream's when that is younger", () => {
+    const heard = newest(vehicle, { x_m: 2, y_m: 2, heading_rad: 0, speed_mps: 0.3, age_s: 0.1 }, now);
+
+    expect(heard).toMatchObject({ pose: { x_m: 2 }, speed_mps: 0.3, pose_s: 0.1, heard_s: 0.1 });
+  });
+  it("is the record's when the stream is silent", () => {
+    const heard = newest(vehicle, { x_m: 2, y_m: 2, heading_rad: 0, speed_mps: 0.3, age_s: 60 }, now);
+
+    expect(heard).toMatchObject({ pose: { x_m: 1 }, pose_s: 5, heard_s: 4 });
+  });
+});
