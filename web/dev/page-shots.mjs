@@ -17,7 +17,8 @@ const browser = await chromium.launch({
 const picture = readFileSync(new URL("../public/favicon.svg", import.meta.url));
 
 async function open({ path, size = [1920, 1080], lang = "en", theme = "light", change, answer }) {
-  const page = await browser.newPage({ viewport: { width: size[0], height: size[1] } });
+  const context = await browser.newContext({ viewport: { width: size[0], height: size[1] } });
+  const page = await context.newPage();
   page.on("pageerror", (error) => console.log("page error:", error.message));
   page.on("console", (m) => m.type() === "error" && console.log("console:", m.text()));
   const model = plant();
@@ -227,6 +228,6 @@ for (const [name, shot] of Object.entries(shots)) {
       .map(({ r, t }) => `${t} ${Math.round(r.width)}x${Math.round(r.height)}`),
   );
   if (little.length > 0) console.log(name, "small targets:", little.length, little.slice(0, 3));
-  await ctx.page.close();
+  await ctx.page.context().close();
 }
 await browser.close();

@@ -130,7 +130,8 @@ function sceneOf({ plant, vehicle, target, option, leg, picking }: PreviewMapPro
     .find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
   const hall = vehicle?.hall ?? station?.hall ?? plant.halls[0]?.id;
   const outline = plant.halls.find((h) => h.id === hall)?.outline ?? [];
-  const own = vehicle?.pose && type ? [placed(type.footprint, vehicle.pose)] : [];
+  const here = vehicle?.pose;
+  const own = here ? bodies.filter((b) => b.length > 2).map((b) => placed(b, here)) : [];
   const way = leg ? leg.path : wayOf(segments);
   const dim = leg ? undefined : dimension(way, swept);
   const about = [...swept, ...ghost, ...own, ...(leg ? [leg.path, ...leg.granted_area] : [])];

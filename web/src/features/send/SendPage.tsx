@@ -217,8 +217,8 @@ export function SendPage() {
         {orderId ? <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} /> : steps}
         <section className="card c3" aria-label={t("preview.title")}>
           <header className="stp">
-            <i aria-hidden="true">5</i>
-            <h2>{t("preview.title")}</h2>
+            {!orderId && <i aria-hidden="true">5</i>}
+            <h2>{t(orderId ? "move.map" : "preview.title")}</h2>
             {!orderId && feasible?.swept_area_m2 !== undefined && (
               <span className="ans r">{t("preview.swept", { area: number(feasible.swept_area_m2) })}</span>
             )}
@@ -250,7 +250,7 @@ export function SendPage() {
             </span>
           </div>
           <Button motion className="go" onPress={start.done}>
-            {t("start.next")}
+            {t(progress.kind === "arrived" || progress.kind === "aborted" ? "start.next" : "move.back")}
           </Button>
         </div>
       ) : (
