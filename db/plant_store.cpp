@@ -60,7 +60,7 @@ void read_grids(soci::session& sql, std::vector<plant::Hall>& halls) {
         auto& occupied = hall.grid.occupied;
         occupied.resize(cells.get_len());
         if (!occupied.empty()) {
-            cells.read_from_start(reinterpret_cast<char*>(occupied.data()), occupied.size());
+            cells.read(0, reinterpret_cast<char*>(occupied.data()), occupied.size());
         }
         if (occupied.size() != static_cast<std::size_t>(hall.grid.width) *
                                    static_cast<std::size_t>(hall.grid.height)) {

@@ -14,6 +14,9 @@ detail::Index::Index(const Plant& plant) {
 }
 
 std::vector<Fault> validate(const Plant& plant) {
+    if (plant.halls.empty()) {
+        return {{"/halls", "no_hall", "The plant has no hall.", "Add one with its outline."}};
+    }
     const detail::Index index(plant);
     detail::Faults shape_faults;
     detail::check_numbers(plant, shape_faults);

@@ -168,9 +168,6 @@ void check_names(const Plant& plant, const Index& index, Faults& faults) {
     if (plant.id.empty()) {
         faults.add("/id", "empty_id", "The plant has no id.", "Give it a short name.");
     }
-    if (plant.halls.empty()) {
-        faults.add("/halls", "no_hall", "The plant has no hall.", "Add one with its outline.");
-    }
     check_ids(plant.halls, "halls", faults);
     check_ids(plant.stations, "stations", faults);
     check_ids(plant.markers, "markers", faults);

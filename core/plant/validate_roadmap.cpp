@@ -47,7 +47,9 @@ std::vector<std::vector<std::size_t>> check_edges(const Plant& plant, const Inde
                        "Correct the name or add it to the plant.");
         }
         if (from == nullptr || to == nullptr) continue;
-        if (plant.nodes[*from].hall != plant.nodes[*to].hall) {
+        const HallId& hall = plant.nodes[*from].hall;
+        const HallId& other = plant.nodes[*to].hall;
+        if (hall != other && index.halls.count(hall) != 0 && index.halls.count(other) != 0) {
             faults.add(at("roadmap/edges", i), "other_hall", "The edge joins nodes of two halls.",
                        "Join nodes of one hall.");
             continue;

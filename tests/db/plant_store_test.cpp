@@ -1,0 +1,89 @@
+#include "db/plant_store.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "api/plant/plant_codec.hpp"
+#include "api/plant/plant_file.hpp"
+#include "tests/db/temp_folder.hpp"
+
+namespace pulseline::db {
+namespace {
+
+plant::Plant demo(const std::string& name) {
+    return plant::load_plant_file(std::string(PULSELINE_PLANTS) + "/" + name + ".json").value();
+}
+
+void expect_same(const plant::Plant& a, const plant::Plant& b) {
+    EXPECT_EQ(plant::plant_to_json(a), plant::plant_to_json(b));
+    ASSERT_EQ(a.halls.size(), b.halls.size());
+    for (std::size_t i = 0; i < a.halls.size(); ++i) {
+        EXPECT_EQ(a.halls[i].grid.width, b.halls[i].grid.width);
+        EXPECT_EQ(a.halls[i].grid.height, b.halls[i].grid.height);
+        EXPECT_EQ(a.halls[i].grid.resolution_m, b.halls[i].grid.resolution_m);
+        EXPECT_EQ(a.halls[i].grid.origin, b.halls[i].grid.origin);
+        EXPECT_TRUE(a.halls[i].grid.occupied == b.halls[i].grid.occupied);
+    }
+}
+
+TEST(PlantStore, EmptyDatabaseHoldsNoPlant) {
+    Database database(":memory:");
+
+    EXPECT_EQ(PlantStore(database).load(), std::nullopt);
+}
+
+class DemoPlantStored : public testing::TestWithParam<const char*> {};
+
+TEST_P(DemoPlantStored, ComesBackExactlyFromTheFile) {
+    const TempFolder folder;
+    const plant::Plant plant = demo(GetParam());
+    {
+        Database database(folder.file("fleet.db"));
+        EXPECT_EQ(PlantStore(database).import(plant), 1);
+    }
+    Database database(folder.file("fleet.db"));
+    ReadOnly reader(folder.file("fleet.db"));
+
+    expect_same(PlantStore(database).load().value(), plant);
+    expect_same(load_plant(reader).value(), plant);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlantStored,
+                         testing::Values("pulse-line", "measuring-hall", "landmark-lab",
+                                         "igps-cell", "final-assembly"),
+                         [](const auto& shipped) {
+                             std::string name = shipped.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(PlantStore, ImportReplacesAllAndRaisesTheRevision) {
+    Database database(":memory:");
+    PlantStore store(database);
+    store.import(demo("final-assembly"));
+    EXPECT_EQ(store.import(demo("pulse-line")), 2);
+    plant::Plant expected = demo("pulse-line");
+    expected.revision = 2;
+
+    expect_same(store.load().value(), expected);
+}
+
+TEST(PlantStore, RefusedPlantLeavesTheStoredOne) {
+    Database database(":memory:");
+    PlantStore store(database);
+    const plant::Plant plant = demo("pulse-line");
+    store.import(plant);
+    plant::Plant dangling = plant;
+    dangling.vehicles[0].home = plant::StationId("nowhere");
+    plant::Plant nan = plant;
+    nan.markers[3].pose.x_m = std::numeric_limits<double>::quiet_NaN();
+
+    EXPECT_THROW(store.import(dangling), Error);
+    EXPECT_THROW(store.import(nan), Error);
+    expect_same(store.load().value(), plant);
+}
+
+}  // namespace
+}  // namespace pulseline::db
