@@ -1,4 +1,5 @@
 import { number } from "@/shared/words/format";
+import { limitDecimals } from "./trendScale";
 
 /** A deviation on its tolerance band: the band takes 5/6 of the width, so that outside can be seen. */
 export function DeviationBar({
@@ -7,7 +8,6 @@ export function DeviationBar({
   limit,
   text,
   unit,
-  decimals,
 }: {
   name: string;
   /** In the unit of `limit`. */
@@ -15,10 +15,9 @@ export function DeviationBar({
   limit: number;
   text: string;
   unit?: string;
-  decimals: number;
 }) {
   const x = 50 + Math.max(-1.18, Math.min(1.18, value / limit)) * 41.67;
-  const end = number(limit, { decimals });
+  const end = number(limit, { decimals: limitDecimals(limit) });
   return (
     <div className="dv">
       <div className="dl">{name}</div>

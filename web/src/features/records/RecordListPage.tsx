@@ -18,6 +18,7 @@ export function RecordListPage() {
   const wanted = query.get("station");
   const station = wanted && /^\d+$/.test(wanted) ? Number(wanted) : undefined;
   const { stops, pages } = useStopHistory({ vehicle, station });
+  const filtered = vehicle !== undefined || station !== undefined;
   const outside = stops.filter((s) => !s.inside).length;
 
   const filter = (name: "vehicle" | "station", value: string) => {
@@ -66,7 +67,10 @@ export function RecordListPage() {
       ) : stops.length === 0 && pages.isError ? (
         <PanelFailed what={t("failed")} error={pages.error} onRetry={() => void pages.refetch()} />
       ) : stops.length === 0 ? (
-        <PanelEmpty what={t("empty")} when={t("empty_hint")} />
+        <PanelEmpty
+          what={t(filtered ? "none_fits" : "empty")}
+          when={t(filtered ? "none_fits_hint" : "empty_hint")}
+        />
       ) : (
         <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
           <table className="rows">
@@ -112,7 +116,14 @@ export function RecordListPage() {
               ))}
             </tbody>
           </table>
-          {pages.hasNextPage && (
+          {pages.isError && (
+            <PanelFailed
+              what={t("failed")}
+              error={pages.error}
+              onRetry={() => void (pages.isFetchNextPageError ? pages.fetchNextPage() : pages.refetch())}
+            />
+          )}
+          {pages.hasNextPage && !pages.isError && (
             <Button disabled={pages.isFetchingNextPage} onPress={() => void pages.fetchNextPage()}>
               {pages.isFetchingNextPage ? t("loading") : t("older")}
             </Button>

@@ -10,10 +10,11 @@ import { dateTime, degrees, mass, millimetres, number } from "@/shared/words/for
 import { useWords } from "@/shared/words/useWords";
 import { DeviationBar } from "./Bars";
 import { RunTable } from "./RunTable";
-import { countedStops, series, upTo, widerThanTolerance } from "./statistics";
+import { countedStops, series, widerThanTolerance } from "./statistics";
 import { TargetPlot } from "./TargetPlot";
 import { TrendRow } from "./Trend";
-import { useRun, useStop, useStopHistory } from "./useStopHistory";
+import { limitDecimals } from "./trendScale";
+import { useRun, useStop, useStopsUpTo } from "./useStopHistory";
 
 const kTrend = 30;
 
@@ -49,9 +50,8 @@ function Record({ stop }: { stop: StopRecord }) {
   const now = useServerNow(60_000);
   const [tab, setTab] = useState("stop");
   const plant = usePlant().data;
-  const { stops } = useStopHistory({ vehicle: stop.vehicle });
   const run = useRun(stop);
-  const last = upTo(stops, stop, kTrend);
+  const last = useStopsUpTo(stop, kTrend);
   const load = plant?.vehicles.find((v) => v.id === stop.vehicle)?.load_name ?? "";
   const said = {
     vehicle: words.vehicle(stop.vehicle),
@@ -108,6 +108,7 @@ function Record({ stop }: { stop: StopRecord }) {
               {t("how", { mode: words.mode(stop.mode), attempt: stop.attempt })}
             </span>
           </span>
+          <div className="lab lt-sm">{t("how", { mode: words.mode(stop.mode), attempt: stop.attempt })}</div>
         </div>
         <Link
           className="btn motion"
@@ -166,18 +167,18 @@ function Verdict({ inside }: { inside: boolean }) {
 
 function ThisStop({ stop }: { stop: StopRecord }) {
   const { t } = useTranslation(["records", "words"]);
-  const words = useWords();
   const { tolerance: tol } = stop;
   const deg = (rad: number) => (rad * 180) / Math.PI;
+  const limitText = (limit: number) => number(limit, { decimals: limitDecimals(limit) });
   const same = tol.dx_m === tol.dy_m;
   return (
     <Card
       className="devs"
       title={t("this")}
       right={t(same ? "tolerance" : "tolerance_xy", {
-        x: millimetres(tol.dx_m),
-        y: millimetres(tol.dy_m),
-        deg: degrees(tol.dheading_rad, { decimals: 1 }),
+        x: limitText(tol.dx_m * 1000),
+        y: limitText(tol.dy_m * 1000),
+        deg: limitText(deg(tol.dheading_rad)),
       })}
     >
       <DeviationBar
@@ -186,7 +187,6 @@ function ThisStop({ stop }: { stop: StopRecord }) {
         limit={tol.dx_m * 1000}
         text={millimetres(stop.dx_m, { decimals: 2, sign: true })}
         unit="mm"
-        decimals={0}
       />
       <DeviationBar
         name="dy"
@@ -194,14 +194,12 @@ function ThisStop({ stop }: { stop: StopRecord }) {
         limit={tol.dy_m * 1000}
         text={millimetres(stop.dy_m, { decimals: 2, sign: true })}
         unit="mm"
-        decimals={0}
       />
       <DeviationBar
         name="dθ"
         value={deg(stop.dheading_rad)}
         limit={deg(tol.dheading_rad)}
         text={`${degrees(stop.dheading_rad, { sign: true })}°`}
-        decimals={1}
       />
       <dl>
         <dt>{t("measured_by")}</dt>
@@ -231,7 +229,6 @@ function ThisStop({ stop }: { stop: StopRecord }) {
           </Link>
         </dd>
       </dl>
-      <span className="sr-only">{words.mode(stop.mode)}</span>
     </Card>
   );
 }
@@ -253,21 +250,18 @@ function TrendCard({
       name: "dx",
       unit: "mm",
       limit: stop.tolerance.dx_m * 1000,
-      decimals: 0,
       values: last.map((s) => s.dx_m * 1000),
     },
     {
       name: "dy",
       unit: "mm",
       limit: stop.tolerance.dy_m * 1000,
-      decimals: 0,
       values: last.map((s) => s.dy_m * 1000),
     },
     {
       name: "dθ",
       unit: "°",
       limit: stop.tolerance.dheading_rad * deg,
-      decimals: 1,
       values: last.map((s) => s.dheading_rad * deg),
     },
   ].map((row) => ({ ...row, data: series(row.values, counted) }));
@@ -294,7 +288,6 @@ function TrendCard({
             unit={row.unit}
             data={row.data}
             limit={row.limit}
-            decimals={row.decimals}
             slots={kTrend}
           />
         ))}

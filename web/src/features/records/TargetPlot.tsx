@@ -3,6 +3,7 @@ import type { StopRecord } from "@/shared/api/types";
 import { degrees, millimetres, number } from "@/shared/words/format";
 import { ellipse95 } from "./statistics";
 import { headingFactor, labelSide, plotScale } from "./targetScale";
+import { limitDecimals } from "./trendScale";
 
 /** Deviation in the hall frame: tolerance, earlier stops, this one with its vector and heading. */
 export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: readonly StopRecord[] }) {
@@ -11,7 +12,7 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
   const view = half * 1.133;
   const mm = (v: number) => v * 1000;
   const inScale = earlier.filter((s) => Math.abs(mm(s.dx_m)) <= half && Math.abs(mm(s.dy_m)) <= half);
-  const ellipse = ellipse95([...inScale, stop].map((s) => ({ x: mm(s.dx_m), y: mm(s.dy_m) })));
+  const ellipse = ellipse95(inScale.map((s) => ({ x: mm(s.dx_m), y: mm(s.dy_m) })));
   const at = { x: mm(stop.dx_m), y: mm(stop.dy_m) };
   const ticks: number[] = [];
   for (let v = -Math.floor(half / step) * step; v <= half; v += step) ticks.push(Math.round(v * 1000) / 1000);
@@ -77,10 +78,10 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
           .map((v) => (
             <span key={v}>
               <span className="lb ax" style={{ left: percent(v), top: percent(half * 1.08) }}>
-                {number(v, { sign: true })}
+                {number(v, { decimals: limitDecimals(step), sign: true })}
               </span>
               <span className="lb ax" style={{ left: percent(-half * 1.08), top: percent(-v) }}>
-                {number(v, { sign: true })}
+                {number(v, { decimals: limitDecimals(step), sign: true })}
               </span>
             </span>
           ))}
@@ -91,8 +92,8 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
           dy
         </span>
         <span className="lb tlb b" style={{ left: percent(tol.x * 0.72), top: percent(-tol.y * 0.93) }}>
-          ±{number(tol.x)}
-          {tol.y !== tol.x && ` / ±${number(tol.y)}`} mm
+          ±{number(tol.x, { decimals: limitDecimals(tol.x) })}
+          {tol.y !== tol.x && ` / ±${number(tol.y, { decimals: limitDecimals(tol.y) })}`} mm
         </span>
         {ellipse && (
           <span

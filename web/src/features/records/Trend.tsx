@@ -2,6 +2,7 @@ import { useTranslation } from "react-i18next";
 import { StatusSymbol } from "@/shared/ui";
 import { number } from "@/shared/words/format";
 import type { Series } from "./statistics";
+import { drawnLimits, limitDecimals, trendReach, unbroken } from "./trendScale";
 
 /** One row of the trend: tolerance solid, control limits dashed, off-scale stops as triangles at the edge. */
 export function TrendRow({
@@ -9,19 +10,18 @@ export function TrendRow({
   unit,
   data,
   limit,
-  decimals,
   slots,
 }: {
   name: string;
   unit: string;
   data: Series;
   limit: number;
-  decimals: number;
   /** Places along the row; this stop is the last. */
   slots: number;
 }) {
   const { t } = useTranslation("records");
-  const reach = Math.max(1.12, data.hasLimits ? Math.max(data.upper, -data.lower) / limit + 0.08 : 0);
+  const decimals = limitDecimals(limit);
+  const reach = trendReach(data, limit);
   const y = (v: number) => 50 - (50 * v) / (limit * reach);
   const first = slots - data.values.length;
   const x = (i: number) => (100 * (first + i + 0.5)) / slots;
@@ -52,7 +52,12 @@ export function TrendRow({
           <rect x="0" y={inside.top} width="100" height={inside.height} className="tin" />
           <path d="M0 50H100" className="tax" />
           <path d={`M0 ${y(limit)}H100M0 ${y(-limit)}H100`} className="ttol" />
-          {data.hasLimits && <path d={`M0 ${y(data.upper)}H100M0 ${y(data.lower)}H100`} className="tctl" />}
+          <path
+            d={drawnLimits(data, limit)
+              .map((v) => `M0 ${y(v)}H100`)
+              .join("")}
+            className="tctl"
+          />
           <path d={lines} className="tline" />
           <path d={dots} className="tdot" />
           {data.inScale[last] && <path d={`M${x(last)} ${y(data.values[last] ?? 0)}h0`} className="tcur" />}
@@ -78,19 +83,4 @@ export function TrendRow({
       </div>
     </div>
   );
-}
-
-/** Runs of neighbouring stops that are in scale: the line breaks at the others. */
-export function unbroken(data: Pick<Series, "inScale">): number[][] {
-  const runs: number[][] = [];
-  let run: number[] = [];
-  data.inScale.forEach((ok, i) => {
-    if (ok) run.push(i);
-    else if (run.length > 0) {
-      runs.push(run);
-      run = [];
-    }
-  });
-  if (run.length > 0) runs.push(run);
-  return runs;
 }

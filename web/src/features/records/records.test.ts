@@ -2,8 +2,8 @@ import { describe, expect, it } from "vitest";
 import type { StopRecord } from "@/shared/api/types";
 import { countedStops, ellipse95, series, upTo, widerThanTolerance } from "./statistics";
 import { headingFactor, niceStep, plotScale } from "./targetScale";
-import { unbroken } from "./Trend";
-import { matches, mergeStops } from "./useStopHistory";
+import { drawnLimits, limitDecimals, trendReach, unbroken } from "./trendScale";
+import { matches, mergeStops, wantsOlder } from "./stopLists";
 
 const tolerance = { shape: "box" as const, dx_m: 0.025, dy_m: 0.025, dheading_rad: (0.2 * Math.PI) / 180 };
 const stop = (id: string, at: string, over: Partial<StopRecord> = {}): StopRecord =>
@@ -99,4 +99,53 @@ describe("history", () => {
     [{ station: 7 }, true],
     [{ station: 0 }, false],
   ])("filter %o", (filter, kept) => expect(matches(stop("a", "1"), filter)).toBe(kept));
+});
+
+describe("trend scale", () => {
+  const flat = (v: number) =>
+    series(
+      Array.from({ length: 8 }, () => v),
+      all(8),
+    );
+  const wild = series([10, -10, 10, -10, 10, -10, 10, -10], all(8));
+
+  it("keeps every stop that counts inside the row", () => {
+    expect(trendReach(flat(1.4), 1)).toBeCloseTo(1.48);
+    expect(trendReach(flat(0.1), 1)).toBe(1.12);
+  });
+  it("shows the control limits, but not so far out that the row goes flat", () => {
+    expect(drawnLimits(wild, 30)).toHaveLength(2);
+    expect(trendReach(wild, 10)).toBe(3);
+    expect(drawnLimits(wild, 10)).toEqual([]);
+    expect(drawnLimits(series([1, 2], all(2)), 10)).toEqual([]);
+  });
+  it.each([
+    [25, 0],
+    [12.5, 1],
+    [0.5, 1],
+    [0.2, 1],
+    [0.05, 2],
+    [0.0012, 3],
+  ])("a limit of %s is printed with %s decimals", (limit, decimals) =>
+    expect(limitDecimals(limit)).toBe(decimals),
+  );
+});
+
+describe("older pages", () => {
+  it.each([
+    ["c", 3, false],
+    ["c", 4, true],
+    ["a", 2, true],
+    ["a", 1, false],
+  ])("stop %s with %s wanted asks for more: %s", (id, count, asks) => {
+    const stops = [stop("c", "3"), stop("b", "2"), stop("a", "1")];
+
+    expect(
+      wantsOlder(
+        stops,
+        stops.find((s) => s.id === id)!,
+        count,
+      ),
+    ).toBe(asks);
+  });
 });

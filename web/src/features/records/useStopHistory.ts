@@ -1,43 +1,29 @@
 import { useInfiniteQuery, useQuery } from "@tanstack/react-query";
-import { useMemo } from "react";
+import { useEffect, useMemo } from "react";
 import { api, call } from "@/shared/api";
 import type { StopRecord } from "@/shared/api/types";
 import { useStopRecords } from "@/shared/live";
-
-export interface StopFilter {
-  vehicle?: string | undefined;
-  station?: number | undefined;
-}
+import { upTo } from "./statistics";
+import { matches, mergeStops, wantsOlder, type StopFilter } from "./stopLists";
 
 const kPage = 50;
-
-export function matches(stop: StopRecord, filter: StopFilter): boolean {
-  return (
-    (filter.vehicle === undefined || stop.vehicle === filter.vehicle) &&
-    (filter.station === undefined || stop.number === filter.station)
-  );
-}
-
-/** Live records and fetched pages as one list, newest first, each once. */
-export function mergeStops(live: readonly StopRecord[], pages: readonly StopRecord[]): StopRecord[] {
-  const byId = new Map<string, StopRecord>();
-  for (const stop of [...pages, ...live]) byId.set(stop.id, stop);
-  return [...byId.values()].sort((a, b) => (a.at < b.at ? 1 : a.at > b.at ? -1 : a.id < b.id ? 1 : -1));
-}
+/** For the trend of an old stop: larger pages, and an end to the search. */
+const kTrendPage = 200;
+const kMaxTrendPages = 25;
 
 /** Stops that fit the filter: the newest come with the stream, older ones page by page. */
-export function useStopHistory(filter: StopFilter) {
+export function useStopHistory(filter: StopFilter, limit = kPage) {
   const live = useStopRecords();
   const { vehicle, station } = filter;
   const pages = useInfiniteQuery({
-    queryKey: ["stop-records", vehicle, station],
+    queryKey: ["stop-records", vehicle, station, limit],
     initialPageParam: "",
     queryFn: ({ pageParam }) =>
       call(
         api.GET("/api/v1/stop-records", {
           params: {
             query: {
-              limit: kPage,
+              limit,
               ...(vehicle !== undefined && { vehicle }),
               ...(station !== undefined && { station }),
               ...(pageParam !== "" && { cursor: pageParam }),
@@ -54,6 +40,19 @@ export function useStopHistory(filter: StopFilter) {
     return mergeStops(live, fetched).filter((s) => matches(s, { vehicle, station }));
   }, [live, data, vehicle, station]);
   return { stops, pages };
+}
+
+/** This stop and those of its vehicle before it, oldest first; asks for older pages until there are `count`. */
+export function useStopsUpTo(stop: StopRecord, count: number): StopRecord[] {
+  const { stops, pages } = useStopHistory({ vehicle: stop.vehicle }, kTrendPage);
+  const { fetchNextPage, hasNextPage, isFetching, isError } = pages;
+  const fetched = pages.data?.pages.length ?? 0;
+  const more =
+    hasNextPage && !isFetching && !isError && fetched < kMaxTrendPages && wantsOlder(stops, stop, count);
+  useEffect(() => {
+    if (more) void fetchNextPage();
+  }, [more, fetchNextPage]);
+  return useMemo(() => upTo(stops, stop, count), [stops, stop, count]);
 }
 
 /** One stop, from the stream when it is among the newest, else from the server. */
@@ -82,6 +81,9 @@ export function useRun(stop: StopRecord | undefined) {
   return useMemo(() => {
     if (!stop) return [];
     const own = live.filter((s) => s.order === stop.order);
-    return mergeStops([...own, stop], query.data?.items ?? []).reverse();
+    return mergeStops(
+      [...own, stop],
+      (query.data?.items ?? []).filter((s) => s.order === stop.order),
+    ).reverse();
   }, [live, query.data, stop]);
 }
