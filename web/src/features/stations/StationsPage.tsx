@@ -1,4 +1,4 @@
-import { useMemo, useState } from "react";
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
 import {
@@ -6,31 +6,27 @@ import {
   useMayCommand,
   usePlant,
   useStations,
-  useStopRecords,
   useVehicle,
   useServerNow,
+  type LiveStation,
 } from "@/shared/live";
-import type { LiveStation } from "@/shared/live/hooks";
 import { Link } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { lookOf, looks, lookSymbol, type StationLook } from "./stationLook";
+import type { LastStop } from "./lastStops";
+import { comingTo, lookOf, looks, lookSymbol, type StationLook } from "./stationLook";
+import { useLastStops } from "./useLastStops";
 import "./stations.css";
 
 /** Station board: what stands where, whether it is ready, and how far off the last stop was. */
 export function StationsPage() {
   const { t } = useTranslation("stations");
   const stations = useStations();
-  const stops = useStopRecords();
   const ready = useLive((s) => s.ready);
   const plant = usePlant();
   const [filter, setFilter] = useState<StationLook>();
-  const newest = useMemo(() => {
-    const map = new Map<string, StopRecord>();
-    for (const stop of stops) if (!map.has(stop.station)) map.set(stop.station, stop);
-    return map;
-  }, [stops]);
+  const lastOf = useLastStops(stations);
   const count = (look: StationLook) => stations.filter((s) => lookOf(s.state) === look).length;
   const shown = stations.filter((s) => filter === undefined || lookOf(s.state) === filter);
   return (
@@ -69,9 +65,10 @@ export function StationsPage() {
             </div>
           </div>
           <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
-            <ul className="board">
+            {shown.length === 0 && <PanelEmpty what={t("none_fits")} />}
+            <ul className="board" hidden={shown.length === 0}>
               {shown.map((station) => (
-                <Tile key={station.id} station={station} stop={newest.get(station.id)} />
+                <Tile key={station.id} station={station} last={lastOf(station)} />
               ))}
             </ul>
           </div>
@@ -81,11 +78,12 @@ export function StationsPage() {
   );
 }
 
-function Tile({ station, stop }: { station: LiveStation; stop: StopRecord | undefined }) {
+function Tile({ station, last }: { station: LiveStation; last: LastStop }) {
   const { t } = useTranslation("stations");
   const words = useWords();
   const mayCommand = useMayCommand();
   const now = useServerNow(60_000);
+  const stop = last.kind === "known" ? last.stop : undefined;
   const look = lookOf(station.state);
   const by = station.state?.occupied_by || undefined;
   const vehicle = useVehicle(by);
@@ -100,6 +98,7 @@ function Tile({ station, stop }: { station: LiveStation; stop: StopRecord | unde
           <span className="row st">
             {symbol && <StatusSymbol name={symbol} />}
             {t(`state.${look}`)}
+            {look === "occupied" && t("because", { why: t("not_measured") })}
           </span>
         </div>
       </header>
@@ -107,7 +106,7 @@ function Tile({ station, stop }: { station: LiveStation; stop: StopRecord | unde
       {stop ? (
         <Last stop={stop} time={dateTime(stop.at, now)} />
       ) : (
-        <p className="cap nostop">{t("no_stop")}</p>
+        <p className="cap nostop">{t(`no_stop.${last.kind}`)}</p>
       )}
       <div className="row acts">
         {mayCommand && free && (
@@ -128,11 +127,12 @@ function Tile({ station, stop }: { station: LiveStation; stop: StopRecord | unde
   );
 
   function who(): string {
+    const coming = comingTo(station.state);
     if (by) {
       const name = words.vehicle(by);
-      return vehicle?.load_name ? t("carries", { vehicle: name, load: vehicle.load_name }) : name;
+      const here = vehicle?.load_name ? t("carries", { vehicle: name, load: vehicle.load_name }) : name;
+      return coming ? t("then", { here, vehicle: words.vehicle(coming) }) : here;
     }
-    const coming = station.state?.reserved_by;
     if (coming) return t("reserved_for", { vehicle: words.vehicle(coming) });
     return station.resting_place ? t("resting") : "\u00a0";
   }

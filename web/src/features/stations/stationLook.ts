@@ -18,3 +18,8 @@ export const lookSymbol: Record<StationLook, SymbolName | undefined> = {
 };
 
 export const looks: readonly StationLook[] = ["ready", "occupied", "reserved", "free"];
+
+/** Who is on its way here, unless that is the one who stands here already. */
+export function comingTo(state: StationState | undefined): string | undefined {
+  return state?.reserved_by && state.reserved_by !== state.occupied_by ? state.reserved_by : undefined;
+}
