@@ -33,7 +33,10 @@ public:
     bool take_fresh();
     /// Annotated pictures of the last look; none in analytic mode.
     std::vector<Picture> pictures() const;
-    void forget() { readings_.clear(); }
+    void forget() {
+        readings_.clear();
+        images_.clear();
+    }
     /// Somebody covers the codes.
     void cover() { covered_ = true; }
 
