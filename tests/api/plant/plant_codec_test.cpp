@@ -1,0 +1,148 @@
+#include "api/plant/plant_codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "api/plant/occupancy_file.hpp"
+#include "api/plant/plant_file.hpp"
+#include "tests/api/plant/schema_check.hpp"
+
+namespace pulseline::plant {
+namespace {
+
+using json::Json;
+
+const std::string kPlants = PULSELINE_PLANTS;
+
+Json document(const std::string& path) {
+    return json::parse_json(read_file(path).value(), json::kPlantImport).value();
+}
+
+std::vector<std::string> faults_of(const Json& document) {
+    json::FieldErrors errors;
+    decode_plant(document, errors);
+    std::vector<std::string> list;
+    for (const Error& e : errors.all()) list.push_back(e.field + " " + e.reason.code);
+    return list;
+}
+
+class PlantText : public testing::TestWithParam<const char*> {
+protected:
+    Json file_ = document(kPlants + "/" + GetParam() + ".json");
+};
+
+TEST_P(PlantText, ReadsTheSameFromWhatWasWritten) {
+    json::FieldErrors errors;
+    const Plant plant = decode_plant(file_, errors);
+    ASSERT_TRUE(errors.empty());
+    const std::string text = plant_to_json(plant);
+    const Plant again = decode_plant(json::parse_json(text, json::kPlantImport).value(), errors);
+
+    EXPECT_TRUE(errors.empty());
+    EXPECT_EQ(plant_to_json(again), text);
+    EXPECT_EQ(again.stations.size(), plant.stations.size());
+    for (std::size_t i = 0; i < plant.markers.size(); ++i) {
+        EXPECT_EQ(again.markers[i].pose, plant.markers[i].pose);
+    }
+}
+
+TEST_P(PlantText, WritesEveryValueOfTheFile) {
+    json::FieldErrors errors;
+    Json expected = file_;
+    expected.erase("$schema");
+
+    EXPECT_EQ(encode_plant(decode_plant(file_, errors), PlantForm::kFile), expected);
+}
+
+TEST_P(PlantText, FollowsTheSchema) {
+    const Json schema = document(kPlants + "/../../api/plant.schema.json");
+
+    EXPECT_EQ(json::SchemaCheck(schema).objection(file_), "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, PlantText,
+                         testing::Values("pulse-line", "measuring-hall", "landmark-lab",
+                                         "igps-cell", "final-assembly"),
+                         [](const auto& shipped) {
+                             std::string name = shipped.param;
+                             std::replace(name.begin(), name.end(), '-', '_');
+                             return name;
+                         });
+
+TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
+    const Json schema = document(kPlants + "/../../api/plant.schema.json");
+    const json::SchemaCheck check(schema);
+    const Json sound = document(kPlants + "/pulse-line.json");
+    const std::pair<const char*, Json> changes[] = {{"/stations/2/pose/x_m", "10"},
+                                                    {"/stations/2/pose/z_m", 1},
+                                                    {"/stations/2/number", 1.5},
+                                                    {"/markers/0/kind", "barcode"},
+                                                    {"/vehicle_types/0/motion_modes/0", "sideways"},
+                                                    {"/roadmap/nodes", Json::object()},
+                                                    {"/colour", "red"},
+                                                    {"/halls/0/occupancy_yaml", ""},
+                                                    {"/stations/1/resting_place", 1},
+                                                    {"/areas/0/outline/0", Json::array({1, 2})}};
+    for (const auto& [pointer, value] : changes) {
+        Json broken = sound;
+        broken[Json::json_pointer(pointer)] = value;
+        EXPECT_NE(check.objection(broken), "") << pointer;
+        EXPECT_FALSE(faults_of(broken).empty()) << pointer;
+    }
+}
+
+TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
+    const Json sound = document(kPlants + "/pulse-line.json");
+    const Json schema = document(kPlants + "/../../api/plant.schema.json");
+    const std::pair<const char*, const char*> places[] = {
+        {"", ""},
+        {"/$defs/hall", "/halls/0"},
+        {"/$defs/station", "/stations/0"},
+        {"/$defs/marker", "/markers/0"},
+        {"/$defs/area", "/areas/0"},
+        {"/$defs/vehicle_type", "/vehicle_types/0"},
+        {"/$defs/wheel", "/vehicle_types/0/wheels/0"},
+        {"/$defs/camera", "/vehicle_types/0/cameras/0"},
+        {"/$defs/bracket", "/vehicle_types/0/brackets/0"},
+        {"/$defs/vehicle", "/vehicles/0"},
+        {"/$defs/node", "/roadmap/nodes/0"},
+        {"/$defs/edge", "/roadmap/edges/0"},
+        {"/$defs/tolerance", "/stations/0/tolerance"},
+        {"/$defs/pose", "/stations/0/pose"}};
+    for (const auto& [definition, place] : places) {
+        const Json& rules = schema.at(Json::json_pointer(definition));
+        for (const auto& [name, rule] : rules.at("properties").items()) {
+            Json broken = sound;
+            broken.at(Json::json_pointer(place)).erase(name);
+            const auto faults = faults_of(broken);
+            const std::string expected = std::string(place) + "/" + name + " missing_field";
+            const auto& required = rules.at("required");
+            if (std::find(required.begin(), required.end(), name) != required.end()) {
+                EXPECT_EQ(faults, (std::vector<std::string>{expected}));
+            } else {
+                EXPECT_TRUE(faults.empty()) << expected;
+            }
+        }
+    }
+}
+
+TEST(PlantCodec, ApiFormShowsTheGridInsteadOfTheFile) {
+    const Plant plant = load_plant_file(kPlants + "/pulse-line.json").value();
+    const Json hall = encode_plant(plant, PlantForm::kApi)["halls"][0];
+
+    EXPECT_EQ(hall["grid"]["width"], 1102);
+    EXPECT_EQ(hall["grid"]["resolution_m"], 0.1);
+    EXPECT_FALSE(hall.contains("occupancy_yaml"));
+}
+
+TEST(PlantCodec, HeadingsAreWrapped) {
+    Json file = document(kPlants + "/pulse-line.json");
+    file["stations"][0]["pose"]["heading_rad"] = 1.5 * kPi;
+    json::FieldErrors errors;
+
+    EXPECT_NEAR(decode_plant(file, errors).stations[0].pose.heading_rad, -kPi / 2, 1e-12);
+}
+
+}  // namespace
+}  // namespace pulseline::plant
