@@ -1,0 +1,103 @@
+#include "server/cli/plant_commands.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "api/plant/occupancy_file.hpp"
+#include "api/plant/plant_codec.hpp"
+#include "api/plant/plant_file.hpp"
+#include "db/database.hpp"
+#include "tests/db/temp_folder.hpp"
+
+namespace pulseline::server::cli {
+namespace {
+
+const std::string kPulseLine = std::string(PULSELINE_PLANTS) + "/pulse-line.json";
+
+class PlantCommands : public testing::Test {
+protected:
+    db::TempFolder folder_;
+    std::ostringstream out_;
+
+    std::string database() const { return folder_.file("fleet.db"); }
+    /// A plant file with two faults.
+    std::string broken() {
+        plant::Plant plant = plant::load_plant_file(kPulseLine).value();
+        plant.stations[1].number = 1;
+        plant.vehicle_types[0].max_speed_mps = 0;
+        plant.halls[0].occupancy_yaml.clear();
+        const std::string path = folder_.file("broken.json");
+        EXPECT_TRUE(plant::save_plant_file(plant, path));
+        return path;
+    }
+};
+
+TEST_F(PlantCommands, ValidatePrintsEveryFaultOnItsLine) {
+    EXPECT_EQ(plant_validate(broken(), false, out_), kPlantFaults);
+    EXPECT_NE(out_.str().find("/vehicle_types/0/max_speed_mps: "), std::string::npos);
+    EXPECT_NE(out_.str().find("/stations/1/number: "), std::string::npos);
+}
+
+TEST_F(PlantCommands, ValidateWritesJsonLines) {
+    EXPECT_EQ(plant_validate(broken(), true, out_), kPlantFaults);
+    std::istringstream lines(out_.str());
+    std::vector<std::string> codes;
+    for (std::string line; std::getline(lines, line);) {
+        const auto json = nlohmann::json::parse(line);
+        EXPECT_FALSE(json.at("element").get<std::string>().empty());
+        EXPECT_FALSE(json.at("remedy").get<std::string>().empty());
+        codes.push_back(json.at("code"));
+    }
+
+    EXPECT_EQ(codes, (std::vector<std::string>{"not_positive", "duplicate_number"}));
+}
+
+TEST_F(PlantCommands, UnreadableFilesExitWithTwo) {
+    std::ofstream(folder_.file("text.json")) << "{";
+
+    EXPECT_EQ(plant_validate(folder_.file("none.json"), false, out_), kPlantUnreadable);
+    EXPECT_EQ(plant_validate(folder_.file("text.json"), false, out_), kPlantUnreadable);
+    EXPECT_EQ(plant_export(folder_.file("none.db"), folder_.file("x.json"), out_),
+              kPlantUnreadable);
+    EXPECT_NE(out_.str().find("none.db"), std::string::npos);
+}
+
+TEST_F(PlantCommands, ImportedPlantIsExportedByteForByteTheSame) {
+    ASSERT_EQ(plant_validate(kPulseLine, false, out_), kPlantSound) << out_.str();
+    ASSERT_EQ(plant_import(database(), kPulseLine, false, out_), kPlantSound) << out_.str();
+    ASSERT_EQ(plant_export(database(), folder_.file("copy.json"), out_), kPlantSound) << out_.str();
+
+    EXPECT_EQ(plant::read_file(folder_.file("copy.json")).value(),
+              plant::plant_to_json(plant::load_plant_file(kPulseLine).value()));
+    EXPECT_TRUE(plant::read_file(folder_.file("pulse-line.pgm")).value() ==
+                plant::read_file(std::string(PULSELINE_PLANTS) + "/pulse-line.pgm").value());
+    EXPECT_EQ(plant_validate(folder_.file("copy.json"), false, out_), kPlantSound) << out_.str();
+}
+
+TEST_F(PlantCommands, SecondImportRaisesTheRevision) {
+    plant_import(database(), kPulseLine, true, out_);
+    out_.str("");
+    EXPECT_EQ(plant_import(database(), kPulseLine, true, out_), kPlantSound);
+
+    EXPECT_EQ(nlohmann::json::parse(out_.str()).at("revision"), 2);
+}
+
+TEST_F(PlantCommands, FaultyPlantIsNotImported) {
+    EXPECT_EQ(plant_import(database(), broken(), false, out_), kPlantFaults);
+    EXPECT_FALSE(std::filesystem::exists(database()));
+}
+
+TEST_F(PlantCommands, BesideAServerImportIsRefusedAndExportWorks) {
+    plant_import(database(), kPulseLine, false, out_);
+    db::Database server(database());
+
+    EXPECT_EQ(plant_import(database(), kPulseLine, false, out_), kPlantUnreadable);
+    EXPECT_NE(out_.str().find("another process is using this database"), std::string::npos);
+    EXPECT_EQ(plant_export(database(), folder_.file("copy.json"), out_), kPlantSound);
+}
+
+}  // namespace
+}  // namespace pulseline::server::cli
