@@ -57,6 +57,7 @@ void CameraSensing::look() {
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
     readings_ = std::move(view.readings);
+    pictured_ = readings_;
     images_ = std::move(view.images);
     fresh_ = true;
 }
@@ -82,9 +83,9 @@ Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& t
 std::vector<CameraSensing::Picture> CameraSensing::pictures() const {
     std::vector<Picture> pictures;
     const auto& cameras = motion_.type().cameras;
-    for (std::size_t i = 0; i < images_.size() && i < cameras.size(); ++i) {
+    for (std::size_t i = 0; i < images_.size(); ++i) {
         const auto annotated =
-            simulation::annotate(images_[i], cameras[i], readings_[i], options_.code_size_m);
+            simulation::annotate(images_[i], cameras[i], pictured_[i], options_.code_size_m);
         const auto jpeg = simulation::encode_jpeg(annotated, cameras[i]);
         pictures.push_back({cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }

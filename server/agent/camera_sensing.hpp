@@ -50,6 +50,7 @@ private:
     std::mt19937_64 random_;
     std::vector<plant::Camera> actual_;
     std::vector<fleet::CameraReading> readings_;
+    std::vector<fleet::CameraReading> pictured_;  // what the images show, one per image
     std::vector<cv::Mat> images_;
     bool fresh_ = false;
     bool covered_ = false;

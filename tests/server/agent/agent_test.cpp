@@ -1,0 +1,269 @@
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "api/vehicle/factsheet.hpp"
+#include "api/vehicle/frame.hpp"
+#include "api/vehicle/instant_actions.hpp"
+#include "api/vehicle/order.hpp"
+#include "api/vehicle/state.hpp"
+#include "server/agent/camera_sensing.hpp"
+#include "server/agent/options.hpp"
+#include "server/agent/outbox.hpp"
+#include "server/agent/truth_log.hpp"
+#include "server/agent/vehicle.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::agent {
+namespace {
+
+using namespace std::chrono_literals;
+
+plant::Plant small_plant() {
+    plant::Plant plant;
+    auto type = simulation::testing::platform_type();
+    for (const double side : {1.0, -1.0}) {
+        plant::Camera camera;
+        camera.name = side > 0 ? "front" : "back";
+        camera.body_from_camera = {5.346 * side, 0, 0};
+        type.cameras.push_back(camera);
+        plant::Marker marker;
+        marker.id = plant::MarkerId(camera.name);
+        marker.payload = side > 0 ? "ST01-F" : "ST01-B";
+        marker.hall = plant::HallId("hall");
+        marker.pose = {20 + 5.346 * side, 10, 0};
+        plant.markers.push_back(marker);
+    }
+    plant.vehicle_types.push_back(type);
+    plant::Station station;
+    station.id = plant::StationId("st01");
+    station.number = 1;
+    station.hall = plant::HallId("hall");
+    station.pose = {20, 10, 0};
+    plant.stations.push_back(station);
+    plant::Vehicle vehicle;
+    vehicle.id = plant::VehicleId("TP-01");
+    vehicle.type = type.id;
+    vehicle.manufacturer = "Tang";
+    vehicle.serial_number = "TP-01";
+    vehicle.home = station.id;
+    plant.vehicles.push_back(vehicle);
+    return plant;
+}
+
+fleet::StopTarget target_of(const plant::Plant& plant) {
+    fleet::StopTarget target{"st01", 1, plant.stations[0].pose, 0.025, 0.025, 0.0035, {}};
+    for (const auto& marker : plant.markers) {
+        target.markers.push_back({marker.payload, "qr", marker.size_m, marker.pose, 1e-4});
+    }
+    return target;
+}
+
+TEST(CameraSensing, MeasuresTheTruePoseFromRenderedImages) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20.004, 9.995, 0.001}, 1);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
+    const auto measured = sensing.measure(target_of(world.plant));
+    ASSERT_TRUE(measured) << measured.error().what;
+    EXPECT_EQ(measured->method, "dual_camera");
+    EXPECT_LT(distance(measured->pose.position(), motion.true_pose().position()), 5e-4);
+    EXPECT_NEAR(measured->pose.heading_rad, 0.001, 1e-4);
+}
+
+TEST(CameraSensing, PicturesOutliveTheReadingsOfAPlaceTheVehicleLeft) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
+    sensing.look();
+    sensing.forget();
+    EXPECT_TRUE(sensing.readings().empty());
+    const auto pictures = sensing.pictures();
+    ASSERT_EQ(pictures.size(), 2u);
+    EXPECT_EQ(pictures[0].jpeg.substr(0, 2), "\xff\xd8");
+}
+
+TEST(CameraSensing, CoveredCodesFailWithTheReason) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, false, 3);
+    ASSERT_TRUE(sensing.measure(target_of(world.plant)));
+    sensing.cover();
+    const auto blind = sensing.measure(target_of(world.plant));
+    ASSERT_FALSE(blind);
+    EXPECT_EQ(blind.error().reason.code, "no_marker_in_view");
+}
+
+/// A vehicle with analytic eyes and a clock that the test turns.
+class VehicleTest : public ::testing::Test {
+protected:
+    void run(std::chrono::milliseconds time) {
+        for (auto t = 0ms; t < time; t += 20ms) {
+            now += 20ms;
+            vehicle.step(0.02, now);
+            while (auto frame = vehicle.outbox().take()) {
+                if (frame->binary) continue;
+                auto read = vda5050::decode_frame(frame->bytes);
+                ASSERT_TRUE(read);
+                ++sent[read->topic];
+                if (read->topic == vda5050::Topic::kState) {
+                    state = *vda5050::decode_state(read->payload);
+                }
+            }
+        }
+    }
+    void send(vda5050::Topic topic, const std::string& payload) {
+        vehicle.receive(vda5050::encode_frame(topic, false, payload));
+    }
+    void instant(const std::string& type, std::optional<fleet::InitPosition> init = {}) {
+        fleet::Action action;
+        action.type = type;
+        action.id = "id-" + type;
+        action.init_position = init;
+        send(vda5050::Topic::kInstantActions,
+             vda5050::encode_instant_actions({{action}},
+                                             headers.next(vda5050::Topic::kInstantActions, {})));
+    }
+
+    simulation::World world = simulation::make_world(small_plant(), 1);
+    Vehicle vehicle{
+        world, world.plant.vehicles[0], {20, 10, 0}, VehicleSettings{1, 10, false, 1, {}}, nullptr};
+    vda5050::HeaderSource headers{"Tang", "TP-01"};
+    Vehicle::Steady::time_point now = Vehicle::Steady::time_point(1h);
+    std::map<vda5050::Topic, int> sent;
+    fleet::StateMessage state;
+};
+
+TEST_F(VehicleTest, SaysWhoItIsAndReportsCodesButNoPoseAtFirst) {
+    run(1000ms);
+    EXPECT_TRUE(sent.empty());  // no link yet
+    vehicle.link_up();
+    run(3000ms);
+    EXPECT_EQ(sent[vda5050::Topic::kConnection], 1);
+    EXPECT_EQ(sent[vda5050::Topic::kFactsheet], 1);
+    EXPECT_GE(sent[vda5050::Topic::kState], 3);
+    EXPECT_EQ(sent[vda5050::Topic::kVisualization], 0);
+    EXPECT_FALSE(state.position_initialized);
+    ASSERT_EQ(state.cameras.size(), 2u);
+    EXPECT_EQ(state.cameras[0].payload, "ST01-F");
+}
+
+TEST_F(VehicleTest, AfterInitPositionItShowsItsPoseTenTimesASecond) {
+    vehicle.link_up();
+    instant("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+    run(200ms);
+    sent.clear();
+    run(3000ms);
+    EXPECT_TRUE(state.position_initialized);
+    EXPECT_NEAR(sent[vda5050::Topic::kVisualization], 30, 2);
+    EXPECT_LE(sent[vda5050::Topic::kState], 8);
+}
+
+TEST_F(VehicleTest, AMalformedOrderIsRejectedByNameAndMovesNothing) {
+    vehicle.link_up();
+    send(vda5050::Topic::kOrder,
+         R"({"headerId":1,"version":"2.1.0","manufacturer":"Tang","serialNumber":"TP-01",)"
+         R"("orderId":"bad","orderUpdateId":0,"nodes":[],"edges":[]})");
+    vehicle.receive("nonsense");
+    vehicle.receive(std::string(60'000, '['));
+    run(200ms);
+    ASSERT_GE(state.errors.size(), 2u);
+    EXPECT_EQ(state.errors[0].type, "validationError");
+    EXPECT_EQ(state.errors[0].references[0].second, "bad");
+    EXPECT_FALSE(state.driving);
+}
+
+TEST_F(VehicleTest, DrivesOnWithoutALinkToTheEndOfItsBaseAndTellsItAfterwards) {
+    vehicle.link_up();
+    instant("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+    fleet::OrderMessage order;
+    order.order_id = "a";
+    order.nodes.resize(2);
+    order.edges.resize(1);
+    order.edges[0].edge_id = "e";
+    order.edges[0].sequence_id = 1;
+    order.edges[0].released = true;
+    order.edges[0].segment = simulation::testing::straight({20, 10, 0}, 3);
+    for (int i = 0; i < 2; ++i) {
+        order.nodes[i].node_id = "n" + std::to_string(i);
+        order.nodes[i].sequence_id = 2 * i;
+        order.nodes[i].released = true;
+        order.nodes[i].map_id = "hall";
+        order.nodes[i].pose = {20.0 + 3 * i, 10, 0};
+    }
+    send(vda5050::Topic::kOrder,
+         vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {})));
+    run(100ms);
+    EXPECT_TRUE(state.driving);
+    vehicle.link_down();
+    run(5000ms);
+    vehicle.link_up();
+    run(100ms);
+    EXPECT_FALSE(state.driving);
+    EXPECT_EQ(state.last_node_id, "n1");
+    EXPECT_NEAR(state.pose->x_m, 23, 1e-4);
+}
+
+TEST(Outbox, NewestStateAndPictureWinAndEventsGoFirst) {
+    Outbox outbox;
+    outbox.put_picture("front", "picture 1");
+    outbox.put_visualization("pose");
+    outbox.put_state("old");
+    outbox.put_state("new");
+    outbox.put_picture("front", "picture 2");
+    outbox.put_event("hello");
+    std::vector<std::string> order;
+    while (auto frame = outbox.take()) order.push_back(frame->bytes);
+    EXPECT_EQ(order, (std::vector<std::string>{"hello", "new", "pose", "picture 2"}));
+    EXPECT_TRUE(outbox.empty());
+}
+
+TEST(TruthLog, LastLineOfTheVehicleSurvivesATornEnd) {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("truth-" + std::to_string(::getpid()) + ".jsonl");
+    std::filesystem::remove(path);
+    EXPECT_FALSE(last_true_pose(path, "TP-01"));
+    {
+        auto log = TruthLog::open(path);
+        ASSERT_TRUE(log);
+        log->write({"TP-01", {1, 2, 0.5}, true, "o", 2, 4}, 1000);
+        log->write({"TP-02", {9, 9, 0}, false, "", 0, 0}, 1001);
+    }
+    std::ofstream(path, std::ios::app) << R"({"vehicle":"TP-01","x_m":7)";
+    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{1, 2, 0.5}));
+    {
+        auto log = TruthLog::open(path);
+        ASSERT_TRUE(log);
+        log->write({"TP-01", {3, 2, 0.5}, false, "o", 4, 4}, 1002);
+    }
+    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{3, 2, 0.5}));
+    std::filesystem::remove(path);
+    EXPECT_EQ(TruthLog::open("/nonexistent/truth").error().reason.code, "truth_log_unwritable");
+}
+
+TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
+    EXPECT_EQ(parse_server("wss://host:8443/")->port, "8443");
+    EXPECT_EQ(parse_server("ws://host")->port, "80");
+    EXPECT_EQ(parse_server("ws://[::1]:9000")->host, "::1");
+    for (const char* bad : {"http://host", "ws://", "ws://host:port", "ws://host/path:1"}) {
+        EXPECT_FALSE(parse_server(bad)) << bad;
+    }
+    EXPECT_EQ(parse_fault("wheel=drive front@20")->wheel, "drive front");
+    EXPECT_EQ(parse_fault("marker-lost")->after_s, 0);
+    for (const char* bad : {"wheel=", "fire", "marker-lost@soon", "wheel=FL@-1"}) {
+        EXPECT_FALSE(parse_fault(bad)) << bad;
+    }
+    const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");
+    ASSERT_TRUE(list);
+    EXPECT_EQ(list->size(), 2u);
+    EXPECT_EQ(list->at(1).token, "def");
+    for (const char* bad : {"", "Tang/TP-01", "TP-01 abc", "Tang/TP-01 a b"}) {
+        EXPECT_FALSE(parse_vehicle_list(bad)) << bad;
+    }
+}
+
+}  // namespace
+}  // namespace pulseline::agent
