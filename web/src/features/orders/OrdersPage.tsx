@@ -51,7 +51,7 @@ export function OrdersPage({ id }: { id: string | undefined }) {
       ) : orders.length === 0 ? (
         <PanelEmpty what={t("empty")} when={t("empty_hint")} />
       ) : (
-        <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
+        <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
           <OrderTable orders={orders} selected={id} />
           {older.hasNextPage && (
             <Button disabled={older.isFetchingNextPage} onPress={() => void older.fetchNextPage()}>

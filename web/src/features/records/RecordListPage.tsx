@@ -61,6 +61,17 @@ export function RecordListPage() {
               ))}
           </select>
         </label>
+        {stops.length > 0 && pages.isError && (
+          <div className="row amiss" role="alert">
+            <StatusSymbol name="a-2" />
+            <span>{t("older_failed")}</span>
+            <Button
+              onPress={() => void (pages.isFetchNextPageError ? pages.fetchNextPage() : pages.refetch())}
+            >
+              {t("retry")}
+            </Button>
+          </div>
+        )}
       </div>
       {stops.length === 0 && pages.isPending ? (
         <PanelLoading what={t("title")} />
@@ -72,7 +83,7 @@ export function RecordListPage() {
           when={t(filtered ? "none_fits_hint" : "empty_hint")}
         />
       ) : (
-        <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
+        <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
           <table className="rows">
             <thead>
               <tr>
@@ -116,13 +127,6 @@ export function RecordListPage() {
               ))}
             </tbody>
           </table>
-          {pages.isError && (
-            <PanelFailed
-              what={t("failed")}
-              error={pages.error}
-              onRetry={() => void (pages.isFetchNextPageError ? pages.fetchNextPage() : pages.refetch())}
-            />
-          )}
           {pages.hasNextPage && !pages.isError && (
             <Button disabled={pages.isFetchingNextPage} onPress={() => void pages.fetchNextPage()}>
               {pages.isFetchingNextPage ? t("loading") : t("older")}

@@ -51,7 +51,7 @@ function Record({ stop }: { stop: StopRecord }) {
   const [tab, setTab] = useState("stop");
   const plant = usePlant().data;
   const run = useRun(stop);
-  const last = useStopsUpTo(stop, kTrend);
+  const { last, failed } = useStopsUpTo(stop, kTrend);
   const load = plant?.vehicles.find((v) => v.id === stop.vehicle)?.load_name ?? "";
   const said = {
     vehicle: words.vehicle(stop.vehicle),
@@ -71,7 +71,7 @@ function Record({ stop }: { stop: StopRecord }) {
     </Card>
   );
   const values = <ThisStop stop={stop} />;
-  const trend = <TrendCard stop={stop} last={last} vehicle={said.vehicle} />;
+  const trend = <TrendCard stop={stop} last={last} failed={failed} vehicle={said.vehicle} />;
   const far = (f: (s: StopRecord) => number) => Math.max(...run.map(f));
   const runCard = (
     <Card
@@ -90,7 +90,7 @@ function Record({ stop }: { stop: StopRecord }) {
       }
       right={t("run_units")}
     >
-      <div className="scroll" tabIndex={0} role="region" aria-label={t("run")}>
+      <div className="scroll" tabIndex={0} role="group" aria-label={t("run")}>
         <RunTable run={run} current={stop.id} now={now} />
       </div>
     </Card>
@@ -236,10 +236,13 @@ function ThisStop({ stop }: { stop: StopRecord }) {
 function TrendCard({
   stop,
   last,
+  failed,
   vehicle,
 }: {
   stop: StopRecord;
   last: readonly StopRecord[];
+  /** Older stops are missing because they did not load. */
+  failed: boolean;
   vehicle: string;
 }) {
   const { t } = useTranslation("records");
@@ -297,7 +300,13 @@ function TrendCard({
             <span>{t("control_wide", { names: wide.join(", ") })}</span>
           </p>
         )}
-        {last.length < 8 && <p className="cap">{t("too_few")}</p>}
+        {failed && (
+          <p className="note_ amiss" role="alert">
+            <StatusSymbol name="a-2" />
+            <span>{t("older_failed")}</span>
+          </p>
+        )}
+        {!failed && last.length < 8 && <p className="cap">{t("too_few")}</p>}
       </div>
     </Card>
   );

@@ -2,7 +2,7 @@ import { useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
 import { degrees, millimetres, number } from "@/shared/words/format";
 import { ellipse95 } from "./statistics";
-import { headingFactor, labelSide, plotScale } from "./targetScale";
+import { headingFactor, labelSide, plotScale, rayLength, toleranceLabelSide } from "./targetScale";
 import { limitDecimals } from "./trendScale";
 
 /** Deviation in the hall frame: tolerance, earlier stops, this one with its vector and heading. */
@@ -20,7 +20,7 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
   const percent = (v: number) => `${50 + (50 * v) / view}%`;
   const tol = { x: mm(stop.tolerance.dx_m), y: mm(stop.tolerance.dy_m) };
   const factor = headingFactor(stop);
-  const wedge = half * 0.5;
+  const wedge = rayLength(at.y, half);
   const lim = Math.min(Math.PI * 0.45, stop.tolerance.dheading_rad * factor);
   const turn = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, stop.dheading_rad * factor));
   // The wedge stands on the stop; nominal heading is up, ccw is to the left.
@@ -91,7 +91,10 @@ export function TargetPlot({ stop, earlier }: { stop: StopRecord; earlier: reado
         <span className="lb ax b" style={{ left: percent(-half * 1.08), top: percent(-half * 0.95) }}>
           dy
         </span>
-        <span className="lb tlb b" style={{ left: percent(tol.x * 0.72), top: percent(-tol.y * 0.93) }}>
+        <span
+          className="lb tlb b"
+          style={{ left: percent(tol.x * 0.72), top: percent(-tol.y * 0.93 * toleranceLabelSide(at, half)) }}
+        >
           ±{number(tol.x, { decimals: limitDecimals(tol.x) })}
           {tol.y !== tol.x && ` / ±${number(tol.y, { decimals: limitDecimals(tol.y) })}`} mm
         </span>

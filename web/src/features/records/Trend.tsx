@@ -21,6 +21,7 @@ export function TrendRow({
 }) {
   const { t } = useTranslation("records");
   const decimals = limitDecimals(limit);
+  const figures = Math.min(3, decimals + 2);
   const reach = trendReach(data, limit);
   const y = (v: number) => 50 - (50 * v) / (limit * reach);
   const first = slots - data.values.length;
@@ -77,9 +78,9 @@ export function TrendRow({
       </div>
       <div className="ts">
         <span className="cap">{t("mean_abs")}</span>
-        <b>{number(data.meanAbs, { decimals: decimals + 2 })}</b>
+        <b>{number(data.meanAbs, { decimals: figures })}</b>
         <span className="cap">{t("largest")}</span>
-        <b>{number(data.largest, { decimals: decimals + 2 })}</b>
+        <b>{number(data.largest, { decimals: figures })}</b>
       </div>
     </div>
   );

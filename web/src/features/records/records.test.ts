@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { StopRecord } from "@/shared/api/types";
 import { countedStops, ellipse95, series, upTo, widerThanTolerance } from "./statistics";
-import { headingFactor, niceStep, plotScale } from "./targetScale";
+import { headingFactor, niceStep, plotScale, rayLength, toleranceLabelSide } from "./targetScale";
 import { drawnLimits, limitDecimals, trendReach, unbroken } from "./trendScale";
 import { matches, mergeStops, wantsOlder } from "./stopLists";
 
@@ -82,6 +82,7 @@ describe("target plot", () => {
     [10, 10],
     [9, 5],
     [0.34, 0.2],
+    [0.6 / 3, 0.2],
     [120, 100],
   ])("a step near %s is %s", (about, step) => expect(niceStep(about)).toBeCloseTo(step, 12));
 });
@@ -147,5 +148,23 @@ describe("older pages", () => {
         count,
       ),
     ).toBe(asks);
+  });
+});
+
+describe("a stop far outside", () => {
+  it.each([
+    [0.099, 100],
+    [-0.6, 100],
+    [-1.38, 10],
+    [7, 1],
+  ])("of %s degrees has its heading drawn times %s", (deg, factor) =>
+    expect(headingFactor(stop("a", "1", { dheading_rad: (deg * Math.PI) / 180 }))).toBe(factor),
+  );
+  it.each([-50, 0, 31, 40])("at %s mm keeps its ray within the plot of 60 mm", (y) =>
+    expect(y + rayLength(y, 60)).toBeLessThanOrEqual(60),
+  );
+  it("near the label's corner sends the label to the other one", () => {
+    expect(toleranceLabelSide({ x: 51, y: 31 }, 61)).toBe(-1);
+    expect(toleranceLabelSide({ x: -3, y: 0 }, 30)).toBe(1);
   });
 });

@@ -9,17 +9,33 @@ export function plotScale(stop: StopRecord): { half: number; step: number } {
   return { half, step: niceStep(half / 3) };
 }
 
-/** 1, 2, 5 times a power of ten. */
+/** 1, 2, 5 times a power of ten. The small allowance: 0.6 / 3 is a little less than 0.2. */
 export function niceStep(about: number): number {
-  const power = 10 ** Math.floor(Math.log10(about));
-  const share = about / power;
+  const wanted = about * (1 + 1e-9);
+  const power = 10 ** Math.floor(Math.log10(wanted));
+  const share = wanted / power;
   return (share >= 5 ? 5 : share >= 2 ? 2 : 1) * power;
 }
 
-/** Heading drawn so many times larger than it is; less when the tolerance is wide. */
+/** Widest angle at which a heading is drawn. */
+const kWidest_deg = 60;
+
+/** Heading drawn so many times larger than it is; less when the tolerance or this heading would turn too far. */
 export function headingFactor(stop: StopRecord): number {
-  const degrees = (stop.tolerance.dheading_rad * 180) / Math.PI;
-  return degrees * 100 <= 45 ? 100 : degrees * 10 <= 60 ? 10 : 1;
+  const degrees = (rad: number) => (Math.abs(rad) * 180) / Math.PI;
+  const fits = (factor: number) =>
+    degrees(stop.tolerance.dheading_rad) * factor <= 45 && degrees(stop.dheading_rad) * factor <= kWidest_deg;
+  return [100, 10].find(fits) ?? 1;
+}
+
+/** Length of the heading's ray from a stop at height `y`, so that it ends inside the plot. */
+export function rayLength(y: number, half: number): number {
+  return Math.max(half * 0.22, Math.min(half * 0.5, half * 0.98 - y));
+}
+
+/** The tolerance is written above its corner, or below when this stop stands near that corner. */
+export function toleranceLabelSide(at: { x: number; y: number }, half: number): 1 | -1 {
+  return at.x > -half * 0.1 && at.y > half * 0.2 ? -1 : 1;
 }
 
 /** The label stands on the side of the stop that has more room. */

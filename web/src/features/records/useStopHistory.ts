@@ -43,7 +43,7 @@ export function useStopHistory(filter: StopFilter, limit = kPage) {
 }
 
 /** This stop and those of its vehicle before it, oldest first; asks for older pages until there are `count`. */
-export function useStopsUpTo(stop: StopRecord, count: number): StopRecord[] {
+export function useStopsUpTo(stop: StopRecord, count: number) {
   const { stops, pages } = useStopHistory({ vehicle: stop.vehicle }, kTrendPage);
   const { fetchNextPage, hasNextPage, isFetching, isError } = pages;
   const fetched = pages.data?.pages.length ?? 0;
@@ -52,7 +52,8 @@ export function useStopsUpTo(stop: StopRecord, count: number): StopRecord[] {
   useEffect(() => {
     if (more) void fetchNextPage();
   }, [more, fetchNextPage]);
-  return useMemo(() => upTo(stops, stop, count), [stops, stop, count]);
+  const last = useMemo(() => upTo(stops, stop, count), [stops, stop, count]);
+  return { last, failed: isError };
 }
 
 /** One stop, from the stream when it is among the newest, else from the server. */

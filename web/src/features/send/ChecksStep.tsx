@@ -15,7 +15,13 @@ export function ChecksStep({ preview, checks }: { preview: Preview; checks: read
     return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "checks.wait")}</p>;
   }
   return (
-    <div className="checks" aria-busy={preview.kind === "loading"}>
+    <div
+      className="checks"
+      role="group"
+      aria-label={t("checks.title")}
+      tabIndex={0}
+      aria-busy={preview.kind === "loading"}
+    >
       {sortChecks(checks).map((check) => (
         <CheckRow
           key={check.code}

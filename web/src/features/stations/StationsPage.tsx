@@ -64,7 +64,7 @@ export function StationsPage() {
               ))}
             </div>
           </div>
-          <div className="scroll" tabIndex={0} role="region" aria-label={t("title")}>
+          <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
             {shown.length === 0 && <PanelEmpty what={t("none_fits")} />}
             <ul className="board" hidden={shown.length === 0}>
               {shown.map((station) => (

@@ -27,7 +27,7 @@ export function VehicleListPage() {
       ) : vehicles.length === 0 ? (
         <PanelEmpty what={t("list.empty")} when={t("list.empty_hint")} />
       ) : (
-        <div className="scroll" tabIndex={0} role="region" aria-label={t("list.title")}>
+        <div className="scroll" tabIndex={0} role="group" aria-label={t("list.title")}>
           <table className="rows">
             <thead>
               <tr>
