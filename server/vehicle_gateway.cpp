@@ -138,7 +138,6 @@ void VehicleGateway::opened(const plant::VehicleId& id,
     row.malformed_in_a_row = 0;
     row.said_offline = false;
     row.told_heard = now;
-    row.last_state.reset();
     log::info("vehicle_connected", {{"vehicle", id.str()}});
     ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
 }
@@ -200,7 +199,6 @@ void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socke
 }
 
 void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state) {
-    row.last_state = state;
     if (row.refused && Steady::now() - row.refused_at < kShowRefused) {
         state.errors.push_back(*row.refused);
     }
@@ -233,9 +231,10 @@ void VehicleGateway::malformed(const plant::VehicleId& id, Row& row, const Error
     row.refused_at = Steady::now();
     if (row.malformed_in_a_row >= ports_.limits.vehicle_malformed_in_a_row) {
         row.socket->close(1008, "too many malformed messages in a row");
-    } else if (fresh && row.last_state) {
-        // People see it at once, not only with the vehicle's next good state.
-        pass_state(id, row, *row.last_state);
+    } else if (fresh) {
+        ports_.runtime.input([id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
+            fleet.vehicle_message_refused(id, refused, at);
+        });
     }
 }
 
@@ -306,7 +305,6 @@ void VehicleGateway::introduce_all() {
         if (!row.socket) continue;
         ports_.runtime.input(
             [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
-        if (row.last_state) pass_state(id, row, *row.last_state);
     }
 }
 

@@ -81,7 +81,6 @@ private:
         Steady::time_point told_heard{};
         std::map<vda5050::Topic, std::string> retained;
         std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
-        std::optional<fleet::StateMessage> last_state;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors
         Steady::time_point refused_at{};
         int malformed_in_a_row = 0;

@@ -365,6 +365,13 @@ void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& facts
     hear(*impl_, *run, now);
 }
 
+void Fleet::vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error,
+                                    Time now) {
+    Params params{{"text", error.description}};
+    for (const auto& [key, value] : error.references) params.push_back({key, value});
+    add_event(*impl_, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));
+}
+
 void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
     VehicleRun* run = impl_->find(id);
     if (!run) return;

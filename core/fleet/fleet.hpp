@@ -82,6 +82,8 @@ public:
     void vehicle_heard(const plant::VehicleId& id, Time now);
     void vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now);
     void vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now);
+    /// A message that was no valid VDA 5050: told as an event, changes nothing else.
+    void vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error, Time now);
     /// Three takeovers of one identity within 60 s: refused until a person resumes the vehicle.
     void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
     bool connection_refused(const plant::VehicleId& id) const;

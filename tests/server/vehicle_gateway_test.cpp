@@ -101,7 +101,7 @@ TEST(VehicleGateway, ReportsAMalformedMessageAndKeepsTheSocket) {
 
     vehicle.send(R"({"topic":"state","payload":{"headerId":"one"}})");
 
-    EXPECT_TRUE(dashboard.read_until("messageRefused"));
+    EXPECT_TRUE(dashboard.read_until("vehicle.message_malformed"));
     vehicle.send(state_frame(2));
     EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
 }
