@@ -126,7 +126,9 @@ export function SendPage() {
   const current = openStep ?? (!vehicle ? 1 : !station ? 2 : 4);
   const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
   const unreachable = noWay ? step.options.find((o) => o.reason)?.reason : undefined;
-  const target = orderId ? order?.steps[order.current_step]?.number : station?.number;
+  const target = orderId
+    ? order?.steps[Math.min(order.current_step, order.steps.length - 1)]?.number
+    : station?.number;
 
   const title =
     vehicle && station

@@ -10,12 +10,39 @@ const kMaxParts = 4;
 
 /** What the wheels will do, as one short sentence: "turn 0.1° left, drive 10.003 m". */
 export function moveWords(segments: readonly Segment[], say: Say, join: string): string {
-  const shown = segments.filter((s) => s.kind !== "rotate" || Math.abs(s.turn_rad) > kSmallTurn_rad);
+  const shown = joined(segments).filter((s) => s.kind !== "rotate" || Math.abs(s.turn_rad) > kSmallTurn_rad);
   if (shown.length > kMaxParts) {
     const length = segments.reduce((sum, s) => sum + Math.abs(s.length_m), 0);
     return say("words.many", { count: shown.length, length: number(length, { decimals: 1 }) });
   }
   return shown.map((s) => segmentWords(s, say)).join(join);
+}
+
+/** An arc is cut below 180 degrees for the vehicle's order; a person reads the pieces as one. */
+function joined(segments: readonly Segment[]): Segment[] {
+  const out: Segment[] = [];
+  for (const s of segments) {
+    const last = out.at(-1);
+    const goesOn =
+      last?.kind === "arc" &&
+      s.kind === "arc" &&
+      last.turn_rad * s.turn_rad > 0 &&
+      last.length_m * s.length_m > 0 &&
+      Math.hypot(
+        (last.centre?.x_m ?? 0) - (s.centre?.x_m ?? 0),
+        (last.centre?.y_m ?? 0) - (s.centre?.y_m ?? 0),
+      ) < 0.01;
+    if (last && goesOn) {
+      out[out.length - 1] = {
+        ...last,
+        end: s.end,
+        turn_rad: last.turn_rad + s.turn_rad,
+        length_m: last.length_m + s.length_m,
+        duration_s: last.duration_s + s.duration_s,
+      };
+    } else out.push(s);
+  }
+  return out;
 }
 
 export function segmentWords(s: Segment, say: Say): string {

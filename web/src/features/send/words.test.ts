@@ -45,6 +45,18 @@ describe("moveWords", () => {
       "arc 180.0° right backwards, radius 10.0 m",
     ],
   ])("%o is %s", (over, words) => expect(moveWords([segment(over)], say, ", ")).toBe(words));
+  it("reads the pieces of one arc as one, and another arc apart", () => {
+    const piece = {
+      kind: "arc" as const,
+      turn_rad: Math.PI / 4,
+      length_m: 2.5 * Math.PI,
+      centre: { x_m: 1, y_m: 2 },
+    };
+    const other = { ...piece, centre: { x_m: 9, y_m: 2 } };
+
+    expect(moveWords([segment(piece), segment(piece)], say, ", ")).toBe("arc 90.0° left, radius 10.0 m");
+    expect(moveWords([segment(piece), segment(other)], say, ", ").match(/arc/g)).toHaveLength(2);
+  });
   it("leaves out a turn that nobody can see", () => {
     expect(moveWords([segment({ kind: "rotate", turn_rad: 1e-5 })], say, ", ")).toBe("");
   });

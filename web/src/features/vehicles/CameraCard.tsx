@@ -1,8 +1,8 @@
-import { useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card, Chip } from "@/shared/ui";
 import { age, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
+import { usePicture } from "./usePicture";
 
 export type Camera = Vehicle["cameras"][number];
 type CameraType = VehicleType["cameras"][number];
@@ -60,36 +60,17 @@ function Picture({
   title: string;
 }) {
   const { t } = useTranslation("vehicles");
-  const [broken, setBroken] = useState<string>();
-  const [shown, setShown] = useState<string>();
-  const at = camera.image_at;
-  const next =
-    at === undefined
-      ? undefined
-      : `/api/v1/vehicles/${encodeURIComponent(vehicle)}/cameras/${encodeURIComponent(camera.name)}?at=${encodeURIComponent(at)}`;
-  // The old picture stays until the new one is there, so that nothing flickers.
-  useEffect(() => {
-    if (next === undefined) return;
-    let current = true;
-    const image = new Image();
-    image.onload = () => current && setShown(next);
-    image.onerror = () => current && setBroken(next);
-    image.src = next;
-    return () => {
-      current = false;
-    };
-  }, [next]);
-  const width = type?.width_px ?? 1280;
-  const height = type?.height_px ?? 1024;
-  const none = shown === undefined || (broken === next && shown !== next);
+  const shown = usePicture(vehicle, camera.name, camera.image_at);
   return (
-    <div className="camimg" style={{ aspectRatio: `${width} / ${height}` }}>
-      {none ? (
+    <div className="camimg" style={{ aspectRatio: `${type?.width_px ?? 1280} / ${type?.height_px ?? 1024}` }}>
+      {shown === undefined ? (
         <span className="lab">{t("camera.no_image")}</span>
       ) : (
-        <img src={shown} alt={t("camera.image", { name: title })} />
+        <>
+          <img src={shown} alt={t("camera.image", { name: title })} />
+          <Overlay camera={camera} type={type} />
+        </>
       )}
-      <Overlay camera={camera} type={type} />
     </div>
   );
 }
