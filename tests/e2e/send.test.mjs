@@ -1,0 +1,160 @@
+// The operator's main job in Chromium against the real server and three real agents: sign in, send a platform,
+// see it arrive, read how far from the drawing it stopped. The world's own log is the judge.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Client, angleBetween } from "../harness/client.mjs";
+import { System, until } from "../harness/processes.mjs";
+import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+
+const VEHICLES = ["TP-01", "TP-02", "TP-03"];
+let system, client, browser;
+
+before(async () => {
+  system = await System.create("final-assembly");
+  system.prepareVehicles(VEHICLES);
+  await system.startServer();
+  client = new Client(system.url, system.apiToken);
+  VEHICLES.forEach((id, i) => system.startAgent(id, { seed: 11 + i }));
+  for (const id of VEHICLES) await client.untilReady(id);
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await system?.stop();
+});
+
+/** Fills in the send screen; the preview of the chosen mode must be there. */
+async function choose(page, vehicle, station, mode) {
+  await page.goto(`${system.url}/send`);
+  const change = page.getByRole("button", { name: /^Change: Vehicle/ });
+  if (await change.isVisible().catch(() => false)) await change.click();
+  await page.getByRole("option", { name: new RegExp(`^${vehicle}`) }).click();
+  for (const digit of String(station)) await page.getByRole("button", { name: digit, exact: true }).click();
+  const row = page.getByRole("radio", { name: mode });
+  await row.waitFor({ timeout: 20_000 });
+  await row.click();
+}
+
+/** Two steps: arm, then start. Gives the newest order of the vehicle. */
+async function armAndStart(page, vehicle) {
+  const before = new Set((await client.get(`/api/v1/job-orders?vehicle=${vehicle}`)).items.map((o) => o.id));
+  const start = page.getByRole("button", { name: /Start move/ });
+  await until("start can be armed", async () => (await start.getAttribute("aria-disabled")) !== "true", { timeout_s: 20, every_ms: 100 });
+  await page.getByRole("button", { name: /Arm/ }).click();
+  await page.getByRole("button", { name: /Start move/ }).dblclick();
+  return until("the order is stored", async () => (await client.get(`/api/v1/job-orders?vehicle=${vehicle}`)).items.find((o) => !before.has(o.id)), { timeout_s: 10, every_ms: 50 });
+}
+
+async function checkArrival(vehicle, order, number) {
+  assert.equal((await client.untilEnded(order.id, 90)).state, "Ended");
+  const truth = system.lastTruth(vehicle);
+  const { pose } = system.plant.station(number);
+  assert.ok(Math.abs(truth.x_m - pose.x_m) <= 0.025 && Math.abs(truth.y_m - pose.y_m) <= 0.025, "inside +-25 mm by the truth");
+  assert.ok(Math.abs(angleBetween(truth.heading_rad, pose.heading_rad)) <= 0.2 * Math.PI / 180, "inside +-0.2 deg by the truth");
+}
+
+test("sign in and see the hall", async () => {
+  const page = await signedIn(browser, system, "operator");
+  await page.locator("canvas").first().waitFor();
+  await page.getByText("TP-01").first().waitFor();
+  assert.deepEqual(page.errors, []);
+  await picture(page, "map-1920-light-en");
+  await page.context().close();
+});
+
+test("a wrong password is told in words", async () => {
+  const context = await browser.newContext();
+  const page = await context.newPage();
+  await page.goto(system.url);
+  await page.locator("input[name=username]").fill("operator");
+  await page.locator("input[type=password]").fill("wrong-password");
+  await page.locator("button[type=submit]").click();
+  await page.getByRole("alert").first().waitFor({ timeout: 10_000 });
+  assert.equal(await page.locator(".shell").count(), 0);
+  await context.close();
+});
+
+test("send TP-01 from station 1 to 2, linear: one order, an arrival, a visible stop record", async () => {
+  const page = await signedIn(browser, system, "operator");
+  await choose(page, "TP-01", 2, /Linear/);
+  await picture(page, "send-1920-light-en");
+  const order = await armAndStart(page, "TP-01");
+  assert.equal((await client.get("/api/v1/job-orders?vehicle=TP-01")).items.length, 1, "a double click is one command");
+  await checkArrival("TP-01", order, 2);
+  await page.getByText(/Inside tolerance/).first().waitFor({ timeout: 15_000 });
+  await picture(page, "arrival-1920-light-en");
+  await page.getByRole("link", { name: /Stop record/ }).first().click();
+  await page.waitForURL(/\/records\//);
+  await page.getByText(/Inside tolerance/).first().waitFor();
+  await picture(page, "record-1920-light-en");
+  assert.deepEqual(page.errors, []);
+  await page.context().close();
+});
+
+test("send TP-01 from station 3 to 4 by fixed-axis rotation", async () => {
+  const there = await client.order("TP-01", [3]);
+  await checkArrival("TP-01", there, 3);
+  const page = await signedIn(browser, system, "operator");
+  await choose(page, "TP-01", 4, /Fixed-axis/);
+  const order = await armAndStart(page, "TP-01");
+  await checkArrival("TP-01", order, 4);
+  assert.equal((await client.stops(order.id)).at(-1).mode, "fixed_axis_rotation");
+  await page.context().close();
+});
+
+test("Pause fleet is one press and Resume names the vehicles", async () => {
+  const page = await signedIn(browser, system, "operator");
+  await page.getByRole("button", { name: /Pause fleet/ }).click();
+  await until("the fleet is paused", async () => (await client.get("/api/v1/fleet")).paused, { timeout_s: 5, every_ms: 50 });
+  await page.getByText(/not an emergency stop/i).first().waitFor().catch(() => {});
+  await client.post("/api/v1/fleet/resume", { vehicles: system.plant.model.vehicles.map((v) => v.id) });
+  await page.getByRole("button", { name: /Pause fleet/ }).waitFor({ timeout: 5_000 });
+  await page.context().close();
+});
+
+test("a viewer can look and not send", async () => {
+  const page = await signedIn(browser, system, "viewer");
+  await page.goto(`${system.url}/send`);
+  const start = page.getByRole("button", { name: /Start move/ });
+  if (await start.count()) assert.equal(await start.getAttribute("aria-disabled"), "true");
+  await page.context().close();
+});
+
+test("the server gone: the page says so within 5 s and keeps the vehicles", async () => {
+  const page = await signedIn(browser, system, "operator");
+  await page.getByText("TP-02").first().waitFor();
+  await page.context().setOffline(true);
+  await system.kill(system.server);
+  await page.getByText(/Link lost|No connection|lost/i).first().waitFor({ timeout: 5_000 });
+  await page.getByText("TP-02").first().waitFor();
+  await picture(page, "map-link-cut");
+  await system.startServer();
+  await page.context().setOffline(false);
+  await page.getByText(/Live/).first().waitFor({ timeout: 20_000 });
+  for (const id of VEHICLES) await client.untilReady(id);
+  const { needs_resume } = await client.get("/api/v1/fleet");
+  if (needs_resume.length) await client.post("/api/v1/fleet/resume", { vehicles: needs_resume });
+  await page.context().close();
+});
+
+for (const [width, height] of [[1920, 1080], [1024, 768]]) {
+  for (const lang of ["en", "zh"]) {
+    for (const theme of ["light", "dark"]) {
+      test(`every screen at ${width} px, ${lang}, ${theme}: drawn, without faults of accessibility`, async () => {
+        const page = await signedIn(browser, system, "operator", { width, height, lang, theme });
+        const [stop] = (await client.get("/api/v1/stop-records?limit=1")).items;
+        for (const [name, path] of [["map", "/map"], ["send", "/send"], ["orders", "/orders"], ["vehicle", "/vehicles/TP-01"], ["vehicles", "/vehicles"], ["records", "/records"], ["record", `/records/${stop.id}`], ["stations", "/stations"]]) {
+          await page.goto(`${system.url}${path}`);
+          await page.locator("main, .page").first().waitFor();
+          await until("the data has come", async () => (await page.locator(".page").innerText()).length > 40, { timeout_s: 10, every_ms: 50 });
+          await picture(page, `${name}-${width}-${theme}-${lang}`);
+          assert.deepEqual(await faultsOf(page), [], `${name}: accessibility`);
+          const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+          assert.ok(wide <= 0, `${name} is ${wide} px too wide`);
+        }
+        assert.deepEqual(page.errors, []);
+        await page.context().close();
+      });
+    }
+  }
+}
