@@ -33,10 +33,8 @@ public:
     bool take_fresh();
     /// Annotated pictures of the last look; none in analytic mode.
     std::vector<Picture> pictures() const;
-    void forget() {
-        readings_.clear();
-        images_.clear();
-    }
+    /// The vehicle left the place: its readings say nothing any more. Pictures on their way stay.
+    void forget() { readings_.clear(); }
     /// Somebody covers the codes.
     void cover() { covered_ = true; }
 
