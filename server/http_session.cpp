@@ -71,7 +71,11 @@ net::awaitable<void> close_gently(Stream& stream, bool linger) {
     socket.socket().close(ec);
 }
 
-bool is_vehicle_path(const std::string& path) { return path.rfind("/vehicles/", 0) == 0; }
+/// Maker and serial number; with one name behind it /vehicles/ is a page of the dashboard.
+bool is_vehicle_path(const std::string& path) {
+    constexpr std::string_view kPrefix = "/vehicles/";
+    return path.rfind(kPrefix, 0) == 0 && path.find('/', kPrefix.size()) != std::string::npos;
+}
 
 void note(Context& context, const api::Request& request, const char* route, int status,
           Steady::time_point start) {
