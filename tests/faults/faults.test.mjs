@@ -60,13 +60,13 @@ test("a corrupt plant file is named and nothing is stored", () => {
   assert.match(said(imported), /broken\.json/);
 });
 
-test("a full disk at the start is named", { skip: process.getuid() !== 0 && "needs root to mount a small file system" }, () => {
+test("a full disk at the start is named", { skip: process.getuid() !== 0 && "needs root to mount a small file system" }, (t) => {
   const mount = join(system.directory, "tiny");
   mkdirSync(mount);
   try {
     execFileSync("mount", ["-t", "tmpfs", "-o", "size=64k", "tmpfs", mount]);
   } catch {
-    return test.skip?.("no mounts here");
+    return t.skip("this machine allows no mounts");
   }
   try {
     spawnSync("dd", ["if=/dev/zero", `of=${mount}/fill`, "bs=1k"], { stdio: "ignore" });
