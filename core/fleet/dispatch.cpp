@@ -64,7 +64,8 @@ void assign_waiting(FleetState& fleet, Time now) {
             if (!is_free(fleet, *run)) {
                 const JobOrder* other = order_of(fleet, run->record.id);
                 why_not = {"vehicle_busy", {{"vehicle", run->record.id.str()}}};
-                if (other) why_not.params.push_back({"order", "JO-" + std::to_string(other->number)});
+                if (other)
+                    why_not.params.push_back({"order", "JO-" + std::to_string(other->number)});
                 run = nullptr;
             } else if (const auto reason = not_ready(fleet, *run, now)) {
                 why_not = *reason;

@@ -45,12 +45,12 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!may_stop_at(*station, *run.type)) {
-            return fail(Errc::kUnreachable, "station_not_for_type",
-                        "Station " + std::to_string(station->number) + " is not for vehicles of type " +
-                            run.type->name + ". Choose another station or vehicle.",
-                        step_field(i, "station"),
-                        {{"station", std::int64_t{station->number}},
-                         {"vehicle_type", run.type->name}});
+            return fail(
+                Errc::kUnreachable, "station_not_for_type",
+                "Station " + std::to_string(station->number) + " is not for vehicles of type " +
+                    run.type->name + ". Choose another station or vehicle.",
+                step_field(i, "station"),
+                {{"station", std::int64_t{station->number}}, {"vehicle_type", run.type->name}});
         }
         plan.starts.push_back(pose.value_or(Pose2{}));
         plan.plans.emplace_back();
@@ -145,7 +145,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     if (best) return std::move(*best);
     if (why_not) return fail(*why_not);
     return fail(Errc::kConflict, "no_vehicle",
-                "No vehicle has been heard in the last 60 s. Connect one, then repeat.", "/vehicle");
+                "No vehicle has been heard in the last 60 s. Connect one, then repeat.",
+                "/vehicle");
 }
 
 Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
@@ -188,8 +189,9 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.created = now;
     const JobOrder& stored = fleet.orders.emplace(order.id, std::move(order)).first->second;
     fleet.stored_orders.insert(stored.id);
-    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
-              {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
+    add_event(
+        fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
+        {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
     if (!request.idempotency_key.empty()) {
         const IdempotencyRecord record{request.idempotency_client, request.idempotency_key,
                                        request.body_sha256, stored.id, now};

@@ -26,8 +26,8 @@ bool same_wait(const Reason& a, const Reason& b) {
 
 void add_event(FleetState& fleet, Time now, std::string type, JobOrderId order, LegId leg,
                const plant::VehicleId& vehicle, const std::string& actor, Params params) {
-    fleet.out.records.events.push_back({++fleet.event_seq, now, std::move(type), order, leg, vehicle,
-                                        actor, std::move(params)});
+    fleet.out.records.events.push_back(
+        {++fleet.event_seq, now, std::move(type), order, leg, vehicle, actor, std::move(params)});
 }
 
 void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason reason,

@@ -29,7 +29,8 @@ struct VehicleRun {
     VehicleRecord record;
 
     bool connected = false;
-    bool reconciled = false;  // a state has come since it connected; before that no command goes out
+    bool reconciled =
+        false;  // a state has come since it connected; before that no command goes out
     bool connection_refused = false;
     Link link = Link::kNever;
     std::optional<Time> last_heard;
@@ -42,7 +43,7 @@ struct VehicleRun {
     std::size_t update_from = 0;      // first node of the last update
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
-    bool cancelling = false;          // cancelOrder is not final: nothing but instant actions
+    bool cancelling = false;  // cancelOrder is not final: nothing but instant actions
     std::vector<traffic::TileSet> edge_tiles;  // floor of each edge of the leg
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
@@ -79,7 +80,7 @@ struct FleetState {
 
     // Put out by this step.
     Outputs out;
-    std::set<plant::VehicleId> stored_vehicles;   // records to write
+    std::set<plant::VehicleId> stored_vehicles;  // records to write
     std::set<JobOrderId> stored_orders;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
     std::set<plant::StationId> changed_stations;
@@ -158,6 +159,8 @@ void hear(FleetState& fleet, VehicleRun& run, Time now);
 void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
 /// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
+/// Sends startPause or stopPause; the newest wish counts.
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
 void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
@@ -171,8 +174,8 @@ void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why
 /// The vehicle that would serve the order and the plan of each step from where it will stand.
 struct OrderPlan {
     plant::VehicleId vehicle;
-    std::vector<Pose2> starts;                                // one per step
-    std::vector<std::optional<planning::LegPlan>> plans;      // absent: start unknown or in place
+    std::vector<Pose2> starts;                            // one per step
+    std::vector<std::optional<planning::LegPlan>> plans;  // absent: start unknown or in place
 };
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now);
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
@@ -190,7 +193,12 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
                                      const std::vector<CameraReading>& readings);
 
+// --- restart (restore.cpp) ---
+/// Fills an empty fleet from plant and store. Open orders wait for a person's act.
+void restore(FleetState& fleet, StoredFleet stored, Time now);
+
 // --- views (views.cpp) ---
+StationView station_view(const FleetState& fleet, const plant::Station& station);
 VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now);
 std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
                                 const plant::Station* target,

@@ -102,13 +102,13 @@ void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by it.
+/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
+/// it.
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     if (state.position_initialized || state.driving) return;
-    const bool pending = std::any_of(run.actions.begin(), run.actions.end(), [](const auto& p) {
-        return p.action.type == "initPosition";
-    });
+    const bool pending = std::any_of(run.actions.begin(), run.actions.end(),
+                                     [](const auto& p) { return p.action.type == "initPosition"; });
     if (pending) return;
     const auto pose = pose_from_codes(fleet, run, state.cameras);
     if (!pose) return;
@@ -143,9 +143,9 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
                 fleet.store(*order);
             }
         } else if (const auto* error = rejection_of(state, leg.id.str())) {
-            require_person(fleet, run,
-                           {"order_rejected", {{"type", error->type}, {"text", error->description}}},
-                           now);
+            require_person(
+                fleet, run,
+                {"order_rejected", {{"type", error->type}, {"text", error->description}}}, now);
             drop_leg(fleet, run);
         }
         return;
@@ -160,9 +160,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         run.update_sends = 0;
     }
     if (!state.last_node_id.empty()) {
-        const auto passed = static_cast<std::size_t>(
-            std::clamp<std::int64_t>(state.last_node_sequence_id / 2 + 1, 1,
-                                     static_cast<std::int64_t>(leg.nodes.size())));
+        const auto passed = static_cast<std::size_t>(std::clamp<std::int64_t>(
+            state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
         if (passed > leg.passed_nodes) {
             leg.passed_nodes = passed;
             free_floor_behind(fleet, run);
@@ -277,6 +276,16 @@ void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now) {
         pending.sends = 1;
     }
     run.actions.push_back(std::move(pending));
+}
+
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now) {
+    // The newest wish counts: an older pause or unpause still on its way is not sent again.
+    std::erase_if(run.actions, [](const PendingAction& pending) {
+        return pending.action.type == "startPause" || pending.action.type == "stopPause";
+    });
+    Action action;
+    action.type = action_type;
+    send_action(fleet, run, std::move(action), now);
 }
 
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {

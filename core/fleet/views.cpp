@@ -55,11 +55,10 @@ LegView leg_view(const VehicleRun& run) {
         const auto& segment = leg.edges[i].segment;
         if (i + 1 == leg.released_nodes) view.granted_points = view.path.size();
         if (segment.kind != kinematics::Segment::Kind::kRotate) {
-            const int samples =
-                segment.kind == kinematics::Segment::Kind::kArc
-                    ? std::max(1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) /
-                                                             kArcSample_rad)))
-                    : 1;
+            const int samples = segment.kind == kinematics::Segment::Kind::kArc
+                                    ? std::max(1, static_cast<int>(std::ceil(
+                                                      std::abs(segment.turn_rad) / kArcSample_rad)))
+                                    : 1;
             for (int k = 1; k <= samples; ++k) {
                 view.path.push_back(
                     kinematics::pose_at(segment, static_cast<double>(k) / samples).position());
@@ -99,9 +98,8 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
         return {activity, reason};
     }
     if (run.has_leg()) {
-        const bool measuring =
-            order && order->current_step < order->steps.size() &&
-            order->steps[order->current_step].state == StepState::kMeasuring;
+        const bool measuring = order && order->current_step < order->steps.size() &&
+                               order->steps[order->current_step].state == StepState::kMeasuring;
         if (measuring) return {Activity::kMeasuring, std::nullopt};
         if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
@@ -117,48 +115,72 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
 
 const char* to_string(Link link) {
     switch (link) {
-        case Link::kNever: return "never";
-        case Link::kLive: return "live";
-        case Link::kLate: return "late";
-        case Link::kLost: return "lost";
-        case Link::kGone: return "gone";
+        case Link::kNever:
+            return "never";
+        case Link::kLive:
+            return "live";
+        case Link::kLate:
+            return "late";
+        case Link::kLost:
+            return "lost";
+        case Link::kGone:
+            return "gone";
     }
     return "never";
 }
 
 const char* to_string(Activity activity) {
     switch (activity) {
-        case Activity::kStanding: return "standing";
-        case Activity::kMoving: return "moving";
-        case Activity::kMeasuring: return "measuring";
-        case Activity::kWaiting: return "waiting";
-        case Activity::kPaused: return "paused";
-        case Activity::kBlocked: return "blocked";
-        case Activity::kCharging: return "charging";
-        case Activity::kUnknown: return "unknown";
+        case Activity::kStanding:
+            return "standing";
+        case Activity::kMoving:
+            return "moving";
+        case Activity::kMeasuring:
+            return "measuring";
+        case Activity::kWaiting:
+            return "waiting";
+        case Activity::kPaused:
+            return "paused";
+        case Activity::kBlocked:
+            return "blocked";
+        case Activity::kCharging:
+            return "charging";
+        case Activity::kUnknown:
+            return "unknown";
     }
     return "unknown";
 }
 
 const char* to_string(JobState state) {
     switch (state) {
-        case JobState::kNotAllowedToStart: return "NotAllowedToStart";
-        case JobState::kAllowedToStart: return "AllowedToStart";
-        case JobState::kRunning: return "Running";
-        case JobState::kInterrupted: return "Interrupted";
-        case JobState::kEnded: return "Ended";
-        case JobState::kAborted: return "Aborted";
+        case JobState::kNotAllowedToStart:
+            return "NotAllowedToStart";
+        case JobState::kAllowedToStart:
+            return "AllowedToStart";
+        case JobState::kRunning:
+            return "Running";
+        case JobState::kInterrupted:
+            return "Interrupted";
+        case JobState::kEnded:
+            return "Ended";
+        case JobState::kAborted:
+            return "Aborted";
     }
     return "Aborted";
 }
 
 const char* to_string(StepState state) {
     switch (state) {
-        case StepState::kPending: return "pending";
-        case StepState::kDriving: return "driving";
-        case StepState::kMeasuring: return "measuring";
-        case StepState::kDone: return "done";
-        case StepState::kSkipped: return "skipped";
+        case StepState::kPending:
+            return "pending";
+        case StepState::kDriving:
+            return "driving";
+        case StepState::kMeasuring:
+            return "measuring";
+        case StepState::kDone:
+            return "done";
+        case StepState::kSkipped:
+            return "skipped";
     }
     return "skipped";
 }
@@ -188,6 +210,21 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     view.needs_resume = run.record.needs_resume;
     view.needs_resume_reason = run.record.needs_resume_reason;
     view.state = run.state;
+    return view;
+}
+
+StationView station_view(const FleetState& fleet, const plant::Station& station) {
+    StationView view{station.id, station.number, {}, {}, false, {}};
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (run.record.at_station == station.id && !run.record.at_station.empty()) {
+            view.occupied_by = id;
+            // Ready: it stands there and its last stop, measured here, was inside tolerance.
+            view.ready = run.record.last_stop_inside &&
+                         run.record.last_stop_station == station.id && !run.has_leg();
+            if (run.record.last_stop_station == station.id) view.last_stop = run.record.last_stop;
+        }
+        if (run.has_leg() && run.leg().station == station.id) view.reserved_by = id;
+    }
     return view;
 }
 
