@@ -18,18 +18,6 @@ tl::unexpected<Error> wrong_state(const JobOrder& order, const char* method) {
                 {}, {{"state", to_string(order.state)}, {"method", method}});
 }
 
-}  // namespace
-
-Result<Created> Fleet::create(const NewOrder& order, Time now) {
-    auto created = create_order(*state_, order, now);
-    if (!created || created->repeated) return created;
-    dispatch(*state_, now);
-    created->order = *state_->find(created->order.id);
-    return created;
-}
-
-namespace {
-
 Result<JobOrder*> find_for_change(FleetState& fleet, JobOrderId id,
                                   std::optional<std::int64_t> if_revision) {
     JobOrder* order = fleet.find(id);
@@ -43,6 +31,14 @@ Result<JobOrder*> find_for_change(FleetState& fleet, JobOrderId id,
 }
 
 }  // namespace
+
+Result<Created> Fleet::create(const NewOrder& order, Time now) {
+    auto created = create_order(*state_, order, now);
+    if (!created || created->repeated) return created;
+    dispatch(*state_, now);
+    created->order = *state_->find(created->order.id);
+    return created;
+}
 
 Result<JobOrder> Fleet::pause_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                     const std::string& actor, Time now) {
