@@ -36,7 +36,7 @@ void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state,
     VehicleRun* run = state_->find(id);
     if (!run) return;
     take_state(*state_, *run, state, now);
-    dispatch(*state_, now);
+    dispatch_for(*state_, *run, now);
 }
 
 void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now) {
@@ -69,9 +69,7 @@ void Fleet::tick(Time now) {
     update_links(*state_, now);
     resend(*state_, now);
     dispatch(*state_, now);
-    std::erase_if(state_->orders, [&](const auto& entry) {
-        return is_final(entry.second.state) && now - entry.second.ended > kKeepFinal;
-    });
+    state_->orders.forget_ended_before(now - kKeepFinal);
     std::erase_if(state_->idempotency,
                   [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
 }

@@ -48,13 +48,7 @@ std::optional<JobOrder> Fleet::order(JobOrderId id) const {
     return order ? std::optional<JobOrder>(*order) : std::nullopt;
 }
 
-std::vector<JobOrder> Fleet::orders() const {
-    std::vector<JobOrder> orders;
-    for (auto it = state_->orders.rbegin(); it != state_->orders.rend(); ++it) {
-        orders.push_back(it->second);
-    }
-    return orders;
-}
+std::vector<JobOrder> Fleet::orders() const { return state_->orders.newest_first(); }
 
 std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now) const {
     const VehicleRun* run = state_->find(id);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,9 +37,10 @@ struct Step {
     plant::StationId station;
     plant::MotionMode mode = plant::MotionMode::kAuto;
     StepState state = StepState::kPending;
-    LegId leg;          // the drive under way or done
-    StopRecordId stop;  // set when the stop was measured
-    int attempts = 0;   // approaches made so far
+    LegId leg;             // the drive under way or done
+    StopRecordId stop;     // set when the stop was measured
+    int attempts = 0;      // approaches made so far
+    double planned_s = 0;  // drive as planned when the order came
 };
 
 struct JobOrder {
@@ -58,7 +60,8 @@ struct JobOrder {
     Time created;
     Time started;
     Time ended;
-    std::int64_t revision = 1;  // ETag
+    std::optional<Time> expected;  // end of the last drive, while the order runs
+    std::int64_t revision = 1;     // ETag
 };
 
 /// One measured arrival. Deviation = measured - theoretical in the hall frame.

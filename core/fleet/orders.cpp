@@ -25,8 +25,8 @@ bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) 
 std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run) {
     std::optional<Pose2> pose;
     if (run.record.pose_known) pose = run.record.pose;
-    for (const auto& [id, order] : fleet.orders) {
-        if (is_final(order.state)) continue;
+    for (const JobOrderId& id : fleet.orders.open()) {
+        const JobOrder& order = *fleet.find(id);
         if (order.assigned_vehicle != run.record.id && order.wanted_vehicle != run.record.id) {
             continue;
         }
@@ -162,16 +162,15 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
         }
     }
     if (!request.client_order_id.empty()) {
-        for (const auto& [id, order] : fleet.orders) {
-            if (order.client_order_id == request.client_order_id) {
-                return fail(Errc::kConflict, "duplicate_client_order_id",
-                            "Order " + request.client_order_id +
-                                " exists already. Use another client_order_id.",
-                            "/client_order_id", {{"order", id.str()}});
-            }
+        if (const auto* known = fleet.orders.with_client_id(request.client_order_id)) {
+            return fail(Errc::kConflict, "duplicate_client_order_id",
+                        "Order " + request.client_order_id +
+                            " exists already. Use another client_order_id.",
+                        "/client_order_id", {{"order", known->id.str()}});
         }
     }
-    if (auto plan = plan_order(fleet, request, now); !plan) return fail(plan.error());
+    const auto plan = plan_order(fleet, request, now);
+    if (!plan) return fail(plan.error());
 
     JobOrder order;
     order.id = JobOrderId(fleet.ids.next(now));
@@ -179,15 +178,16 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.client_order_id = request.client_order_id;
     order.wanted_vehicle = request.vehicle;
     order.priority = request.priority;
-    for (const auto& step : request.steps) {
+    for (std::size_t i = 0; i < request.steps.size(); ++i) {
         Step made;
-        made.station = plant::find_station(fleet.plant, step.station_number)->id;
-        made.mode = step.mode;
+        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
+        made.mode = request.steps[i].mode;
+        if (plan->plans[i]) made.planned_s = plan->plans[i]->duration_s;
         order.steps.push_back(std::move(made));
     }
     order.created_by = request.actor;
     order.created = now;
-    const JobOrder& stored = fleet.orders.emplace(order.id, std::move(order)).first->second;
+    const JobOrder& stored = fleet.orders.add(std::move(order));
     fleet.stored_orders.insert(stored.id);
     add_event(
         fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,

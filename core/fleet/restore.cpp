@@ -26,8 +26,8 @@ void hold_restored_floor(FleetState& fleet, VehicleRun& run) {
 /// Orders go on only after the person's act of design.md section 4.
 void interrupt_after_restart(FleetState& fleet, Time now) {
     bool any_vehicle = false;
-    for (auto& [id, order] : fleet.orders) {
-        if (is_final(order.state)) continue;
+    for (const JobOrderId& id : fleet.orders.open()) {
+        const JobOrder& order = *fleet.find(id);
         const plant::VehicleId vehicle =
             order.assigned_vehicle.empty() ? order.wanted_vehicle : order.assigned_vehicle;
         if (vehicle.empty()) any_vehicle = true;
@@ -55,7 +55,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         run.type = type;
         run.record.id = vehicle.id;
     }
-    for (auto& order : stored.orders) fleet.orders.emplace(order.id, std::move(order));
+    for (auto& order : stored.orders) fleet.orders.add(std::move(order));
     for (auto& key : stored.idempotency) fleet.idempotency[{key.client, key.key}] = std::move(key);
     for (auto& record : stored.vehicles) {
         VehicleRun* run = fleet.find(record.id);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/order_book.hpp"
 #include "core/planning/leg_planner.hpp"
 
 /// The fleet's own state, shared by the phases of fleet.cpp. Not for use outside core/fleet.
@@ -72,7 +73,7 @@ struct FleetState {
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, VehicleRun> vehicles;
-    std::map<JobOrderId, JobOrder> orders;  // UUIDv7: sorted by age
+    OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     traffic::TileMap tiles;
     std::int64_t event_seq = 0;
@@ -92,11 +93,8 @@ struct FleetState {
     const VehicleRun* find(const plant::VehicleId& id) const {
         return const_cast<FleetState*>(this)->find(id);
     }
-    JobOrder* find(JobOrderId id) {
-        const auto it = orders.find(id);
-        return it == orders.end() ? nullptr : &it->second;
-    }
-    const JobOrder* find(JobOrderId id) const { return const_cast<FleetState*>(this)->find(id); }
+    JobOrder* find(JobOrderId id) { return orders.find(id); }
+    const JobOrder* find(JobOrderId id) const { return orders.find(id); }
 
     void store(JobOrder& order) {
         ++order.revision;
@@ -118,12 +116,12 @@ void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason rea
 /// Says why an order waits; an event and a row only when the reason's code or vehicle changed.
 void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time now);
 
-/// The open order the vehicle works for, or null.
-JobOrder* order_of(FleetState& fleet, const plant::VehicleId& vehicle);
 Duration silence(const FleetState& fleet, const VehicleRun& run, Time now);
 /// Vehicle's outline (with its load) at a pose, convex pieces in the hall frame.
 std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose);
 bool is_loaded(const VehicleRun& run);
+/// Speed of the vehicle by its own factsheet over that of its type in the plant.
+double speed_share(const VehicleRun& run);
 std::string hall_of(const FleetState& fleet, const VehicleRun& run);
 std::size_t hall_index(const FleetState& fleet, const std::string& hall);
 /// Station whose theoretical pose the vehicle stands on (within 0.25 m and 3 deg); empty: none.
@@ -186,6 +184,9 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
 
 // --- dispatch (dispatch.cpp) ---
 void dispatch(FleetState& fleet, Time now);
+/// What a report of one vehicle can set in motion at once: its base, its next step. The rest waits
+/// for the next tick, so that a report costs the same in a fleet of a thousand.
+void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
 /// Why this vehicle may not start a move now; nullopt: it may.
 std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
 

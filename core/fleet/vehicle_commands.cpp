@@ -33,7 +33,7 @@ Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::
         state_->out.fleet_changed = true;
         add_event(*state_, now, "vehicle.paused", {}, run->record.leg, id, actor);
         pause_motion(*state_, *run, "startPause", now);
-        JobOrder* order = order_of(*state_, id);
+        JobOrder* order = state_->orders.of(id);
         if (order && order->state == JobState::kRunning) {
             set_order_state(*state_, *order, JobState::kInterrupted,
                             {"vehicle_paused", {{"vehicle", id.str()}, {"actor", actor}}}, actor,
@@ -112,7 +112,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         state_->store(run);
         if (was_paused || run.state.paused) pause_motion(*state_, run, "stopPause", now);
 
-        JobOrder* order = order_of(*state_, id);
+        JobOrder* order = state_->orders.of(id);
         if (run.has_leg() && run.state.order_id != run.leg().id.str()) {
             // The vehicle never got it or gave it up; the step starts anew from where it stands.
             drop_leg(*state_, run);

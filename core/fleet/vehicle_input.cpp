@@ -37,7 +37,7 @@ const ActionState* find_action(const StateMessage& state, const std::string& id)
 }
 
 void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
-    JobOrder* order = order_of(fleet, run.record.id);
+    JobOrder* order = fleet.orders.of(run.record.id);
     drop_leg(fleet, run);
     if (!order) return;
     if (order->current_step < order->steps.size()) {
@@ -128,6 +128,17 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
     return nullptr;
 }
 
+/// When the order's last drive should end, now that this leg begins.
+void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now) {
+    double left_s = run.leg().duration_s;
+    for (std::size_t i = static_cast<std::size_t>(run.leg().step) + 1; i < order.steps.size();
+         ++i) {
+        left_s += order.steps[i].planned_s;
+    }
+    order.expected = now + from_seconds(left_s / speed_share(run));
+    fleet.store(order);
+}
+
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     Leg& leg = run.leg();
@@ -137,7 +148,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             require_person(fleet, run, {"vehicle_lost_order", {}}, now);
             run.leg_seen = false;
             drop_leg(fleet, run);
-            if (JobOrder* order = order_of(fleet, run.record.id);
+            if (JobOrder* order = fleet.orders.of(run.record.id);
                 order && order->current_step < order->steps.size()) {
                 order->steps[order->current_step].state = StepState::kPending;
                 fleet.store(*order);
@@ -154,6 +165,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         run.leg_seen = true;
         if (!run.leg_started) run.leg_started = now;
         add_event(fleet, now, "leg.accepted", leg.order, leg.id, leg.vehicle, {});
+        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
     }
     if (state.order_update_id >= leg.update_id) {
         run.update_sent.reset();
@@ -246,7 +258,7 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
                   std::move(params));
         fleet.store(run);
     }
-    JobOrder* order = order_of(fleet, run.record.id);
+    JobOrder* order = fleet.orders.of(run.record.id);
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted, std::move(reason), {}, now);
     }

@@ -25,17 +25,15 @@ void update_areas(const VehicleRun& run) {
         (i + 1 < leg.released_nodes ? granted : horizon).push_back(leg.edges[i].segment);
     }
     const auto body = plant::outline_with_load(*run.type, is_loaded(run));
-    areas.granted = geometry::union_outline(kinematics::sweep(body, granted));
-    areas.horizon = geometry::union_outline(kinematics::sweep(body, horizon));
+    const auto outline = [&](const std::vector<kinematics::Segment>& segments) {
+        return geometry::union_outline(
+            kinematics::sweep(body, segments, kinematics::kOutlineDetail));
+    };
+    areas.granted = outline(granted);
+    areas.horizon = outline(horizon);
     areas.leg = leg.id;
     areas.passed = leg.passed_nodes;
     areas.released = leg.released_nodes;
-}
-
-double real_speed_share(const VehicleRun& run) {
-    return run.factsheet && run.factsheet->speed_max_mps > 0
-               ? run.factsheet->speed_max_mps / run.type->max_speed_mps
-               : 1.0;
 }
 
 LegView leg_view(const VehicleRun& run) {
@@ -45,7 +43,7 @@ LegView leg_view(const VehicleRun& run) {
     view.id = leg.id;
     view.station = leg.station;
     view.mode = leg.mode;
-    view.duration_s = leg.duration_s / real_speed_share(run);
+    view.duration_s = leg.duration_s / speed_share(run);
     view.granted_area = run.areas.granted;
     view.horizon_area = run.areas.horizon;
     view.path.push_back(leg.nodes.front().pose.position());
@@ -80,7 +78,7 @@ struct Doing {
 };
 
 Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const JobOrder* order = order_of(const_cast<FleetState&>(fleet), run.record.id);
+    const JobOrder* order = fleet.orders.of(run.record.id);
     if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
     if (run.link == Link::kLost || run.link == Link::kGone) {
         return {Activity::kUnknown,
@@ -202,7 +200,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     view.pose_at = run.state_at;
     view.hall = hall_of(fleet, run);
     view.at_station = run.record.at_station;
-    if (const auto* order = order_of(const_cast<FleetState&>(fleet), run.record.id)) {
+    if (const auto* order = fleet.orders.of(run.record.id)) {
         view.order = order->id;
     }
     if (run.has_leg()) view.leg = leg_view(run);

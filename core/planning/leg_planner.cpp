@@ -19,8 +19,6 @@ using plant::MotionMode;
 constexpr std::array kOrder{MotionMode::kLinear, MotionMode::kFixedAxisRotation,
                             MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kFree};
 
-constexpr kinematics::SweepDetail kOutlineDetail{.step_rad = radians(10.0), .excess_m = 0.05};
-
 double clearance_to(const StandingBody& body, const std::vector<Polygon>& pieces, double stop_m) {
     double least = stop_m;
     for (const Polygon& outline : body.outline) {
@@ -98,10 +96,10 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft,
     return plan;
 }
 
-/// The outline is for people and the dearest part of all: only for plans that are handed out.
+/// The outline is for people and the dearest part of all: only for plans that are shown.
 void add_outline(const Body& body, LegPlan& plan) {
-    plan.swept =
-        geometry::union_outline(kinematics::sweep(body.pieces, plan.segments, kOutlineDetail));
+    plan.swept = geometry::union_outline(
+        kinematics::sweep(body.pieces, plan.segments, kinematics::kOutlineDetail));
     for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
 }
 
@@ -268,9 +266,7 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
     const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
     auto options = static_->assess(request, passage, modes, standing);
     for (ModeOption& option : options) {
-        if (!option.suggested) continue;
-        add_outline(passage.body, *option.plan);
-        return std::move(option.plan);
+        if (option.suggested) return std::move(option.plan);
     }
     // Nothing feasible: the first mode, linear, has the widest choice of ways.
     return std::move(options.front().plan);

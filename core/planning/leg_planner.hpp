@@ -38,6 +38,7 @@ struct LegPlan {
     double duration_s = 0;
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
+    // For people, filled in by assess_modes only: it costs more than the planning.
     double swept_area_m2 = 0;
     std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
 };
