@@ -8,10 +8,23 @@ import { Client } from "../harness/client.mjs";
 import { BUILD, System, until } from "../harness/processes.mjs";
 import { manyVehicles } from "./many_vehicles.mjs";
 
-const ORDERS = Number(process.argv[2] ?? 200);
+const ORDERS = Number(process.argv[2] ?? 1000);  // of ten agents and more; one agent drives a tenth of them
+const AT_WORK = 16;  // vehicles that have an order at any moment
 const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
 const percentile = (values, p) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.ceil(p * values.length) - 1)];
 const summary = (values) => ({ n: values.length, p50_ms: +percentile(values, 0.5).toFixed(2), p99_ms: +percentile(values, 0.99).toFixed(2), max_ms: +Math.max(...values).toFixed(2) });
+
+/** Memory once it has stopped growing: the same in ten looks, 100 ms apart. */
+async function settledRss(pid) {
+  let last = 0, same = 0;
+  await until("the server's memory settles", () => {
+    const now = rss_kb(pid);
+    same = now === last ? same + 1 : 0;
+    last = now;
+    return same >= 10;
+  }, { timeout_s: 60, every_ms: 100 });
+  return last;
+}
 
 /** Follows the event stream; resolves waits for (type, order). */
 async function follow(client) {
@@ -44,8 +57,7 @@ async function measure(count) {
   await system.startServer();
   const start_ms = performance.now() - begin;
   const client = new Client(system.url, system.apiToken);
-  await new Promise((done) => setTimeout(done, 1000));
-  const rss_rest_kb = rss_kb(system.server.pid);
+  const rss_rest_kb = await settledRss(system.server.pid);
   const list = join(system.directory, "vehicles");
   writeFileSync(list, ids.map((id) => { const v = system.plant.vehicle(id); return `${v.manufacturer}/${v.serial_number} ${system.tokenOf(id)}\n`; }).join(""));
   system.start(join(BUILD, "pulseline-agent"), ["--server", `ws://127.0.0.1:${system.port}`, "--vehicles", list, "--world", file, "--seed", "1", "--time-factor", "10", "--sensing", "analytic"], "agents");
@@ -54,9 +66,10 @@ async function measure(count) {
   const events = await follow(client);
   const accept = [], dispatch = [];
   const at = new Map(ids.map((id) => [id, 0]));
-  let left = ORDERS;
-  await Promise.all(Array.from({ length: Math.min(8, count) }, async (_, worker) => {
-    for (let i = worker; left > 0; i += Math.min(8, count)) {
+  let left = count === 1 ? ORDERS / 10 : ORDERS;
+  const workers = Math.min(AT_WORK, count);
+  await Promise.all(Array.from({ length: workers }, async (_, worker) => {
+    for (let i = worker; left > 0; i += workers) {
       --left;
       const id = ids[i % count], index = ids.indexOf(id);
       at.set(id, 1 - at.get(id));
