@@ -100,7 +100,11 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     } else {
         // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
         const auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
-        const auto plan = fleet.planner.plan_leg(request, standing_bodies(fleet, run.record.id));
+        const auto& newest = fleet.newest_plan;
+        const bool planned =
+            newest && newest->vehicle == run.record.id && newest->request == request;
+        const auto plan =
+            planned ? Result<planning::LegPlan>(newest->plan) : fleet.planner.plan_leg(request);
         if (!plan) {
             set_order_state(fleet, order, JobState::kInterrupted, plan.error().reason, {}, now);
             return;

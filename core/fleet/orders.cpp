@@ -41,7 +41,6 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
     OrderPlan plan;
     plan.vehicle = run.record.id;
     std::optional<Pose2> pose = future_pose(fleet, run);
-    const auto standing = standing_bodies(fleet, run.record.id);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!may_stop_at(*station, *run.type)) {
@@ -56,7 +55,7 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
         plan.plans.emplace_back();
         if (pose && !nearly_there(run, *pose, *station)) {
             auto leg = fleet.planner.plan_leg(
-                leg_request(fleet, run, *pose, station->id, order.steps[i].mode), standing);
+                leg_request(fleet, run, *pose, station->id, order.steps[i].mode));
             if (!leg) {
                 Error error = leg.error();
                 if (error.field.empty()) {
@@ -171,6 +170,15 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     }
     const auto plan = plan_order(fleet, request, now);
     if (!plan) return fail(plan.error());
+    if (plan->plans.front()) {
+        const VehicleRun& run = *fleet.find(plan->vehicle);
+        const auto* station =
+            plant::find_station(fleet.plant, request.steps.front().station_number);
+        fleet.newest_plan = PlannedLeg{
+            plan->vehicle,
+            leg_request(fleet, run, plan->starts.front(), station->id, request.steps.front().mode),
+            *plan->plans.front()};
+    }
 
     JobOrder order;
     order.id = JobOrderId(fleet.ids.next(now));

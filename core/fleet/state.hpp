@@ -64,6 +64,13 @@ struct VehicleRun {
     const Leg& leg() const { return record.leg_data; }
 };
 
+/// The newest plan of a leg: an order is planned when it comes and, mostly, starts at once.
+struct PlannedLeg {
+    plant::VehicleId vehicle;
+    planning::LegRequest request;
+    planning::LegPlan plan;
+};
+
 struct FleetState {
     FleetState(const plant::Plant& p, std::uint64_t id_seed, Time now)
         : plant(p), planner(p), ids(id_seed), started(now) {}
@@ -78,6 +85,7 @@ struct FleetState {
     traffic::TileMap tiles;
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
+    std::optional<PlannedLeg> newest_plan;
 
     // Put out by this step.
     Outputs out;

@@ -94,7 +94,7 @@ void plan_leg(benchmark::State& state) {
     const LegPlanner planner(bench_plant());
     const auto all = requests();
     std::size_t i = 0;
-    measure(state, [&] { benchmark::DoNotOptimize(planner.plan_leg(all[i++ % all.size()], {})); });
+    measure(state, [&] { benchmark::DoNotOptimize(planner.plan_leg(all[i++ % all.size()])); });
 }
 
 void roadmap(benchmark::State& state) {
