@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -40,21 +39,22 @@ public:
     void push(Key key, const Item& item) {
         // Rounding down of a key below the current bucket can only come from an inconsistent bound.
         const Key bucket = std::max((key - base_) >> shift_, current_);
-        assert(key >= base_ && bucket - current_ <= mask_);
         const Key slot = bucket & mask_;
-        std::uint32_t place = spare_;
-        if (place != kEnd) {
-            spare_ = pool_[place].next;
-            pool_[place] = {item, heads_[slot]};
-        } else {
-            place = static_cast<std::uint32_t>(pool_.size());
-            pool_.push_back({item, heads_[slot]});
+        std::uint32_t& head = heads_.data()[slot];
+        if (spare_ == kEnd) {
+            spare_ = static_cast<std::uint32_t>(pool_.size());
+            pool_.push_back({item, kEnd});
         }
-        heads_[slot] = place;
-        used_[slot >> 6] |= std::uint64_t{1} << (slot & 63);
+        Entry& entry = pool_.data()[spare_];
+        const std::uint32_t place = spare_;
+        spare_ = entry.next;
+        entry = {item, head};
+        head = place;
+        used_.data()[slot >> 6] |= std::uint64_t{1} << (slot & 63);
         ++size_;
     }
 
+    Key bucket_width() const { return Key{1} << shift_; }
     bool empty() const { return size_ == 0; }
     std::size_t size() const { return size_; }
 
@@ -63,10 +63,11 @@ public:
         if (size_ == 0) return kNone;
         Key slot = current_ & mask_;
         Key word = slot >> 6;
-        std::uint64_t bits = used_[word] & (~std::uint64_t{0} << (slot & 63));
+        const std::uint64_t* used = used_.data();
+        std::uint64_t bits = used[word] & (~std::uint64_t{0} << (slot & 63));
         while (bits == 0) {
             word = (word + 1) & (mask_ >> 6);
-            bits = used_[word];
+            bits = used[word];
         }
         const Key found = (word << 6) + static_cast<Key>(__builtin_ctzll(bits));
         current_ += (found - slot) & mask_;
@@ -76,11 +77,13 @@ public:
     /// REQUIRES: least() was called since the last push and was not kNone.
     Item pop() {
         const Key slot = current_ & mask_;
-        const std::uint32_t place = heads_[slot];
-        const Item item = pool_[place].item;
-        heads_[slot] = pool_[place].next;
-        if (heads_[slot] == kEnd) used_[slot >> 6] &= ~(std::uint64_t{1} << (slot & 63));
-        pool_[place].next = spare_;
+        std::uint32_t& head = heads_.data()[slot];
+        const std::uint32_t place = head;
+        Entry& entry = pool_.data()[place];
+        const Item item = entry.item;
+        head = entry.next;
+        if (head == kEnd) used_.data()[slot >> 6] &= ~(std::uint64_t{1} << (slot & 63));
+        entry.next = spare_;
         spare_ = place;
         --size_;
         return item;

@@ -8,27 +8,31 @@ namespace pulseline::planning {
 namespace {
 
 constexpr std::uint32_t kNoRoute = SmallCost::kMost;
-constexpr std::uint32_t kStamps = 1u << 29;
 constexpr std::int64_t kCancelEvery = 1'000;
 
 }  // namespace
 
-void BucketSearch::prepare(const GridMap& map) {
+template <class Label>
+void BucketSearch<Label>::prepare(const GridMap& map) {
     const std::size_t states = map.padded_cells() * kDirections;
-    if (labels_.size() < states) labels_.resize(states, ~Label{0});
+    if (labels_.size() < states) labels_.resize(states, static_cast<Label>(~Label{0}));
 }
 
-std::size_t BucketSearch::bytes() const {
+template <class Label>
+std::size_t BucketSearch<Label>::bytes() const {
     return labels_.capacity() * sizeof(Label) + queue_.bytes();
 }
 
-void BucketSearch::begin(const GridMap& map, const GridRequest& request, const SmallCost& cost) {
+template <class Label>
+void BucketSearch<Label>::begin(const GridMap& map, const GridRequest& request,
+                                const SmallCost& cost) {
     prepare(map);
+    constexpr std::uint64_t kStamps = std::uint64_t{1} << kStampBits;
     if (++stamp_ == kStamps) {
         std::fill(labels_.begin(), labels_.end(), ~Label{0});
         stamp_ = 1;
     }
-    high_ = Label{kStamps - 1 - stamp_} << (32 + kByBits);
+    high_ = static_cast<Label>(kStamps - 1 - stamp_) << (kCostBits + kByBits);
     step_ = cost.step;
     turn_ = cost.turn;
     goal_ = request.goal;
@@ -36,15 +40,19 @@ void BucketSearch::begin(const GridMap& map, const GridRequest& request, const S
     const std::int32_t dearest = 2 * step_ * map.greatest_weight() + 4 * std::max(turn_, 0);
     queue_.reset(static_cast<std::uint32_t>(bound_->per_step() * manhattan(request.start, goal_)),
                  static_cast<std::uint32_t>(dearest));
+    most_ = (1u << kCostBits) - 1 -
+            std::min((1u << kCostBits) - 1, static_cast<std::uint32_t>(dearest));
     best_ = kNoRoute;
     expanded_ = 0;
 }
 
-inline void BucketSearch::reach(Cell cell, std::uint32_t state, std::uint32_t cost, Label by,
-                                int heading) {
-    const Label label = high_ | Label{cost} << kByBits;
-    if (label >= (labels_[state] & ~kBy)) return;
-    labels_[state] = label | by;
+template <class Label>
+inline void BucketSearch<Label>::reach(Cell cell, std::uint32_t state, std::uint32_t cost, Label by,
+                                       int heading) {
+    const Label label = high_ | static_cast<Label>(cost) << kByBits;
+    Label& known = labels_.data()[state];
+    if (label >= (known & ~kBy)) return;
+    known = label | by;
     if (cell == goal_) {
         if (cost >= best_) return;
         best_ = cost;
@@ -56,7 +64,8 @@ inline void BucketSearch::reach(Cell cell, std::uint32_t state, std::uint32_t co
         {state, cost, static_cast<std::uint16_t>(cell.col), static_cast<std::uint16_t>(cell.row)});
 }
 
-void BucketSearch::enter(const GridMap& map, const GridRequest& request) {
+template <class Label>
+void BucketSearch<Label>::enter(const GridMap& map, const GridRequest& request) {
     const std::size_t start = map.padded(request.start);
     for (int d = 0; d < kDirections; ++d) {
         const Cell step = kStep[static_cast<std::size_t>(d)];
@@ -74,13 +83,14 @@ void BucketSearch::enter(const GridMap& map, const GridRequest& request) {
     }
 }
 
-inline void BucketSearch::expand(const GridMap& map, const Entry& entry) {
+template <class Label>
+inline void BucketSearch<Label>::expand(const GridMap& map, const Entry& entry) {
     const int heading = static_cast<int>(entry.state % kDirections);
     const std::uint32_t cell = entry.state / kDirections;
     unsigned moves = map.moves(cell);
     if ((moves & GridMap::kMayTurn) == 0) moves &= 1u << heading;
     // Where every cell may be turned in, back along the same way is never part of a best route.
-    if (map.uniform() && turn_ >= 0 && labels_[entry.state] % 8 != kStart) {
+    if (map.uniform() && turn_ >= 0 && (labels_.data()[entry.state] & kBy) != kStart) {
         moves &= ~(1u << (heading ^ 2));
     }
     const auto stride = static_cast<std::int32_t>(map.stride());
@@ -98,7 +108,9 @@ inline void BucketSearch::expand(const GridMap& map, const Entry& entry) {
     }
 }
 
-void BucketSearch::trace(const GridMap& map, const GridRequest& request, GridRoute& route) const {
+template <class Label>
+void BucketSearch<Label>::trace(const GridMap& map, const GridRequest& request,
+                                GridRoute& route) const {
     RouteTrace trace(request, route);
     std::uint32_t state = best_state_;
     const auto stride = static_cast<std::int32_t>(map.stride());
@@ -115,7 +127,9 @@ void BucketSearch::trace(const GridMap& map, const GridRequest& request, GridRou
     trace.finish();
 }
 
-SearchEnd BucketSearch::run(const GridMap& map, const GridRequest& request, GridRoute& route) {
+template <class Label>
+SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& request,
+                                   GridRoute& route) {
     const auto cost = SmallCost::of(request.cost, map);
     if (!cost) return SearchEnd::kUnfit;
     begin(map, request, *cost);
@@ -124,9 +138,9 @@ SearchEnd BucketSearch::run(const GridMap& map, const GridRequest& request, Grid
     while (true) {
         const std::uint32_t least = queue_.least();
         if (least >= best_) break;  // an empty queue's is the greatest of all
-        if (least >= SmallCost::kMost / 2) return SearchEnd::kUnfit;
+        if (least >= most_) return SearchEnd::kUnfit;
         const Entry entry = queue_.pop();
-        if (labels_[entry.state] >> kByBits != (high_ >> kByBits | entry.cost)) continue;
+        if (labels_.data()[entry.state] >> kByBits != (high_ >> kByBits | entry.cost)) continue;
         ++expanded_;
         expand(map, entry);
         if (expanded_ < look) continue;
@@ -141,5 +155,8 @@ SearchEnd BucketSearch::run(const GridMap& map, const GridRequest& request, Grid
     trace(map, request, route);
     return SearchEnd::kFound;
 }
+
+template class BucketSearch<std::uint32_t>;
+template class BucketSearch<std::uint64_t>;
 
 }  // namespace pulseline::planning

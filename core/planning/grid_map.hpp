@@ -35,7 +35,7 @@ public:
 
     static constexpr std::uint8_t kMayTurn = 1 << kDirections;
     /// Bit d: a step along direction d is open; kMayTurn: headings may change here.
-    std::uint8_t moves(std::size_t padded) const { return moves_[padded]; }
+    std::uint8_t moves(std::size_t padded) const { return moves_.data()[padded]; }
     int weight(Cell cell) const {
         return layers_.weight.empty() ? 1 : layers_.weight[layers_.index(cell)];
     }

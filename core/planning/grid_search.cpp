@@ -40,7 +40,8 @@ std::vector<Cell> GridRoute::cells() const {
 
 struct GridSearch::Searches {
     TurnJumpSearch turn_jump;
-    BucketSearch bucket;
+    BucketSearch<std::uint32_t> bucket;
+    BucketSearch<std::uint64_t> wide_bucket;
     PlainSearch plain;
 };
 
@@ -66,6 +67,7 @@ SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algori
     if (end == SearchEnd::kUnfit && wanted >= Algorithm::kBucket) {
         route.algorithm = Algorithm::kBucket;
         end = searches_->bucket.run(map, request, route);
+        if (end == SearchEnd::kUnfit) end = searches_->wide_bucket.run(map, request, route);
     }
     if (end == SearchEnd::kUnfit) {
         route.algorithm = wanted == Algorithm::kDijkstra ? wanted : Algorithm::kAstar;
@@ -85,7 +87,8 @@ void GridSearch::prepare(const GridMap& map, Algorithm wanted) {
 }
 
 std::size_t GridSearch::bytes() const {
-    return searches_->turn_jump.bytes() + searches_->bucket.bytes() + searches_->plain.bytes();
+    return searches_->turn_jump.bytes() + searches_->bucket.bytes() +
+           searches_->wide_bucket.bytes() + searches_->plain.bytes();
 }
 
 Status check(const GridMap& map, const GridRequest& request) {

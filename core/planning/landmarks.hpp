@@ -26,7 +26,7 @@ public:
     explicit Landmarks(const BitGrid& blocked);
 
     /// By padded cell: (row + 1) x (width + 2) + col + 1.
-    const Ways& at(std::size_t padded) const { return ways_[padded].to; }
+    const Ways& at(std::size_t padded) const { return ways_.data()[padded].to; }
     /// One was reached from the landmarks and the other not: no way joins them.
     bool separate(std::size_t a, std::size_t b) const {
         return (at(a)[0] == kUnreached) != (at(b)[0] == kUnreached);

@@ -12,16 +12,12 @@ constexpr std::int64_t kCancelEvery = 1'000;
 }  // namespace
 
 void TurnJumpSearch::prepare(const GridMap& map) {
-    const std::size_t states = map.padded_cells() * kDirections;
-    const std::size_t lines = static_cast<std::size_t>(map.width() + map.height() + 4);
-    if (labels_.size() < states || rays_.size() < lines * 2 * kSides) {
-        labels_.resize(std::max(labels_.size(), states));
-        rays_.resize(std::max(rays_.size(), lines * 2 * kSides));
-    }
+    const std::size_t rays = static_cast<std::size_t>(map.width() + map.height() + 4) * 2 * kSides;
+    if (rays_.size() < rays) rays_.resize(rays);
 }
 
 std::size_t TurnJumpSearch::bytes() const {
-    return labels_.capacity() * sizeof(Label) + rays_.capacity() * sizeof(Ray) + queue_.bytes();
+    return labels_.bytes() + rays_.capacity() * sizeof(Ray) + queue_.bytes();
 }
 
 Cell TurnJumpSearch::cell_of(std::uint32_t state) const {
@@ -29,25 +25,24 @@ Cell TurnJumpSearch::cell_of(std::uint32_t state) const {
     return {static_cast<int>(cell % stride_), static_cast<int>(cell / stride_)};
 }
 
-inline std::uint32_t TurnJumpSearch::bound(int col, int row, int heading) const {
-    const int dx = goal_.col - col;
-    const int dy = goal_.row - row;
-    const auto& ways =
-        landmarks_->at(static_cast<std::size_t>(row) * stride_ + static_cast<std::size_t>(col));
-    const int steps =
-        std::max(std::abs(dx) + std::abs(dy), Landmarks::least_steps(ways, *goal_ways_));
-    return step_ * static_cast<std::uint32_t>(steps) +
-           turn_ * static_cast<std::uint32_t>(FloorBound<int>::least_turns(heading, dx, dy));
+inline std::uint32_t TurnJumpSearch::steps_left(int col, int row) const {
+    const auto& ways = landmarks_->at(row * stride_ + static_cast<std::uint32_t>(col));
+    const int floor = std::abs(goal_.col - col) + std::abs(goal_.row - row);
+    return static_cast<std::uint32_t>(std::max(floor, Landmarks::least_steps(ways, *goal_ways_)));
+}
+
+inline std::uint32_t TurnJumpSearch::turns_left(int col, int row, int heading) const {
+    return static_cast<std::uint32_t>(
+        FloorBound<int>::least_turns(heading, goal_.col - col, goal_.row - row));
 }
 
 void TurnJumpSearch::begin(const GridMap& map, const GridRequest& request, const SmallCost& cost) {
     prepare(map);
     if (++stamp_ == 0) {  // after four billion queries old labels would look new
-        std::fill(labels_.begin(), labels_.end(), Label{});
         std::fill(rays_.begin(), rays_.end(), Ray{});
         stamp_ = 1;
     }
-    high_ = Stamped{~stamp_} << 32;
+    labels_.clear();
     planes_ = &map.planes();
     landmarks_ = &map.landmarks();
     stride_ = static_cast<std::uint32_t>(map.stride());
@@ -72,9 +67,7 @@ void TurnJumpSearch::enter(const GridRequest& request) {
     const int col = request.start.col + 1;
     const int row = request.start.row + 1;
     const int longest = static_cast<int>(std::max(stride_, ray_lines_));
-    const std::uint32_t least =
-        bound(col, row, 0) - turn_ * static_cast<std::uint32_t>(FloorBound<int>::least_turns(
-                                         0, goal_.col - col, goal_.row - row));
+    const std::uint32_t least = step_ * steps_left(col, row);
     // A jump adds its steps and a turn, and may raise the bound by as many steps and two turns.
     queue_.reset(least, 2 * step_ * static_cast<std::uint32_t>(longest) + 4 * turn_);
     for (int heading = 0; heading < kDirections; ++heading) {
@@ -82,9 +75,9 @@ void TurnJumpSearch::enter(const GridRequest& request) {
             request.start_heading && static_cast<int>(*request.start_heading) != heading;
         const std::uint32_t cost = turned ? turn_ : 0;
         const std::uint32_t at = state(col, row, heading);
-        labels_[at] = {high_ | cost, at, 1u << kNoSide};
-        queue_.push(cost + bound(col, row, heading),
-                    {cost, static_cast<std::uint16_t>(col), static_cast<std::uint16_t>(row),
+        labels_.reach(at, cost, at, 1u << kNoSide, 0);
+        queue_.push(cost + least + turn_ * turns_left(col, row, heading),
+                    {cost, static_cast<std::uint16_t>(col), static_cast<std::uint16_t>(row), 0,
                      static_cast<std::uint8_t>(heading), kNoSide});
     }
 }
@@ -114,35 +107,23 @@ inline bool TurnJumpSearch::covered(const Entry& entry, int line, int position) 
     return false;
 }
 
-inline void TurnJumpSearch::generate(const Entry& from, int line, int position, std::uint32_t cost,
-                                     bool up) {
-    const int axis = (from.heading & 1) ^ 1;
-    const int heading = axis + (up ? 0 : 2);
-    // Along the new axis `position` is the line, and the other way round.
-    const int col = axis == 0 ? line : position;
-    const int row = axis == 0 ? position : line;
-    const Side side = from.heading < 2 ? kLesser : kGreater;
-    const auto bit = 1u << side;
-    const std::uint32_t at = state(col, row, heading);
-    Label& label = labels_[at];
-    const Stamped stamped = high_ | cost;
-    if (stamped > label.cost) return;
-    if (stamped == label.cost) {
-        if ((label.sides & (bit | 1u << kNoSide)) != 0) return;
-    }
-    const std::uint32_t total = cost + bound(col, row, heading);
+/// A turn at (col, row) out of the ray of `from`; `way` is the least cost of the steps after it.
+inline void TurnJumpSearch::generate(const Entry& from, int col, int row, int heading,
+                                     std::uint32_t cost, std::uint32_t way) {
+    const std::uint32_t total = cost + way + turn_ * turns_left(col, row, heading);
     if (total >= best_) return;
-    if (stamped == label.cost) {
-        label.sides |= bit;
-    } else {
-        label = {stamped, state(from.col, from.row, from.heading), bit};
+    const Side side = from.heading < 2 ? kLesser : kGreater;
+    if (!labels_.reach(state(col, row, heading), cost, state(from.col, from.row, from.heading),
+                       1u << side, 1u << kNoSide)) {
+        return;
     }
-    queue_.push(total, {cost, static_cast<std::uint16_t>(col), static_cast<std::uint16_t>(row),
+    queue_.push(total, {cost, static_cast<std::uint16_t>(col), static_cast<std::uint16_t>(row), 0,
                         static_cast<std::uint8_t>(heading), side});
 }
 
+/// Ends of the ray, goal on it or across it, and the first place where a turn may follow.
 template <bool kUp>
-void TurnJumpSearch::expand_ray(const Entry& entry, int line, int position) {
+void TurnJumpSearch::drive_ray(const Entry& entry, int line, int position) {
     const int axis = entry.heading & 1;
     const auto* blocked = planes_->blocked(axis, line);
     const int end =
@@ -175,23 +156,72 @@ void TurnJumpSearch::expand_ray(const Entry& entry, int line, int position) {
         const auto* beside = planes_->blocked(axis, entry.side == kLesser ? line - 1 : line + 1);
         first = kUp ? next_set(beside, first) : previous_set(beside, first);
     }
-    for (const bool up : {true, false}) {
-        const auto* useful = planes_->useful(entry.heading, up, line);
-        const auto visit = [&](int p) { generate(entry, line, p, cost_at(p) + turn_, up); };
-        if constexpr (kUp) {
-            for_set_upwards(useful, first, end, visit);
-        } else {
-            for_set_downwards(useful, end, first, visit);
+    if (kUp ? first > end : first < end) return;
+    turn_off<kUp>(entry, line, position, first, end);
+}
+
+/// Candidates from `first` on, up to where the ray's bound exceeds what is expanded now: it never
+/// falls along a ray, so the rest waits in the queue, and behind the best route for good.
+template <bool kUp>
+void TurnJumpSearch::turn_off(const Entry& entry, int line, int position, int first, int end) {
+    const int axis = entry.heading & 1;
+    const auto* up = planes_->useful(entry.heading, true, line);
+    const auto* down = planes_->useful(entry.heading, false, line);
+    const int turned = axis ^ 1;
+    using Word = TurnPlanes::Word;
+    const int last_word = end >> 6;
+    for (int w = first >> 6;; w += kUp ? 1 : -1) {
+        Word mask = ~Word{0};
+        if (w == first >> 6) {
+            mask &= kUp ? ~Word{0} << (first & 63) : ~Word{0} >> (63 - (first & 63));
         }
+        if (w == last_word) {
+            mask &= kUp ? ~Word{0} >> (63 - (end & 63)) : ~Word{0} << (end & 63);
+        }
+        const Word ups = up[w];
+        const Word downs = down[w];
+        for (Word bits = (ups | downs) & mask; bits != 0;) {
+            const int bit = kUp ? __builtin_ctzll(bits) : 63 - __builtin_clzll(bits);
+            bits ^= Word{1} << bit;
+            const int p = (w << 6) + bit;
+            const int col = axis == 0 ? p : line;
+            const int row = axis == 0 ? line : p;
+            const std::uint32_t cost =
+                entry.cost + step_ * static_cast<std::uint32_t>(kUp ? p - position : position - p);
+            const std::uint32_t way = step_ * steps_left(col, row);
+            const std::uint32_t onward = cost + way + turn_ * turns_left(col, row, entry.heading);
+            if (onward > expanding_) {
+                if (onward < best_) {
+                    Entry rest = entry;
+                    rest.resume = static_cast<std::uint16_t>(p);
+                    queue_.push(onward, rest);
+                }
+                return;
+            }
+            if ((ups >> bit & 1) != 0) generate(entry, col, row, turned, cost + turn_, way);
+            if ((downs >> bit & 1) != 0) generate(entry, col, row, turned + 2, cost + turn_, way);
+        }
+        if (w == last_word) return;
     }
+}
+
+template <bool kUp>
+void TurnJumpSearch::expand_ray(const Entry& entry, int line, int position) {
+    if (entry.resume == 0) return drive_ray<kUp>(entry, line, position);
+    const auto* blocked = planes_->blocked(entry.heading & 1, line);
+    const int from = entry.resume;
+    const int end = kUp ? next_set(blocked, from) - 1 : previous_set(blocked, from) + 1;
+    turn_off<kUp>(entry, line, position, from, end);
 }
 
 void TurnJumpSearch::expand(const Entry& entry) {
     const bool along_row = (entry.heading & 1) == 0;
     const int line = along_row ? entry.row : entry.col;
     const int position = along_row ? entry.col : entry.row;
-    if (entry.side != kNoSide && covered(entry, line, position)) return;
-    ++expanded_;
+    if (entry.resume == 0) {
+        if (entry.side != kNoSide && covered(entry, line, position)) return;
+        ++expanded_;
+    }
     if (entry.heading < 2) {
         expand_ray<true>(entry, line, position);
     } else {
@@ -209,7 +239,7 @@ void TurnJumpSearch::trace(const GridRequest& request, GridRoute& route) const {
     std::uint32_t at = last_state_;
     while (true) {
         put(cell_of(at));
-        const std::uint32_t parent = labels_[at].parent;
+        const std::uint32_t parent = labels_.known(at).parent();
         if (parent == at) break;
         at = parent;
     }
@@ -225,7 +255,10 @@ void TurnJumpSearch::trace(const GridRequest& request, GridRoute& route) const {
 
 SearchEnd TurnJumpSearch::run(const GridMap& map, const GridRequest& request, GridRoute& route) {
     const auto cost = SmallCost::of(request.cost, map);
-    if (!map.uniform() || !cost || cost->turn < 0) return SearchEnd::kUnfit;
+    if (!map.uniform() || !cost || cost->turn < 0 ||
+        map.padded_cells() * kDirections > LabelTable::kMostStates) {
+        return SearchEnd::kUnfit;
+    }
     if (map.nowhere(request.start) || map.nowhere(request.goal)) return SearchEnd::kNoRoute;
     if (map.landmarks().separate(map.padded(request.start), map.padded(request.goal))) {
         return SearchEnd::kNoRoute;
@@ -237,9 +270,10 @@ SearchEnd TurnJumpSearch::run(const GridMap& map, const GridRequest& request, Gr
         const std::uint32_t least = queue_.least();
         if (least >= best_) break;  // an empty queue's is the greatest of all
         if (least >= SmallCost::kMost / 2) return SearchEnd::kUnfit;
+        expanding_ = least + queue_.bucket_width() - 1;
         const Entry entry = queue_.pop();
-        const Label& label = labels_[state(entry.col, entry.row, entry.heading)];
-        if (label.cost != (high_ | entry.cost)) continue;  // reached at less since
+        const auto& label = labels_.known(state(entry.col, entry.row, entry.heading));
+        if (label.cost != entry.cost) continue;  // reached at less since
         expand(entry);
         if (expanded_ < look) continue;
         look = expanded_ + kCancelEvery;

@@ -2,6 +2,7 @@
 
 #include "core/planning/bucket_queue.hpp"
 #include "core/planning/grid_search.hpp"
+#include "core/planning/label_table.hpp"
 #include "core/planning/small_cost.hpp"
 
 namespace pulseline::planning {
@@ -45,19 +46,13 @@ public:
     std::size_t bytes() const;
 
 private:
-    using Stamped = std::uint64_t;  // query stamp (newer is less), then cost: one comparison
-
-    struct Label {
-        Stamped cost = ~Stamped{0};
-        std::uint32_t parent = 0;  // state it was reached from
-        std::uint32_t sides = 0;   // come from at that cost, as bits
-    };
     /// Which line beside a leg the vehicle came from.
     enum Side : std::uint8_t { kLesser = 0, kGreater = 1, kNoSide = 2 };
     struct Entry {
         std::uint32_t cost;
         std::uint16_t col;  // padded
         std::uint16_t row;
+        std::uint16_t resume;  // position on the ray where its candidates go on; 0: from its start
         std::uint8_t heading;
         Side side;
     };
@@ -84,12 +79,18 @@ private:
     void expand(const Entry& entry);
     template <bool kUp>
     void expand_ray(const Entry& entry, int line, int position);
-    void generate(const Entry& from, int line, int position, std::uint32_t cost, bool up);
+    template <bool kUp>
+    void drive_ray(const Entry& entry, int line, int position);
+    template <bool kUp>
+    void turn_off(const Entry& entry, int line, int position, int first, int end);
+    void generate(const Entry& from, int col, int row, int heading, std::uint32_t cost,
+                  std::uint32_t way);
     bool covered(const Entry& entry, int line, int position) const;
     void arrive(std::uint32_t cost, const Entry& from, Cell corner);
     void trace(const GridRequest& request, GridRoute& route) const;
 
-    std::uint32_t bound(int col, int row, int heading) const;
+    std::uint32_t steps_left(int col, int row) const;
+    std::uint32_t turns_left(int col, int row, int heading) const;
     std::uint32_t state(int col, int row, int heading) const {
         return (static_cast<std::uint32_t>(row) * stride_ + static_cast<std::uint32_t>(col)) *
                    kDirections +
@@ -98,7 +99,7 @@ private:
     Cell cell_of(std::uint32_t state) const;
 
     // Scratch that lives on.
-    std::vector<Label> labels_;
+    LabelTable labels_;
     std::vector<Ray> rays_;
     BucketQueue<Entry> queue_;
     std::uint32_t stamp_ = 0;
@@ -107,14 +108,14 @@ private:
     const TurnPlanes* planes_ = nullptr;
     const Landmarks* landmarks_ = nullptr;
     const Landmarks::Ways* goal_ways_ = nullptr;
-    Stamped high_ = 0;
     std::uint32_t stride_ = 0;
     std::uint32_t ray_lines_ = 0;
     std::uint32_t step_ = 0;
     std::uint32_t turn_ = 0;
     Cell goal_;  // padded
     Run goal_runs_[2];
-    std::uint32_t best_ = 0;  // cost of the best route found so far
+    std::uint32_t expanding_ = 0;  // greatest bound in the bucket that is being emptied
+    std::uint32_t best_ = 0;       // cost of the best route found so far
     std::uint32_t last_state_ = 0;
     Cell last_corner_;  // its turn onto the goal's line; the goal itself when there is none
     std::int64_t expanded_ = 0;

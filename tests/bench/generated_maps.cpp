@@ -105,8 +105,8 @@ std::vector<BenchMap> maps_in(const std::string& folder) {
     std::sort(scenarios.begin(), scenarios.end());
     std::vector<BenchMap> result;
     for (const fs::path& path : maps) {
-        const auto grid =
-            plant::read_file(path).and_then([](const auto& t) { return plant::parse_moving_ai_map(t); });
+        const auto grid = plant::read_file(path).and_then(
+            [](const auto& t) { return plant::parse_moving_ai_map(t); });
         if (!grid) {
             std::cerr << path.string() << ": " << grid.error().what << '\n';
             continue;

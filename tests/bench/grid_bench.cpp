@@ -115,14 +115,12 @@ Figures measure(const BenchMap& map, const std::string& name, const Query& query
     Figures figures;
     figures.name = name;
     GridRoute route;
-    double spent = 0;
-    std::size_t longest = 0;
     for (const auto& problem : map.problems) {
         GridRequest request{problem.start, problem.goal};
         request.cost = *unit_cell_cost(10, 20);
         double least = std::numeric_limits<double>::infinity();
         const double share = kBudget_us / static_cast<double>(map.problems.size());
-        spent = 0;
+        double spent = 0;
         SearchEnd end = SearchEnd::kNoRoute;
         for (int i = 0; i < kMostRuns && (i == 0 || spent < share); ++i) {
             const auto begin = Timer::now();
@@ -134,7 +132,6 @@ Figures measure(const BenchMap& map, const std::string& name, const Query& query
         figures.us.push_back(least);
         figures.cost.push_back(end == SearchEnd::kFound ? route.cost : -1);
         figures.expanded += route.expanded;
-        longest = std::max(longest, route.corners.size());
     }
     return figures;
 }
@@ -182,8 +179,8 @@ nlohmann::json bench_map(const BenchMap& bench_map) {
          0);
     for (const auto algorithm :
          {Algorithm::kDijkstra, Algorithm::kAstar, Algorithm::kBucket, Algorithm::kTurnJump}) {
-        if (std::getenv("QUICK") && algorithm < Algorithm::kBucket) continue;
         GridSearch search;
+        search.prepare(map, algorithm);
         show(measure(bench_map, std::string(to_string(algorithm)),
                      [&](const GridRequest& q, GridRoute& r) {
                          return search.run(map, q, algorithm, r);
@@ -200,14 +197,14 @@ nlohmann::json bench_map(const BenchMap& bench_map) {
     const Figures& bucket = all[all.size() - 2];
     const Figures& jump = all.back();
     const double bar_us = std::max(bucket.mean_expanded() * 0.060, bucket.mean_us()) / 10;
-    std::printf("  turn-jump %.2f us: %.2f of its bar (1/10 of bucket, %.2f us); 1/%.1f of A* "
-                "without turn costs\n",
-                jump.mean_us(), jump.mean_us() / bar_us, bar_us,
-                yardstick.mean_us() / jump.mean_us());
-    return {{"map", bench_map.name},       {"width", map.width()},
-            {"height", map.height()},      {"problems", bench_map.problems.size()},
-            {"map_bytes", map.bytes()},    {"build_us", build_us},
-            {"turn_jump_bar_us", bar_us},  {"searches", rows}};
+    std::printf(
+        "  turn-jump %.2f us: %.2f of its bar (1/10 of bucket, %.2f us); 1/%.1f of A* "
+        "without turn costs\n",
+        jump.mean_us(), jump.mean_us() / bar_us, bar_us, yardstick.mean_us() / jump.mean_us());
+    return {{"map", bench_map.name},      {"width", map.width()},
+            {"height", map.height()},     {"problems", bench_map.problems.size()},
+            {"map_bytes", map.bytes()},   {"build_us", build_us},
+            {"turn_jump_bar_us", bar_us}, {"searches", rows}};
 }
 
 }  // namespace

@@ -70,9 +70,8 @@ void restrict(Random& random, GridLayers& layers) {
     }
     if ((kinds & 2) != 0) for_some(3, [&](Cell cell) { layers.no_turn.set(cell, true); });
     if ((kinds & 4) != 0) {
-        for_some(6, [&](Cell cell) {
-            layers.make_one_way(cell, static_cast<Direction>(random() % 4));
-        });
+        for_some(
+            6, [&](Cell cell) { layers.make_one_way(cell, static_cast<Direction>(random() % 4)); });
     }
     if ((kinds & 8) != 0) {
         layers.weight.assign(static_cast<std::size_t>(layers.width * layers.height), 1);

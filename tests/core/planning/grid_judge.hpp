@@ -91,9 +91,9 @@ inline std::string fault(const GridLayers& layers, const GridRequest& request,
     int turns = 0;
     for (std::size_t i = 1; i < cells.size(); ++i) {
         int d = 0;
-        while (d < 4 && !(Cell{cells[i - 1].col + kStep[static_cast<std::size_t>(d)].col,
-                               cells[i - 1].row + kStep[static_cast<std::size_t>(d)].row} ==
-                          cells[i])) {
+        while (d < 4 &&
+               !(Cell{cells[i - 1].col + kStep[static_cast<std::size_t>(d)].col,
+                      cells[i - 1].row + kStep[static_cast<std::size_t>(d)].row} == cells[i])) {
             ++d;
         }
         if (d == 4) return "jumps";
