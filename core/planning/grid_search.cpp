@@ -52,14 +52,15 @@ GridSearch& GridSearch::operator=(GridSearch&&) noexcept = default;
 
 SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algorithm wanted,
                           GridRoute& route) {
+    route.cost = 0;
+    route.length = 0;
+    route.turns = 0;
     route.expanded = 0;
     route.algorithm = wanted;
+    route.corners.clear();
     if (request.start == request.goal) {
         if (map.nowhere(request.start)) return SearchEnd::kNoRoute;
-        route.cost = 0;
-        route.length = 0;
-        route.turns = 0;
-        route.corners.assign(1, request.start);
+        route.corners.push_back(request.start);
         return SearchEnd::kFound;
     }
     SearchEnd end = SearchEnd::kUnfit;
