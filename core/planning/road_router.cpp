@@ -123,17 +123,29 @@ void RoadRouter::costs(int user, std::span<const RoadStart> starts, std::span<co
         }
         begin.push_back(first.size());
     }
-    matrix.assign(starts.size() * goals.size(), kNoWay);
-    for (std::size_t g = 0; g < goals.size(); ++g) {
-        const CostTable& to_goal = table(user, goals[g]);
+    // Many orders go to few stations: one column for each, its starts side by side.
+    std::vector<int> distinct(goals.begin(), goals.end());
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<RoadCost> columns(distinct.size() * starts.size(), kNoWay);
+    for (std::size_t d = 0; d < distinct.size(); ++d) {
+        const CostTable& to_goal = table(user, distinct[d]);
+        RoadCost* column = columns.data() + d * starts.size();
         for (std::size_t s = 0; s < starts.size(); ++s) {
-            RoadCost best = starts[s].node == goals[g] ? 0 : kNoWay;
+            RoadCost best = starts[s].node == distinct[d] ? 0 : kNoWay;
             for (std::size_t i = begin[s]; i < begin[s + 1]; ++i) {
                 const RoadCost rest = to_goal.left(first[i].arc);
                 if (rest < kMostRoadCost) best = std::min(best, first[i].cost + rest);
             }
-            matrix[s * goals.size() + g] = best;
+            column[s] = best;
         }
+    }
+    matrix.resize(starts.size() * goals.size());
+    for (std::size_t g = 0; g < goals.size(); ++g) {
+        const auto found = std::lower_bound(distinct.begin(), distinct.end(), goals[g]);
+        const RoadCost* column =
+            columns.data() + static_cast<std::size_t>(found - distinct.begin()) * starts.size();
+        for (std::size_t s = 0; s < starts.size(); ++s) matrix[s * goals.size() + g] = column[s];
     }
 }
 
