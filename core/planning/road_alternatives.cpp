@@ -69,10 +69,15 @@ RoadRoute route_over(const RoadView& view, const CostTable& table, const Forward
     return route;
 }
 
+/// Lanes are the same when they join the same nodes: forwards or backwards is no other route.
 double shared_m(const RoadView& view, const std::vector<int>& a, const std::vector<int>& b) {
     double sum = 0;
-    for (const int arc : a) {
-        if (std::find(b.begin(), b.end(), arc) != b.end()) sum += view.arc(arc).length_m;
+    for (const int index : a) {
+        const RoadArc& arc = view.arc(index);
+        const bool shared = std::any_of(b.begin(), b.end(), [&](int other) {
+            return view.arc(other).from == arc.from && view.arc(other).to == arc.to;
+        });
+        if (shared) sum += arc.length_m;
     }
     return sum;
 }

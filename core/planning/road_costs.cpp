@@ -48,7 +48,8 @@ ArcCost arc_cost(const RoadPreferences& preferences, const RoadArc& arc, const L
 
 Bar bar_of(const LaneRules& rules, const RoadUser& user) {
     if (rules.closed) return Bar::kClosed;
-    return (rules.classes & user.vehicle_class) == 0 ? Bar::kClass : Bar::kNone;
+    if ((rules.classes & user.vehicle_class) == 0) return Bar::kClass;
+    return rules.too_narrow ? Bar::kTooNarrow : Bar::kNone;
 }
 
 }  // namespace pulseline::planning

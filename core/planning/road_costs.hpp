@@ -11,6 +11,7 @@ namespace pulseline::planning {
 /// What holds on one arc of the roadmap besides its geometry.
 struct LaneRules {
     bool closed = false;
+    bool too_narrow = false;                    // for the user's body
     double max_speed_mps = 0;                   // 0: none
     double max_speed_loaded_mps = 0;            // with a load, besides the other; 0: none
     std::uint64_t classes = ~std::uint64_t{0};  // vehicle classes that may drive it, as bits
@@ -54,7 +55,7 @@ struct ArcCost {
 ArcCost arc_cost(const RoadPreferences& preferences, const RoadArc& arc, const LaneRules& rules,
                  const RoadUser& user);
 
-enum class Bar : std::uint8_t { kNone, kClosed, kClass };
+enum class Bar : std::uint8_t { kNone, kClosed, kClass, kTooNarrow };
 /// Why a user may not drive an arc.
 Bar bar_of(const LaneRules& rules, const RoadUser& user);
 
