@@ -70,7 +70,7 @@ std::span<const Route> routes() {
          {},
          cancel_job_order},
 
-        {"POST", "/api/v1/routes", "findRoutes", kViewer, {}, find_routes},
+        {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes},
 
         {"GET",
          "/api/v1/stop-records",

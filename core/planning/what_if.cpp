@@ -8,6 +8,14 @@
 namespace pulseline::planning {
 namespace {
 
+// Classes of users: who drives forwards only is content with less.
+constexpr std::uint64_t kAnyWay = 1;
+constexpr std::uint64_t kForwards = 2;
+
+bool is_backwards(const RoadArc& arc) {
+    return std::abs(wrap(arc.body_rad - arc.heading_rad)) > kPi / 2;
+}
+
 Result<const plant::Station*> station_of(const plant::Plant& plant, int number, const char* field) {
     if (const auto* station = plant::find_station(plant, number)) return station;
     return fail(Errc::kNotFound, "unknown_station",
@@ -22,7 +30,9 @@ std::vector<LaneRules> rules_of(const RoadmapIndex& roads, const Passage& passag
         const plant::RoadmapEdge& edge = roads.edge_of_arc(static_cast<int>(i));
         rules[i].closed = std::find(closed.begin(), closed.end(), edge.id) != closed.end();
         rules[i].too_narrow = passage.arc_free[i] == 0;
-        rules[i].classes = passage.arc_allowed[i] != 0 ? ~std::uint64_t{0} : 0;
+        rules[i].classes = passage.arc_allowed[i] == 0           ? 0
+                           : is_backwards(roads.graph().arcs[i]) ? kAnyWay
+                                                                 : kAnyWay | kForwards;
         rules[i].max_speed_mps = edge.max_speed_mps;
     }
     return rules;
@@ -34,8 +44,7 @@ WhatIfRoute route_of(const RoadmapIndex& roads, const RoadRouter& router, int us
     for (const RouteLegCost& cost : leg_costs(router, user, start, route.arcs)) {
         const RoadArc& arc = roads.graph().arcs[static_cast<std::size_t>(cost.arc)];
         result.legs.push_back({roads.edge_of_arc(cost.arc).id, roads.node(arc.from).id,
-                               roads.node(arc.to).id,
-                               std::abs(wrap(arc.body_rad - arc.heading_rad)) > kPi / 2,
+                               roads.node(arc.to).id, is_backwards(arc),
                                roads.edge_of_arc(cost.arc).max_speed_mps, cost});
     }
     return result;
@@ -86,9 +95,17 @@ Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question) 
 
     const Passage passage = roads.passage(*type, question.loaded);
     RoadRouter router(roads.graph(), rules_of(roads, passage, question.closed), {plant.routing});
-    const int user =
-        router.add_user({1, question.loaded, type->max_speed_mps,
-                         [&](int arc, int next) { return roads.may_follow(passage, arc, next); }});
+    const auto add_user = [&](std::uint64_t vehicle_class) {
+        return router.add_user(
+            {vehicle_class, question.loaded, type->max_speed_mps,
+             [&](int arc, int next) { return roads.may_follow(passage, arc, next); }});
+    };
+    // Backwards costs the same, so it is offered only where it saves something.
+    const int forwards = add_user(kForwards);
+    const int any_way = add_user(kAnyWay);
+    const RoadCost least = router.cost(any_way, start, goal);
+    const bool forwards_will_do = least != kNoWay && router.cost(forwards, start, goal) == least;
+    const int user = forwards_will_do ? forwards : any_way;
     const auto routes =
         alternatives(router, user, start, goal, {.count = question.alternatives + 1});
     for (const RoadRoute& route : routes) {
@@ -99,11 +116,11 @@ Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question) 
                                                 leg_costs(router, user, start, routes[i].arcs)));
     }
     if (!routes.empty()) {
-        if (const auto barred = barred_shortcut(router, user, start, goal, routes[0].cost)) {
+        if (const auto barred = barred_shortcut(router, any_way, start, goal, routes[0].cost)) {
             answer.shortcut_bars = named(roads, barred->bars);
             answer.shortcut_cost = barred->route.cost;
         }
-    } else if (const auto set = blocking_set(router, user, start, goal)) {
+    } else if (const auto set = blocking_set(router, any_way, start, goal)) {
         answer.blocking = named(roads, *set);
     }
     return answer;
