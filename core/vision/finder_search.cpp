@@ -4,14 +4,16 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "core/plant/marker_geometry.hpp"
+
 namespace pulseline::vision {
 namespace {
 
 constexpr float kLeastScore = 0.35F;
 constexpr std::size_t kMostPeaks = 14;
 constexpr std::size_t kMostPlacements = 4;
-constexpr double kLeg = kModules - 7;   // modules between finder centres
-constexpr double kLegTolerance = 0.08;  // of the leg: peaks are good to about half a module
+constexpr double kLeg = plant::kQrModules - 7;  // modules between finder centres
+constexpr double kLegTolerance = 0.08;          // of the leg: peaks are good to about half a module
 
 struct Peak {
     Pixel ideal;
@@ -81,12 +83,12 @@ std::vector<Peak> find_peaks(const cv::Mat& grey, const plant::Camera& camera, d
 
 }  // namespace
 
-std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
-                                          double expected_module_px, int shrink) {
+std::vector<Placement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
+                                      double expected_module_px, int shrink) {
     const std::vector<Peak> peaks = find_peaks(grey, camera, expected_module_px, shrink);
     const double leg_px = kLeg * expected_module_px;
     struct Candidate {
-        CodePlacement placement;
+        Placement placement;
         float score;
     };
     std::vector<Candidate> candidates;
@@ -106,7 +108,7 @@ std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Came
         }
     }
     std::ranges::sort(candidates, std::ranges::greater{}, &Candidate::score);
-    std::vector<CodePlacement> placements;
+    std::vector<Placement> placements;
     for (const Candidate& c : candidates)
         if (placements.size() < kMostPlacements) placements.push_back(c.placement);
     return placements;

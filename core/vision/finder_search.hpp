@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/plant/plant.hpp"
-#include "core/vision/edge_fit.hpp"
+#include "core/vision/placement.hpp"
 
 namespace pulseline::vision {
 
@@ -12,7 +12,7 @@ namespace pulseline::vision {
 /// Method: correlation of the image, shrunk to 1/`shrink`, with a finder averaged over all
 /// rotations, then triples of peaks with two equal legs of 14 modules at a right angle. It needs no
 /// intact scan line, so dirt on a finder does not hide it. REQUIRES: shrink is a power of two.
-std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
-                                          double expected_module_px, int shrink);
+std::vector<Placement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
+                                      double expected_module_px, int shrink);
 
 }  // namespace pulseline::vision
