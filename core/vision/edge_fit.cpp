@@ -14,14 +14,14 @@ namespace {
 // Profiles are long at first, to catch a rough start, then short and many.
 struct Round {
     int reach_px;
-    int every;  // n-th site
+    std::size_t profiles;  // about so many, evenly from all sites
     int passes;
 };
-constexpr std::array<Round, 4> kRounds{{{7, 3, 3}, {4, 3, 3}, {4, 1, 4}, {4, 1, 4}}};
+constexpr std::array<Round, 3> kRounds{{{7, 160, 3}, {4, 160, 3}, {4, 700, 4}}};
 constexpr std::size_t kLocateRounds = 2;
 constexpr double kReference_px = 10.4;  // clear of a blur of 2.2 px and a smear of 6 px
-constexpr int kFewestEdges = 24;        // of a coarse round
-constexpr double kTukey = 4.685;        // 95 % efficiency for Gaussian residuals
+constexpr std::size_t kFewestEdges = 24;
+constexpr double kTukey = 4.685;  // 95 % efficiency for Gaussian residuals
 // Neighbouring profiles share pixels, so they are not independent.
 constexpr double kCorrelation = 1.5;
 // What may be unknown of a mounted camera's tilt and of the ink's spread, one sigma.
@@ -31,6 +31,28 @@ constexpr double kGrowthPrior_px = 0.5;
 constexpr int kUnknowns = 7;  // centre u, v; angle; relative scale; tilt u, v; growth
 using Vector = Eigen::Matrix<double, kUnknowns, 1>;
 using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
+
+/// Weighted normal equations. Plain loops: they run for every profile of every pass.
+struct NormalEquations {
+    std::array<std::array<double, kUnknowns>, kUnknowns> lower{};
+    std::array<double, kUnknowns> right{};
+
+    void add(const Vector& row, double value, double weight) {
+        for (int i = 0; i < kUnknowns; ++i) {
+            const double wi = weight * row.data()[i];
+            auto& out = lower[static_cast<std::size_t>(i)];
+            for (int j = 0; j <= i; ++j) out[static_cast<std::size_t>(j)] += wi * row.data()[j];
+            right[static_cast<std::size_t>(i)] += wi * value;
+        }
+    }
+    Matrix matrix() const {
+        Matrix m;
+        for (int i = 0; i < kUnknowns; ++i)
+            for (int j = 0; j <= i; ++j)
+                m(i, j) = m(j, i) = lower[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+        return m;
+    }
+};
 
 struct State {
     Placement placement;
@@ -81,8 +103,7 @@ Step solve(const std::vector<EdgeObservation>& seen, const State& state, double 
         for (std::size_t i = 0; i < seen.size(); ++i)
             magnitude[i] = std::abs(offsets[i] - rows[i].dot(step.change));
         const double scale = std::max(1.4826 * median_in_place(magnitude), 1e-3);
-        Matrix normal = Matrix::Zero();
-        Vector right = Vector::Zero();
+        NormalEquations sums;
         double squares = 0;
         double weights = 0;
         step.inliers = 0;
@@ -91,20 +112,20 @@ Step solve(const std::vector<EdgeObservation>& seen, const State& state, double 
             const double x = r / (kTukey * scale);
             if (std::abs(x) >= 1) continue;
             const double w = (1 - x * x) * (1 - x * x);
-            normal.selfadjointView<Eigen::Lower>().rankUpdate(rows[i], w);
-            right += (w * offsets[i]) * rows[i];
+            sums.add(rows[i], offsets[i], w);
             squares += w * r * r;
             weights += w;
             ++step.inliers;
         }
         step.rms_px = weights > 0 ? std::sqrt(squares / weights) : 0;
+        step.information = sums.matrix();
+        Vector right(sums.right.data());
         const double noise2 = kCorrelation * std::max(step.rms_px * step.rms_px, 1e-6);
         for (const int i : {4, 5, 6}) {
             const double sigma = i == 6 ? kGrowthPrior_px : kTiltPrior_rad;
-            normal(i, i) += noise2 / (sigma * sigma);
+            step.information(i, i) += noise2 / (sigma * sigma);
             right[i] += noise2 / (sigma * sigma) * prior_pull[i];
         }
-        step.information = normal.selfadjointView<Eigen::Lower>();
         step.change = step.information.ldlt().solve(right);
     }
     return step;
@@ -132,11 +153,11 @@ std::optional<EdgeFit> fit_edges(const cv::Mat& grey, const plant::Camera& camer
     for (std::size_t i = 0; i < kRounds.size(); ++i) {
         if (effort == FitEffort::kLocate && i == kLocateRounds) break;
         const Round& round = kRounds[i];
-        const auto edges =
-            observe_edges(grey, camera, sites, state.placement,
-                          {std::min(round.reach_px, longest), reference_px, round.every});
-        if (static_cast<int>(edges.seen.size()) * round.every < 3 * kFewestEdges)
-            return std::nullopt;
+        const auto every = static_cast<int>(
+            std::max<std::size_t>(1, (sites.size() + round.profiles / 2) / round.profiles));
+        const auto edges = observe_edges(grey, camera, sites, state.placement,
+                                         {std::min(round.reach_px, longest), reference_px, every});
+        if (edges.seen.size() < kFewestEdges) return std::nullopt;
         step = solve(edges.seen, state, camera.f_px, round.passes);
         if (!step.change.allFinite()) return std::nullopt;
         apply(state, step, camera.f_px);

@@ -22,21 +22,18 @@ struct Levels {
     double light = 0;
 };
 
-/// Mean of 3 x 3 samples; negative when they leave the image.
+/// Mean of the middle and the corners of a small rectangle; negative when it leaves the image.
 double patch_level(const cv::Mat& grey, Pixel middle, Pixel normal) {
     const Pixel across = kPatchAcross_px * normal;
     const Pixel along{-kPatchAlong_px * normal.v, kPatchAlong_px * normal.u};
-    const double reach_u = std::abs(across.u) + std::abs(along.u);
-    const double reach_v = std::abs(across.v) + std::abs(along.v);
-    if (!sampleable(grey, middle - Pixel{reach_u, reach_v}) ||
-        !sampleable(grey, middle + Pixel{reach_u, reach_v}))
+    const double reach = std::max(kPatchAcross_px, kPatchAlong_px) * 1.5;
+    if (!sampleable(grey, middle - Pixel{reach, reach}) ||
+        !sampleable(grey, middle + Pixel{reach, reach}))
         return -1;
-    float sum = 0;
-    for (int i = -1; i <= 1; ++i)
-        for (int j = -1; j <= 1; ++j)
-            sum += sample(
-                grey, middle + static_cast<double>(i) * across + static_cast<double>(j) * along);
-    return static_cast<double>(sum) / 9;
+    const float sum = sample(grey, middle) + sample(grey, middle + across + along) +
+                      sample(grey, middle + across - along) +
+                      sample(grey, middle - across + along) + sample(grey, middle - across - along);
+    return static_cast<double>(sum) / 5;
 }
 
 std::vector<Levels> measure_levels(const cv::Mat& grey, const plant::Camera& camera,
@@ -75,21 +72,25 @@ Pixel shading(const std::vector<Levels>& all, double Levels::*level, Pixel about
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
     double limit = 1e9;
     std::vector<double> residuals;
+    residuals.reserve(all.size());
     for (int pass = 0; pass < 3; ++pass) {
-        Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-        Eigen::Vector3d right = Eigen::Vector3d::Zero();
+        double n = 0, su = 0, sv = 0, suu = 0, suv = 0, svv = 0, sl = 0, slu = 0, slv = 0;
         residuals.clear();
         for (const Levels& at : all) {
-            const Eigen::Vector3d j{1, at.foot.u - about.u, at.foot.v - about.v};
-            const double residual = std::abs(at.*level - j.dot(plane));
+            const double u = at.foot.u - about.u;
+            const double v = at.foot.v - about.v;
+            const double l = at.*level;
+            const double residual = std::abs(l - plane[0] - plane[1] * u - plane[2] * v);
             if (residual > limit) continue;
             residuals.push_back(residual);
-            normal += j * j.transpose();
-            right += j * at.*level;
+            n += 1, su += u, sv += v, suu += u * u, suv += u * v, svv += v * v;
+            sl += l, slu += l * u, slv += l * v;
         }
         if (residuals.size() < 12) return {};
-        if (pass > 0) limit = std::max(1.0, 4 * median_of(residuals));
-        plane = normal.ldlt().solve(right);
+        if (pass == 1) limit = std::max(1.0, 4 * median_of(residuals));
+        Eigen::Matrix3d normal;
+        normal << n, su, sv, su, suu, suv, sv, suv, svv;
+        plane = normal.ldlt().solve(Eigen::Vector3d{sl, slu, slv});
     }
     return {plane[1], plane[2]};
 }

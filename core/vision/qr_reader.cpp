@@ -7,6 +7,7 @@
 #include "core/vision/cell_grid.hpp"
 #include "core/vision/finder_search.hpp"
 #include "core/vision/qr_symbol.hpp"
+#include "core/vision/round_search.hpp"
 
 namespace pulseline::vision {
 namespace {
@@ -15,7 +16,7 @@ using plant::kQrModules;
 
 // Finder and timing patterns must be there: 90 % leaves room for dirt, a wrong grid matches half.
 constexpr double kFixedPatternShare = 0.9;
-constexpr int kProfilesPerModule = 3;
+constexpr int kProfilesPerModule = 2;
 
 /// Search rounds: the usual one first; then a finer image; then other print sizes, only to be able
 /// to say that the size is wrong.
@@ -42,10 +43,12 @@ std::optional<Located> decode(const cv::Mat& grey, const plant::Camera& camera,
 
 std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
                               double expected_module_px) {
-    for (const Round& round : kRounds)
+    for (const Round& round : kRounds) {
+        const cv::Mat small = shrunk(grey, round.shrink);
         for (const Placement& placement :
-             search_finders(grey, camera, round.scale * expected_module_px, round.shrink))
+             search_finders(small, camera, round.scale * expected_module_px, round.shrink))
             if (auto found = decode(grey, camera, placement)) return found;
+    }
     return std::nullopt;
 }
 

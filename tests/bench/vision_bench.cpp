@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "core/plant/marker_geometry.hpp"
 #include "core/simulation/floor_camera.hpp"
-#include "core/vision/qr_reader.hpp"
+#include "core/vision/marker_reader.hpp"
 
 namespace {
 
@@ -39,7 +40,8 @@ struct Tally {
     std::map<std::string, int> refused;
 };
 
-void run(const char* level, ImageConditions (*sample)(std::mt19937_64&), int images) {
+void run(plant::MarkerKind kind, const char* level, ImageConditions (*sample)(std::mt19937_64&),
+         int images) {
     std::mt19937_64 random{2026};
     const auto uniform = [&](double a, double b) {
         return std::uniform_real_distribution<double>(a, b)(random);
@@ -55,20 +57,26 @@ void run(const char* level, ImageConditions (*sample)(std::mt19937_64&), int ima
             any ? uniform(-kPi, kPi)
                 : kPi / 2 * static_cast<double>(random() % 4) + radians(uniform(-3.4, 3.4));
         // The whole marker is in view; its offset fills what the view allows.
-        const double half = 0.030 * (std::abs(std::cos(turn)) + std::abs(std::sin(turn)));
+        const double size = plant::usual_size_m(kind);
+        const double half = kind == plant::MarkerKind::kLandmark
+                                ? size / 2
+                                : size / 2 * (std::abs(std::cos(turn)) + std::abs(std::sin(turn)));
         const double room_x = 0.0855 - half - 0.001;
         const double room_y = 0.0680 - half - 0.001;
         const geometry::Pose2 camera_from_code{uniform(-room_x, room_x), uniform(-room_y, room_y),
                                                turn};
         const geometry::Pose2 body{uniform(-40, 40), uniform(-40, 40), uniform(-kPi, kPi)};
-        const std::string payload = fmt::format("ST{:02}-{}", 1 + i % 99, i % 2 == 0 ? 'F' : 'B');
-        const std::vector<FloorCode> codes{{payload, body * camera_from_code}};
+        const std::string payload =
+            kind == plant::MarkerKind::kQr
+                ? fmt::format("ST{:02}-{}", 1 + i % 99, i % 2 == 0 ? 'F' : 'B')
+                : std::to_string(kind == plant::MarkerKind::kAprilTag ? i % 587 : 1 + i % 254);
+        const std::vector<FloorCode> codes{{payload, body * camera_from_code, size, false, kind}};
 
         const double start = cpu_ms();
         const cv::Mat image = simulation::render_floor(camera, body, codes, conditions);
         t.render_ms.push_back(cpu_ms() - start);
         const double begin = cpu_ms();
-        const auto reading = vision::read_qr(image, camera);
+        const auto reading = vision::read_marker(kind, image, camera);
         t.read_ms.push_back(cpu_ms() - begin);
 
         ++t.images;
@@ -96,13 +104,15 @@ void run(const char* level, ImageConditions (*sample)(std::mt19937_64&), int ima
     }
     const double n = std::max(1, t.right);
     fmt::print(
-        "{:8} images {} right {} wrong {}  centre rms {:.4f} px worst {:.4f} bias {:+.4f} {:+.4f}  "
+        "{:8} {:8} images {} right {} wrong {}  centre rms {:.4f} px worst {:.4f} bias {:+.4f} "
+        "{:+.4f}  "
         "angle "
         "rms {:.5f} deg  sigma {:.4f} px chi2/2 {:.2f}  read ms p50 {:.2f} p95 {:.2f}  render ms "
         "p50 {:.1f}\n",
-        level, t.images, t.right, t.wrong, std::sqrt(t.centre2 / n), t.worst_px, t.bias_u / n,
-        t.bias_v / n, degrees(std::sqrt(t.angle2 / n)), t.sigma / n, t.chi2 / n,
-        quantile(t.read_ms, 0.5), quantile(t.read_ms, 0.95), quantile(t.render_ms, 0.5));
+        plant::to_string(kind), level, t.images, t.right, t.wrong, std::sqrt(t.centre2 / n),
+        t.worst_px, t.bias_u / n, t.bias_v / n, degrees(std::sqrt(t.angle2 / n)), t.sigma / n,
+        t.chi2 / n, quantile(t.read_ms, 0.5), quantile(t.read_ms, 0.95),
+        quantile(t.render_ms, 0.5));
     for (const auto& [reason, count] : t.refused)
         fmt::print("         refused {}: {}\n", reason, count);
 }
@@ -112,7 +122,10 @@ void run(const char* level, ImageConditions (*sample)(std::mt19937_64&), int ima
 int main(int argc, char** argv) {
     cv::setNumThreads(1);
     const int images = argc > 1 ? std::stoi(argv[1]) : 200;
-    run("clean", &ImageConditions::clean, images);
-    run("nominal", &ImageConditions::nominal, images);
-    run("hard", &ImageConditions::hard, images);
+    for (const auto kind :
+         {plant::MarkerKind::kQr, plant::MarkerKind::kAprilTag, plant::MarkerKind::kLandmark}) {
+        run(kind, "clean", &ImageConditions::clean, images);
+        run(kind, "nominal", &ImageConditions::nominal, images);
+        run(kind, "hard", &ImageConditions::hard, images);
+    }
 }

@@ -1,0 +1,201 @@
+#include "core/vision/landmark_code.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "core/plant/marker_geometry.hpp"
+#include "core/vision/sample.hpp"
+
+namespace pulseline::vision {
+namespace {
+
+namespace landmark = plant::landmark;
+
+constexpr double kSite_m = 0.0008;  // between neighbouring border sites
+constexpr double kSector_rad = kPi / 4;
+constexpr float kClipped = 252;
+constexpr double kLeastContrast = 8;
+// Shares of a sector's samples. Dirt of 4 mm takes less than a fifth of a sector.
+constexpr double kSurelyDark = 0.7;
+constexpr double kSurelyLight = 0.25;
+constexpr double kShown = 0.6;   // share of a black sector's outline that must show
+constexpr double kAbsent = 0.3;  // most outline a white sector may seem to have
+constexpr double kGlare = 0.5;
+
+/// Direction clockwise from "up", as an offset right and down.
+Pixel direction(double turn) { return {std::sin(turn), -std::cos(turn)}; }
+
+std::optional<float> level(const cv::Mat& grey, const plant::Camera& camera,
+                           const Placement& placement, double radius, double turn) {
+    const Pixel at = radius * direction(turn);
+    const Pixel p = distorted(camera, placement.at(at.u, at.v));
+    if (!sampleable(grey, p)) return std::nullopt;
+    return sample(grey, p);
+}
+
+struct Sector {
+    double dark_share = 0;
+    double outline_share = 0;  // places where ring and the paper around differ as black does
+    double clipped_share = 0;
+};
+
+/// Black over white on this print in this light, from the dots and the paper between them.
+std::optional<double> ink_ratio(const cv::Mat& grey, const plant::Camera& camera,
+                                const Placement& placement) {
+    std::vector<double> ratios;
+    for (const auto& dot : landmark::kDots) {
+        const Pixel middle{dot.right_m, -dot.up_m};
+        const Pixel p = distorted(camera, placement.at(middle.u, middle.v));
+        if (!sampleable(grey, p)) return std::nullopt;
+        std::vector<float> around;
+        for (int i = 0; i < 8; ++i) {
+            const Pixel at = middle + 0.0055 * direction(i * kSector_rad);
+            const Pixel q = distorted(camera, placement.at(at.u, at.v));
+            if (sampleable(grey, q)) around.push_back(sample(grey, q));
+        }
+        if (around.size() < 4) return std::nullopt;
+        std::ranges::nth_element(around, around.begin() + 4);
+        if (static_cast<double>(around[4] - sample(grey, p)) > kLeastContrast)
+            ratios.push_back(static_cast<double>(sample(grey, p) / around[4]));
+    }
+    if (ratios.size() < 3) return std::nullopt;
+    std::ranges::sort(ratios);
+    return ratios[ratios.size() / 2];
+}
+
+constexpr int kAcross = 13;  // directions sampled in a sector
+
+/// Paper just inside the ring, over the direction: median of three radii.
+std::optional<double> paper(const cv::Mat& grey, const plant::Camera& camera,
+                            const Placement& placement, double turn) {
+    std::array<float, 3> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto l =
+            level(grey, camera, placement, 0.0255 + 0.0012 * static_cast<double>(i), turn);
+        if (!l) return std::nullopt;
+        values[i] = *l;
+    }
+    std::ranges::sort(values);
+    return static_cast<double>(values[1]);
+}
+
+std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& camera,
+                                    const Placement& placement, int k, double ratio) {
+    Sector sector;
+    // One speck on the paper must not decide: the level is the median over the sector.
+    std::vector<double> inner;
+    for (int i = 0; i < kAcross; ++i) {
+        const auto p = paper(grey, camera, placement, (k + (i + 0.5) / kAcross) * kSector_rad);
+        if (!p) return std::nullopt;
+        inner.push_back(*p);
+    }
+    std::vector<double> sorted = inner;
+    std::ranges::sort(sorted);
+    const double white = sorted[sorted.size() / 2];
+    const double middle = white * (1 + ratio) / 2;
+    const double step = white * (1 - ratio) / 2;
+    int dark = 0, samples = 0, clipped = 0, shown = 0, looked = 0;
+    for (int i = 0; i < kAcross; ++i) {
+        const double turn = (k + 0.08 + 0.84 * (i + 0.5) / kAcross) * kSector_rad;
+        for (int j = 0; j < 9; ++j) {
+            const auto l = level(grey, camera, placement, 0.0311 + 0.00095 * j, turn);
+            if (!l) return std::nullopt;
+            ++samples;
+            dark += static_cast<double>(*l) < middle;
+            clipped += *l >= kClipped;
+        }
+        for (const auto& [on_ring, on_paper] : {std::pair{0.0312, 0.0287}, {0.0388, 0.0413}}) {
+            const auto a = level(grey, camera, placement, on_ring, turn);
+            const auto b = level(grey, camera, placement, on_paper, turn);
+            if (!a || !b) continue;
+            ++looked;
+            shown += static_cast<double>(*b - *a) > 0.6 * step;
+        }
+    }
+    sector.dark_share = static_cast<double>(dark) / samples;
+    sector.clipped_share = static_cast<double>(clipped) / samples;
+    sector.outline_share = looked == 0 ? 0 : static_cast<double>(shown) / looked;
+    return sector;
+}
+
+enum class Colour { kBlack, kWhite, kUnsure };
+
+Colour colour(const Sector& s) {
+    if (s.dark_share >= kSurelyDark && s.outline_share > kAbsent) return Colour::kBlack;
+    if (s.dark_share <= kSurelyLight && s.outline_share < kAbsent) return Colour::kWhite;
+    if (s.outline_share >= kShown && s.dark_share > kSurelyLight) return Colour::kBlack;
+    // Dirt: dark in places, but the outline of a black sector is not there.
+    if (s.outline_share < kAbsent && s.dark_share < 0.5 && s.clipped_share < kGlare)
+        return Colour::kWhite;
+    return Colour::kUnsure;
+}
+
+void add_circle(std::vector<EdgeSite>& sites, Pixel middle, double radius, double from, double to,
+                double sign) {
+    const int count = std::max(1, static_cast<int>(radius * (to - from) / kSite_m));
+    for (int i = 0; i < count; ++i) {
+        const Pixel out = direction(from + (to - from) * (i + 0.5) / count);
+        sites.push_back(
+            {middle.u + radius * out.u, middle.v + radius * out.v, sign * out.u, sign * out.v});
+    }
+}
+
+}  // namespace
+
+RingCode read_ring(const cv::Mat& grey, const plant::Camera& camera, const Placement& placement) {
+    RingCode ring;
+    const auto ratio = ink_ratio(grey, camera, placement);
+    if (!ratio || *ratio > 0.8) return ring;
+    bool unsure = false;
+    for (int k = 0; k < landmark::kSectors; ++k) {
+        const auto sector = sample_sector(grey, camera, placement, k, *ratio);
+        if (!sector) return ring;
+        const Colour c = colour(*sector);
+        unsure |= c == Colour::kUnsure;
+        ring.code = 2 * ring.code + (c == Colour::kWhite ? 1 : 0);
+    }
+    if (unsure) {
+        ring.state = RingCode::State::kAmbiguous;
+    } else if (landmark::is_code(ring.code)) {
+        ring.state = RingCode::State::kRead;
+    }
+    return ring;
+}
+
+const std::vector<EdgeSite>& dot_borders() {
+    static const std::vector<EdgeSite> sites = [] {
+        std::vector<EdgeSite> all;
+        for (const auto& dot : landmark::kDots)
+            add_circle(all, {dot.right_m, -dot.up_m}, landmark::kDot_m, 0, 2 * kPi, 1);
+        return all;
+    }();
+    return sites;
+}
+
+std::vector<EdgeSite> landmark_borders(int code) {
+    std::vector<EdgeSite> sites = dot_borders();
+    // Clear of the corners by about the blur.
+    constexpr double kCorner_m = 0.0015;
+    for (int k = 0; k < landmark::kSectors; ++k) {
+        const bool dark = landmark::sector_dark(code, k);
+        const bool before =
+            landmark::sector_dark(code, (k + landmark::kSectors - 1) % landmark::kSectors);
+        if (dark) {
+            for (const auto& [radius, sign] :
+                 {std::pair{landmark::kInner_m, -1.0}, {landmark::kOuter_m, 1.0}})
+                add_circle(sites, {}, radius, k * kSector_rad + kCorner_m / radius,
+                           (k + 1) * kSector_rad - kCorner_m / radius, sign);
+        }
+        if (dark == before) continue;
+        const Pixel out = direction(k * kSector_rad);
+        const double sign = dark ? -1 : 1;  // clockwise of the border lies sector k
+        for (double r = landmark::kInner_m + kCorner_m; r < landmark::kOuter_m - kCorner_m;
+             r += kSite_m)
+            sites.push_back({r * out.u, r * out.v, -sign * out.v, sign * out.u});
+    }
+    return sites;
+}
+
+}  // namespace pulseline::vision
