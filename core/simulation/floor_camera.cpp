@@ -256,10 +256,12 @@ cv::Mat expose(const cv::Mat& scene, const ImageConditions& conditions, std::mt1
 FloorProjection::FloorProjection(const plant::Camera& camera, const ImageConditions& conditions)
     : camera_(camera), height_m_(camera.height_m + conditions.height_error_m) {
     // Rays are (u, v, F) in the camera's axes; turned first about v, then about u.
-    const double cu = std::cos(conditions.tilt_u_rad);
-    const double su = std::sin(conditions.tilt_u_rad);
-    const double cv = std::cos(conditions.tilt_v_rad);
-    const double sv = std::sin(conditions.tilt_v_rad);
+    const double tilt_u = camera.tilt_u_rad + conditions.tilt_u_rad;
+    const double tilt_v = camera.tilt_v_rad + conditions.tilt_v_rad;
+    const double cu = std::cos(tilt_u);
+    const double su = std::sin(tilt_u);
+    const double cv = std::cos(tilt_v);
+    const double sv = std::sin(tilt_v);
     floor_from_ray_ = {cu, 0, su, -sv * su, cv, sv * cu, -cv * su, -sv, cv * cu};
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/cell_grid.hpp"
+#include "core/vision/level_plane.hpp"
 #include "core/vision/round_search.hpp"
 #include "core/vision/sample.hpp"
 #include "core/vision/tag_family.hpp"
@@ -23,11 +24,8 @@ constexpr int kProfilesPerCell = 6;
 // Border and margin cells as they must be; dirt takes some, another pattern half of them.
 constexpr double kFrameShare = 0.8;
 
-struct Round {
-    double scale;
-    int shrink;
-};
-constexpr std::array<Round, 4> kRounds{{{1, 8}, {1, 4}, {0.84, 8}, {1.19, 8}}};
+// The usual size first, then others, only to be able to say that the size is wrong.
+constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
 
 bool in_border(int row, int column) {
     return row >= 0 && column >= 0 && row < kTagCells && column < kTagCells;
@@ -57,31 +55,6 @@ double cell_level(const cv::Mat& grey, const plant::Camera& camera, const Placem
     std::ranges::nth_element(samples, samples.begin() + 12);
     return static_cast<double>(samples[12]);
 }
-
-/// Dark and light level over the tag: a plane each through the cells of the border and the margin.
-class LevelPlane {
-public:
-    void add(double x, double y, double level) { points_.push_back({x, y, level}); }
-    void fit() {
-        for (int pass = 0; pass < 3; ++pass) {
-            cv::Matx33d normal = cv::Matx33d::zeros();
-            cv::Vec3d right;
-            for (const cv::Vec3d& p : points_) {
-                const double off = std::abs(p[2] - at(p[0], p[1]));
-                const double w = pass == 0 ? 1 : 1 / (5 + off);  // about least absolute values
-                const cv::Vec3d j(1, p[0], p[1]);
-                normal += w * j * j.t();
-                right += w * p[2] * j;
-            }
-            plane_ = normal.solve(right, cv::DECOMP_CHOLESKY);
-        }
-    }
-    double at(double x, double y) const { return plane_[0] + plane_[1] * x + plane_[2] * y; }
-
-private:
-    std::vector<cv::Vec3d> points_;
-    cv::Vec3d plane_;
-};
 
 struct Sampled {
     TagBits bits{};
@@ -157,12 +130,12 @@ std::optional<Located> decode(const cv::Mat& grey, const plant::Camera& camera,
 
 std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
                               double expected_cell_px) {
-    for (const Round& round : kRounds) {
-        const cv::Mat small = shrunk(grey, round.shrink);
+    const int shrink = search_shrink(expected_cell_px);
+    const cv::Mat small = shrunk(grey, shrink);
+    for (const double scale : kScales)
         for (const Placement& placement :
-             search_tags(small, camera, round.scale * expected_cell_px, round.shrink))
+             search_tags(small, camera, scale * expected_cell_px, shrink))
             if (auto found = decode(grey, camera, placement)) return found;
-    }
     return std::nullopt;
 }
 

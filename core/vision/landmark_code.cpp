@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/plant/marker_geometry.hpp"
+#include "core/vision/level_plane.hpp"
 #include "core/vision/sample.hpp"
 
 namespace pulseline::vision {
@@ -15,14 +16,15 @@ namespace landmark = plant::landmark;
 
 constexpr double kSite_m = 0.0008;  // between neighbouring border sites
 constexpr double kSector_rad = kPi / 4;
-constexpr float kClipped = 252;
+constexpr double kClipped = 252;
 constexpr double kLeastContrast = 8;
-// Shares of a sector's samples. Dirt of 4 mm takes less than a fifth of a sector.
-constexpr double kSurelyDark = 0.7;
-constexpr double kSurelyLight = 0.25;
+// Shares of a sector's samples. Dirt of 4 mm takes less than a fifth of a sector, tape a third.
+constexpr double kMostly = 0.65;
+// What counts as paper, relative to the paper expected there: tape is 0.83 of it, glare is more.
+constexpr double kPaperFrom = 0.8;
+constexpr double kPaperTo = 1.15;
 constexpr double kShown = 0.6;   // share of a black sector's outline that must show
 constexpr double kAbsent = 0.3;  // most outline a white sector may seem to have
-constexpr double kGlare = 0.5;
 
 /// Direction clockwise from "up", as an offset right and down.
 Pixel direction(double turn) { return {std::sin(turn), -std::cos(turn)}; }
@@ -37,8 +39,8 @@ std::optional<float> level(const cv::Mat& grey, const plant::Camera& camera,
 
 struct Sector {
     double dark_share = 0;
+    double paper_share = 0;
     double outline_share = 0;  // places where ring and the paper around differ as black does
-    double clipped_share = 0;
 };
 
 /// Black over white on this print in this light, from the dots and the paper between them.
@@ -65,57 +67,67 @@ std::optional<double> ink_ratio(const cv::Mat& grey, const plant::Camera& camera
     return ratios[ratios.size() / 2];
 }
 
-constexpr int kAcross = 13;  // directions sampled in a sector
-
-/// Paper just inside the ring, over the direction: median of three radii.
-std::optional<double> paper(const cv::Mat& grey, const plant::Camera& camera,
-                            const Placement& placement, double turn) {
-    std::array<float, 3> values{};
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto l =
-            level(grey, camera, placement, 0.0255 + 0.0012 * static_cast<double>(i), turn);
-        if (!l) return std::nullopt;
-        values[i] = *l;
+/// Level of white paper over the landmark, from what is surely paper: the ground between the dots
+/// and the ring. Clipped paper says nothing about the light, so it is left out where it can be.
+class PaperLight {
+public:
+    PaperLight(const cv::Mat& grey, const plant::Camera& camera, const Placement& placement) {
+        int looked = 0;
+        for (const double radius : {0.0245, 0.0260, 0.0275}) {
+            for (int i = 0; i < 48; ++i) {
+                const double turn = i * 2 * kPi / 48;
+                const auto l = level(grey, camera, placement, radius, turn);
+                if (!l) continue;
+                ++looked;
+                const Pixel at = radius * direction(turn);
+                if (static_cast<double>(*l) < kClipped)
+                    plane_.add(at.u, at.v, static_cast<double>(*l));
+            }
+        }
+        too_bright_ = plane_.size() < static_cast<std::size_t>(looked) / 3;
+        known_ = looked > 100;
+        if (!too_bright_) plane_.fit();
     }
-    std::ranges::sort(values);
-    return static_cast<double>(values[1]);
-}
+    bool known() const { return known_; }
+    double at(Pixel marker) const {
+        return too_bright_ ? 255 : std::min(255.0, plane_.at(marker.u, marker.v));
+    }
+
+private:
+    LevelPlane plane_;
+    bool too_bright_ = false;
+    bool known_ = false;
+};
 
 std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& camera,
-                                    const Placement& placement, int k, double ratio) {
+                                    const Placement& placement, int k, double ratio,
+                                    const PaperLight& light) {
+    constexpr int kAcross = 13;
+    constexpr int kDeep = 9;
     Sector sector;
-    // One speck on the paper must not decide: the level is the median over the sector.
-    std::vector<double> inner;
-    for (int i = 0; i < kAcross; ++i) {
-        const auto p = paper(grey, camera, placement, (k + (i + 0.5) / kAcross) * kSector_rad);
-        if (!p) return std::nullopt;
-        inner.push_back(*p);
-    }
-    std::vector<double> sorted = inner;
-    std::ranges::sort(sorted);
-    const double white = sorted[sorted.size() / 2];
-    const double middle = white * (1 + ratio) / 2;
-    const double step = white * (1 - ratio) / 2;
-    int dark = 0, samples = 0, clipped = 0, shown = 0, looked = 0;
+    int dark = 0, paper = 0, shown = 0, looked = 0;
     for (int i = 0; i < kAcross; ++i) {
         const double turn = (k + 0.08 + 0.84 * (i + 0.5) / kAcross) * kSector_rad;
-        for (int j = 0; j < 9; ++j) {
-            const auto l = level(grey, camera, placement, 0.0311 + 0.00095 * j, turn);
+        for (int j = 0; j < kDeep; ++j) {
+            const double radius = 0.0311 + 0.00095 * j;
+            const auto l = level(grey, camera, placement, radius, turn);
             if (!l) return std::nullopt;
-            ++samples;
-            dark += static_cast<double>(*l) < middle;
-            clipped += *l >= kClipped;
+            const double white = light.at(radius * direction(turn));
+            const double share = static_cast<double>(*l) / std::max(white, kLeastContrast);
+            dark += share < (1 + ratio) / 2;
+            paper += share > kPaperFrom && share < kPaperTo;
         }
+        const double step = (1 - ratio) * light.at(landmark::kInner_m * direction(turn));
         for (const auto& [on_ring, on_paper] : {std::pair{0.0312, 0.0287}, {0.0388, 0.0413}}) {
             const auto a = level(grey, camera, placement, on_ring, turn);
             const auto b = level(grey, camera, placement, on_paper, turn);
             if (!a || !b) continue;
             ++looked;
-            shown += static_cast<double>(*b - *a) > 0.6 * step;
+            shown += static_cast<double>(*b - *a) > 0.3 * step;
         }
     }
-    sector.dark_share = static_cast<double>(dark) / samples;
-    sector.clipped_share = static_cast<double>(clipped) / samples;
+    sector.dark_share = static_cast<double>(dark) / (kAcross * kDeep);
+    sector.paper_share = static_cast<double>(paper) / (kAcross * kDeep);
     sector.outline_share = looked == 0 ? 0 : static_cast<double>(shown) / looked;
     return sector;
 }
@@ -123,12 +135,11 @@ std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& ca
 enum class Colour { kBlack, kWhite, kUnsure };
 
 Colour colour(const Sector& s) {
-    if (s.dark_share >= kSurelyDark && s.outline_share > kAbsent) return Colour::kBlack;
-    if (s.dark_share <= kSurelyLight && s.outline_share < kAbsent) return Colour::kWhite;
-    if (s.outline_share >= kShown && s.dark_share > kSurelyLight) return Colour::kBlack;
-    // Dirt: dark in places, but the outline of a black sector is not there.
-    if (s.outline_share < kAbsent && s.dark_share < 0.5 && s.clipped_share < kGlare)
-        return Colour::kWhite;
+    if (s.dark_share >= kMostly && s.outline_share > kAbsent) return Colour::kBlack;
+    if (s.paper_share >= kMostly && s.outline_share < kAbsent) return Colour::kWhite;
+    // Glare lifts part of a black sector; its outline still shows.
+    if (s.outline_share >= kShown && s.dark_share > 1 - kMostly && s.paper_share < 1 - kMostly)
+        return Colour::kBlack;
     return Colour::kUnsure;
 }
 
@@ -148,9 +159,11 @@ RingCode read_ring(const cv::Mat& grey, const plant::Camera& camera, const Place
     RingCode ring;
     const auto ratio = ink_ratio(grey, camera, placement);
     if (!ratio || *ratio > 0.8) return ring;
+    const PaperLight light(grey, camera, placement);
+    if (!light.known()) return ring;
     bool unsure = false;
     for (int k = 0; k < landmark::kSectors; ++k) {
-        const auto sector = sample_sector(grey, camera, placement, k, *ratio);
+        const auto sector = sample_sector(grey, camera, placement, k, *ratio, light);
         if (!sector) return ring;
         const Colour c = colour(*sector);
         unsure |= c == Colour::kUnsure;

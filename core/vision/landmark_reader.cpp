@@ -14,11 +14,8 @@ namespace landmark = plant::landmark;
 
 constexpr double kDotWidth_m = 2 * landmark::kDot_m;
 
-struct Round {
-    double scale;
-    int shrink;
-};
-constexpr std::array<Round, 4> kRounds{{{1, 8}, {1, 4}, {0.84, 8}, {1.19, 8}}};
+// The usual size first, then others, only to be able to say that the size is wrong.
+constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
 
 }  // namespace
 
@@ -29,10 +26,10 @@ ReadResult read_landmark(const cv::Mat& grey, const plant::Camera& camera,
     const double units_per_m = 2 * landmark::kOuter_m / outer_m;
     const double unit_px = pixels_per_metre(camera) / units_per_m;
     bool ambiguous = false;
-    for (const Round& round : kRounds) {
-        const cv::Mat small = shrunk(grey, round.shrink);
-        for (const Placement& start :
-             search_landmarks(small, camera, round.scale * unit_px, round.shrink)) {
+    const int shrink = search_shrink(landmark::kDot_m * unit_px);
+    const cv::Mat small = shrunk(grey, shrink);
+    for (const double scale : kScales) {
+        for (const Placement& start : search_landmarks(small, camera, scale * unit_px, shrink)) {
             const auto dots =
                 fit_edges(grey, camera, dot_borders(), kDotWidth_m, start, FitEffort::kLocate);
             if (!dots) continue;

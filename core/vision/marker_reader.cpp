@@ -1,5 +1,8 @@
 #include "core/vision/marker_reader.hpp"
 
+#include <chrono>
+#include <opencv2/imgproc.hpp>
+
 #include "core/vision/apriltag_reader.hpp"
 #include "core/vision/landmark_reader.hpp"
 #include "core/vision/qr_reader.hpp"
@@ -17,6 +20,43 @@ ReadResult read_marker(plant::MarkerKind kind, const cv::Mat& grey, const plant:
             return read_landmark(grey, camera, options);
     }
     return refuse("no_code");
+}
+
+namespace {
+
+/// Grey over a marker that has been read, so that the next search finds another one.
+void cover(cv::Mat& image, const MarkerReading& reading) {
+    constexpr double kBeyond = 1.15;  // of the half diagonal: the marker's white as well
+    std::array<cv::Point, 4> corners;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+        const Pixel p = reading.centre + kBeyond * (reading.corners[i] - reading.centre);
+        corners[i] = {static_cast<int>(p.u), static_cast<int>(p.v)};
+    }
+    cv::fillConvexPoly(image, corners.data(), static_cast<int>(corners.size()), cv::Scalar(128));
+}
+
+}  // namespace
+
+MarkersFound read_markers(plant::MarkerKind kind, const cv::Mat& grey, const plant::Camera& camera,
+                          const ReaderOptions& options) {
+    constexpr std::size_t kMost = 8;  // more do not fit a view
+    MarkersFound found;
+    cv::Mat rest = grey;
+    while (found.readings.size() < kMost) {
+        const auto begin = std::chrono::steady_clock::now();
+        auto reading = read_marker(kind, rest, camera, options);
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - begin;
+        if (found.readings.empty()) found.first_ms = took.count();
+        if (!reading) {
+            if (found.readings.empty()) found.refusal = reading.error();
+            break;
+        }
+        if (found.readings.empty()) rest = grey.clone();
+        cover(rest, *reading);
+        found.readings.push_back(std::move(*reading));
+    }
+    return found;
 }
 
 }  // namespace pulseline::vision

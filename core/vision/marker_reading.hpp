@@ -44,9 +44,6 @@ struct ReaderOptions {
     double max_rms_px = 0.5;
     double max_sigma_px = 0.05;
     double max_tilt_rad = 0.02;  // 1.1 deg: no mounted camera, or not the marker's shape
-    /// Where odometry expects the marker: camera_from_marker on the floor (heading = "up"), good to
-    /// about 5 mm and 2 deg. Tried when the search finds nothing.
-    std::optional<geometry::Pose2> expected;
 };
 
 using ReadResult = Result<MarkerReading>;

@@ -18,13 +18,8 @@ using plant::kQrModules;
 constexpr double kFixedPatternShare = 0.9;
 constexpr int kProfilesPerModule = 2;
 
-/// Search rounds: the usual one first; then a finer image; then other print sizes, only to be able
-/// to say that the size is wrong.
-struct Round {
-    double scale;
-    int shrink;
-};
-constexpr std::array<Round, 4> kRounds{{{1, 8}, {1, 4}, {0.84, 8}, {1.19, 8}}};
+// The usual size first, then others, only to be able to say that the size is wrong.
+constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
 
 struct Located {
     QrText text;
@@ -43,12 +38,12 @@ std::optional<Located> decode(const cv::Mat& grey, const plant::Camera& camera,
 
 std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
                               double expected_module_px) {
-    for (const Round& round : kRounds) {
-        const cv::Mat small = shrunk(grey, round.shrink);
+    const int shrink = search_shrink(expected_module_px);
+    const cv::Mat small = shrunk(grey, shrink);
+    for (const double scale : kScales)
         for (const Placement& placement :
-             search_finders(small, camera, round.scale * expected_module_px, round.shrink))
+             search_finders(small, camera, scale * expected_module_px, shrink))
             if (auto found = decode(grey, camera, placement)) return found;
-    }
     return std::nullopt;
 }
 

@@ -86,6 +86,13 @@ double vertex(float before, float top, float after) {
 
 }  // namespace
 
+int search_shrink(double feature_px) {
+    constexpr double kLeast_px = 2.5;  // of a feature in the shrunk image
+    int shrink = 1;
+    while (shrink < 8 && feature_px >= 2 * kLeast_px * shrink) shrink *= 2;
+    return shrink;
+}
+
 cv::Mat shrunk(const cv::Mat& grey, int shrink) {
     cv::Mat small = grey;  // halved step by step: OpenCV vectorises only that
     for (int step = shrink; step > 1; step /= 2) {

@@ -21,6 +21,9 @@ struct RoundPeak {
     float score = 0;
 };
 
+/// How much the image may be shrunk (a power of two, at most 8) for a search of features of a size.
+int search_shrink(double feature_px);
+
 /// Image halved log2(shrink) times. REQUIRES: shrink is a power of two.
 cv::Mat shrunk(const cv::Mat& grey, int shrink);
 

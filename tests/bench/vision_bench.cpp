@@ -5,6 +5,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include <algorithm>
+#include <opencv2/imgcodecs.hpp>
 #include <ctime>
 #include <map>
 #include <random>
@@ -86,6 +87,8 @@ void run(plant::MarkerKind kind, const char* level, ImageConditions (*sample)(st
         }
         if (reading->payload != payload) {
             ++t.wrong;
+            fmt::print("WRONG {} {} {} read {} spec {} exp {}\n",level,i,payload,reading->payload,conditions.specular,conditions.exposure);
+            cv::imwrite(fmt::format("/tmp/wrong_{}.png",i),image);
             continue;
         }
         ++t.right;
@@ -122,10 +125,13 @@ void run(plant::MarkerKind kind, const char* level, ImageConditions (*sample)(st
 int main(int argc, char** argv) {
     cv::setNumThreads(1);
     const int images = argc > 1 ? std::stoi(argv[1]) : 200;
+    const std::string level = argc > 3 ? argv[3] : "";
+    const std::string only = argc > 2 ? argv[2] : "";
     for (const auto kind :
          {plant::MarkerKind::kQr, plant::MarkerKind::kAprilTag, plant::MarkerKind::kLandmark}) {
-        run(kind, "clean", &ImageConditions::clean, images);
-        run(kind, "nominal", &ImageConditions::nominal, images);
-        run(kind, "hard", &ImageConditions::hard, images);
+    if (!only.empty() && only != plant::to_string(kind)) continue;
+        if (level.empty() || level == "clean") run(kind, "clean", &ImageConditions::clean, images);
+        if (level.empty() || level == "nominal") run(kind, "nominal", &ImageConditions::nominal, images);
+        if (level.empty() || level == "hard") run(kind, "hard", &ImageConditions::hard, images);
     }
 }
