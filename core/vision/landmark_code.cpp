@@ -18,13 +18,9 @@ constexpr double kSite_m = 0.0008;  // between neighbouring border sites
 constexpr double kSector_rad = kPi / 4;
 constexpr double kClipped = 252;
 constexpr double kLeastContrast = 8;
-// Shares of a sector's samples. Dirt of 4 mm takes less than a fifth of a sector, tape a third.
-constexpr double kMostly = 0.65;
-// What counts as paper, relative to the paper expected there: tape is 0.83 of it, glare is more.
-constexpr double kPaperFrom = 0.8;
-constexpr double kPaperTo = 1.15;
-constexpr double kShown = 0.6;   // share of a black sector's outline that must show
-constexpr double kAbsent = 0.3;  // most outline a white sector may seem to have
+constexpr double kFaint = 0.15;    // step that counts as one where paper is clipped
+constexpr double kPlain = 0.3;     // and elsewhere, relative to ink on paper in that light
+constexpr double kInformed = 0.4;  // least share of the outline that is not clipped on both sides
 
 /// Direction clockwise from "up", as an offset right and down.
 Pixel direction(double turn) { return {std::sin(turn), -std::cos(turn)}; }
@@ -37,10 +33,13 @@ std::optional<float> level(const cv::Mat& grey, const plant::Camera& camera,
     return sample(grey, p);
 }
 
+/// Shares, 0 to 1.
 struct Sector {
-    double dark_share = 0;
-    double paper_share = 0;
-    double outline_share = 0;  // places where ring and the paper around differ as black does
+    double dark = 0;           // of the samples: darker than midway
+    double clipped = 0;        // of the samples
+    double informed = 0;       // of the places on the outline: ring or paper beside it not clipped
+    double shown = 0;          // of those: the ring is darker than the paper beside it
+    bool light_clips = false;  // the light alone clips paper here, without glare
 };
 
 /// Black over white on this print in this light, from the dots and the paper between them.
@@ -105,7 +104,7 @@ std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& ca
     constexpr int kAcross = 13;
     constexpr int kDeep = 9;
     Sector sector;
-    int dark = 0, paper = 0, shown = 0, looked = 0;
+    int dark = 0, clipped = 0, informed = 0, shown = 0, looked = 0;
     for (int i = 0; i < kAcross; ++i) {
         const double turn = (k + 0.08 + 0.84 * (i + 0.5) / kAcross) * kSector_rad;
         for (int j = 0; j < kDeep; ++j) {
@@ -113,9 +112,8 @@ std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& ca
             const auto l = level(grey, camera, placement, radius, turn);
             if (!l) return std::nullopt;
             const double white = light.at(radius * direction(turn));
-            const double share = static_cast<double>(*l) / std::max(white, kLeastContrast);
-            dark += share < (1 + ratio) / 2;
-            paper += share > kPaperFrom && share < kPaperTo;
+            dark += static_cast<double>(*l) < std::max(white, kLeastContrast) * (1 + ratio) / 2;
+            clipped += static_cast<double>(*l) >= kClipped;
         }
         const double step = (1 - ratio) * light.at(landmark::kInner_m * direction(turn));
         for (const auto& [on_ring, on_paper] : {std::pair{0.0312, 0.0287}, {0.0388, 0.0413}}) {
@@ -123,23 +121,33 @@ std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& ca
             const auto b = level(grey, camera, placement, on_paper, turn);
             if (!a || !b) continue;
             ++looked;
-            shown += static_cast<double>(*b - *a) > 0.3 * step;
+            const bool paper_clipped = static_cast<double>(*b) >= kClipped;
+            if (paper_clipped && static_cast<double>(*a) >= kClipped) continue;
+            ++informed;
+            shown += static_cast<double>(*b - *a) > (paper_clipped ? kFaint : kPlain) * step;
         }
     }
-    sector.dark_share = static_cast<double>(dark) / (kAcross * kDeep);
-    sector.paper_share = static_cast<double>(paper) / (kAcross * kDeep);
-    sector.outline_share = looked == 0 ? 0 : static_cast<double>(shown) / looked;
+    const auto share = [](int part, int whole) {
+        return whole == 0 ? 0 : static_cast<double>(part) / whole;
+    };
+    sector.dark = share(dark, kAcross * kDeep);
+    sector.clipped = share(clipped, kAcross * kDeep);
+    sector.informed = share(informed, looked);
+    sector.shown = share(shown, informed);
+    const Pixel middle = landmark::kOuter_m * direction((k + 0.5) * kSector_rad);
+    sector.light_clips = light.at(middle) >= kClipped;
     return sector;
 }
 
 enum class Colour { kBlack, kWhite, kUnsure };
 
+/// The outline decides, for glare lifts black to white but keeps the step to the paper until both
+/// clip. Two specks of dirt take less than a third of an outline or of a sector.
 Colour colour(const Sector& s) {
-    if (s.dark_share >= kMostly && s.outline_share > kAbsent) return Colour::kBlack;
-    if (s.paper_share >= kMostly && s.outline_share < kAbsent) return Colour::kWhite;
-    // Glare lifts part of a black sector; its outline still shows.
-    if (s.outline_share >= kShown && s.dark_share > 1 - kMostly && s.paper_share < 1 - kMostly)
-        return Colour::kBlack;
+    if (s.informed < kInformed)
+        return s.clipped > 0.9 && s.light_clips ? Colour::kWhite : Colour::kUnsure;
+    if (s.shown >= 0.7 || (s.shown >= 0.4 && s.dark >= 0.6)) return Colour::kBlack;
+    if (s.shown <= 0.3 && s.dark <= 0.35) return Colour::kWhite;
     return Colour::kUnsure;
 }
 
