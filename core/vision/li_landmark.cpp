@@ -84,8 +84,8 @@ std::optional<LiLandmark> li_landmark(const cv::Mat& grey, const plant::Camera& 
             std::array<const Pixel*, 5> all{};
             for (std::size_t i = 0; i < all.size(); ++i) {
                 // Dots are looked for about where A and D put them.
-                const Pixel want = d + (landmark::kDots[i].up_m + 0.020) * up +
-                                   landmark::kDots[i].right_m * right;
+                const Pixel want =
+                    d + (landmark::kDots[i].up_m + 0.020) * up + landmark::kDots[i].right_m * right;
                 double nearest = 0.002 * px_per_unit;
                 for (const Pixel& p : found) {
                     const double off = std::hypot(p.u - want.u, p.v - want.v);
@@ -116,8 +116,8 @@ std::optional<LiLandmark> li_landmark(const cv::Mat& grey, const plant::Camera& 
             for (int k = 0; k < landmark::kSectors; ++k) {
                 const double t = (k + 0.5) * kPi / 4;
                 const Pixel m{0.035 * std::sin(t), -0.035 * std::cos(t)};
-                const Pixel at = distorted(
-                    camera, centre + Pixel{c * m.u - s * m.v, s * m.u + c * m.v});
+                const Pixel at =
+                    distorted(camera, centre + Pixel{c * m.u - s * m.v, s * m.u + c * m.v});
                 if (!in_image(camera, at)) return std::nullopt;
                 const bool dark = black.at<std::uint8_t>(static_cast<int>(std::lround(at.v)),
                                                          static_cast<int>(std::lround(at.u))) != 0;
@@ -149,8 +149,7 @@ Eigen::Vector3d li_p4p_camera(const std::array<Eigen::Vector2d, 4>& marker_m,
     const Eigen::JacobiSVD<Eigen::Matrix<double, 8, 9>> svd(a, Eigen::ComputeFullV);
     Eigen::Matrix<double, 9, 1> x = svd.matrixV().col(8);
     if (x[8] < 0) x = -x;
-    const double scale =
-        1 / std::sqrt(x.segment<3>(0).norm() * x.segment<3>(3).norm());
+    const double scale = 1 / std::sqrt(x.segment<3>(0).norm() * x.segment<3>(3).norm());
     const Eigen::Vector3d n = scale * x.segment<3>(0);
     const Eigen::Vector3d o = scale * x.segment<3>(3);
     const Eigen::Vector3d p = size * scale * x.segment<3>(6);

@@ -24,9 +24,9 @@ std::optional<PaperPlace> tang_corners(const cv::Mat& grey, const plant::Camera&
     double best_error = 0.15;  // of the side
     for (const auto& outline : outlines) {
         const cv::RotatedRect box = cv::minAreaRect(outline);
-        const double error = std::max(std::abs(box.size.width - side_px),
-                                      std::abs(box.size.height - side_px)) /
-                             side_px;
+        const double error =
+            std::max(std::abs(box.size.width - side_px), std::abs(box.size.height - side_px)) /
+            side_px;
         if (error >= best_error) continue;
         best_error = error;
         std::array<cv::Point2f, 4> corners;
