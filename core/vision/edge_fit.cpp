@@ -17,7 +17,7 @@ struct Round {
     std::size_t profiles;  // about so many, evenly from all sites
     int passes;
 };
-constexpr std::array<Round, 3> kRounds{{{7, 160, 3}, {4, 160, 3}, {4, 700, 4}}};
+constexpr std::array<Round, 3> kRounds{{{7, 160, 3}, {4, 160, 3}, {4, 600, 4}}};
 constexpr std::size_t kLocateRounds = 2;
 constexpr double kReference_px = 10.4;  // clear of a blur of 2.2 px and a smear of 6 px
 constexpr std::size_t kFewestEdges = 24;

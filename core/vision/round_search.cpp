@@ -20,7 +20,7 @@ std::vector<Tap> ring_taps(const RoundPattern& pattern, int shrink) {
     const double spacing = std::max(1.0, reach / 10);
     std::vector<Tap> taps;
     for (double r = 0; r <= reach; r += spacing) {
-        const int count = std::max(1, static_cast<int>(2 * kPi * r / (1.6 * spacing)));
+        const int count = std::max(1, static_cast<int>(2 * kPi * r / (2.2 * spacing)));
         const auto light = static_cast<float>(pattern.light(r * shrink));
         for (int i = 0; i < count; ++i) {
             const double t = 2 * kPi * (i + r) / count;
@@ -43,14 +43,28 @@ std::vector<Tap> ring_taps(const RoundPattern& pattern, int shrink) {
 constexpr float kLeastDeviation = 5;
 constexpr int kBlock = 16;  // pixels whose sums stay in registers
 
-cv::Mat local_deviation(const cv::Mat& image, int reach) {
-    cv::Mat mean;
+/// Standard deviation over the square about each pixel of the unpadded image.
+cv::Mat local_deviation(const cv::Mat& padded, cv::Size size, int reach) {
+    cv::Mat sum;
     cv::Mat squares;
-    const cv::Size window(2 * reach + 1, 2 * reach + 1);
-    cv::boxFilter(image, mean, CV_32F, window);
-    cv::boxFilter(image.mul(image), squares, CV_32F, window);
-    cv::Mat deviation;
-    cv::sqrt(cv::max(squares - mean.mul(mean), 0), deviation);
+    cv::integral(padded, sum, squares, CV_32S, CV_64F);
+    const int side = 2 * reach + 1;
+    const auto share = 1 / static_cast<float>(side * side);
+    cv::Mat deviation(size, CV_32F);
+    for (int v = 0; v < size.height; ++v) {
+        const int* s0 = sum.ptr<int>(v);
+        const int* s1 = sum.ptr<int>(v + side);
+        const double* q0 = squares.ptr<double>(v);
+        const double* q1 = squares.ptr<double>(v + side);
+        auto* out = deviation.ptr<float>(v);
+        for (int u = 0; u < size.width; ++u) {
+            const float mean =
+                share * static_cast<float>(s1[u + side] - s1[u] - s0[u + side] + s0[u]);
+            const float square =
+                share * static_cast<float>(q1[u + side] - q1[u] - q0[u + side] + q0[u]);
+            out[u] = std::sqrt(std::max(square - mean * mean, 0.0F));
+        }
+    }
     return deviation;
 }
 
@@ -59,10 +73,10 @@ cv::Mat correlate(const cv::Mat& small, const std::vector<Tap>& taps, int reach)
     cv::copyMakeBorder(small, padded, reach, reach, reach, reach + kBlock, cv::BORDER_REPLICATE);
     cv::Mat image;
     padded.convertTo(image, CV_32F);
-    const cv::Mat deviation = local_deviation(image, reach);
+    const cv::Mat deviation = local_deviation(padded, {small.cols + kBlock, small.rows}, reach);
     cv::Mat score = cv::Mat::zeros(small.size(), CV_32F);
     for (int v = 0; v < score.rows; ++v) {
-        const float* spread = deviation.ptr<float>(v + reach) + reach;
+        const float* spread = deviation.ptr<float>(v);
         for (int u = 0; u < score.cols; u += kBlock) {
             if (*std::max_element(spread + u, spread + u + kBlock) < kLeastDeviation) continue;
             std::array<float, kBlock> sum{};
