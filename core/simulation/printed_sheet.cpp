@@ -120,22 +120,24 @@ float CellSheet::mean(const Piece& quad, float floor) const {
 
 int LandmarkSheet::region(SheetPoint p) const {
     if (!(p.x >= 0 && p.y >= 0 && p.x < kSide && p.y < kSide)) return -1;
+    // Squared millimetres: a root for each of a million corners would cost a fifth of the image.
     const double right = as_printed(p).x - kMiddle.x;
     const double up = kMiddle.y - p.y;
-    const double r = std::hypot(right, up) / kMillimetre;
-    if (r > landmark::kOuter_m) return 0;
-    if (r > landmark::kInner_m) {
+    const double r2 = right * right + up * up;
+    constexpr auto kSquare = [](double metres) {
+        return kMillimetre * kMillimetre * metres * metres;
+    };
+    if (r2 > kSquare(landmark::kOuter_m)) return 0;
+    if (r2 > kSquare(landmark::kInner_m)) {
         const int k = landmark::sector(right, up);
         return landmark::sector_dark(code_, k) ? 10 + k : 0;
     }
-    int region = 0;
     for (std::size_t i = 0; i < landmark::kDots.size(); ++i) {
-        const auto& dot = landmark::kDots[i];
-        if (std::hypot(right - kMillimetre * dot.right_m, up - kMillimetre * dot.up_m) <
-            kMillimetre * landmark::kDot_m)
-            region = 1 + static_cast<int>(i);
+        const double x = right - kMillimetre * landmark::kDots[i].right_m;
+        const double y = up - kMillimetre * landmark::kDots[i].up_m;
+        if (x * x + y * y < kSquare(landmark::kDot_m)) return 1 + static_cast<int>(i);
     }
-    return region;
+    return 0;
 }
 
 double LandmarkSheet::dark_ring_area(const Piece& quad) const {

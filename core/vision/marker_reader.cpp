@@ -1,6 +1,5 @@
 #include "core/vision/marker_reader.hpp"
 
-#include <chrono>
 #include <opencv2/imgproc.hpp>
 
 #include "core/vision/apriltag_reader.hpp"
@@ -37,26 +36,19 @@ void cover(cv::Mat& image, const MarkerReading& reading) {
 
 }  // namespace
 
-MarkersFound read_markers(plant::MarkerKind kind, const cv::Mat& grey, const plant::Camera& camera,
-                          const ReaderOptions& options) {
-    constexpr std::size_t kMost = 8;  // more do not fit a view
-    MarkersFound found;
-    cv::Mat rest = grey;
-    while (found.readings.size() < kMost) {
-        const auto begin = std::chrono::steady_clock::now();
-        auto reading = read_marker(kind, rest, camera, options);
-        const std::chrono::duration<double, std::milli> took =
-            std::chrono::steady_clock::now() - begin;
-        if (found.readings.empty()) found.first_ms = took.count();
-        if (!reading) {
-            if (found.readings.empty()) found.refusal = reading.error();
-            break;
-        }
-        if (found.readings.empty()) rest = grey.clone();
+std::vector<MarkerReading> read_others(const MarkerReading& first, const cv::Mat& grey,
+                                       const plant::Camera& camera, const ReaderOptions& options) {
+    constexpr std::size_t kMost = 7;  // more do not fit a view
+    std::vector<MarkerReading> others;
+    cv::Mat rest = grey.clone();
+    cover(rest, first);
+    while (others.size() < kMost) {
+        auto reading = read_marker(first.kind, rest, camera, options);
+        if (!reading) break;
         cover(rest, *reading);
-        found.readings.push_back(std::move(*reading));
+        others.push_back(std::move(*reading));
     }
-    return found;
+    return others;
 }
 
 }  // namespace pulseline::vision

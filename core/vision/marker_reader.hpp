@@ -2,7 +2,6 @@
 
 #include <opencv2/core/mat.hpp>
 
-#include <optional>
 #include <vector>
 
 #include "core/vision/marker_reading.hpp"
@@ -13,13 +12,9 @@ namespace pulseline::vision {
 ReadResult read_marker(plant::MarkerKind kind, const cv::Mat& grey, const plant::Camera& camera,
                        const ReaderOptions& options = {});
 
-/// All markers of a kind in one image.
-struct MarkersFound {
-    std::vector<MarkerReading> readings;
-    std::optional<Error> refusal;  // why there is none
-    double first_ms = 0;           // time the first reading, or the refusal, took
-};
-MarkersFound read_markers(plant::MarkerKind kind, const cv::Mat& grey, const plant::Camera& camera,
-                          const ReaderOptions& options = {});
+/// The other markers of the same kind in an image in which `first` was read.
+std::vector<MarkerReading> read_others(const MarkerReading& first, const cv::Mat& grey,
+                                       const plant::Camera& camera,
+                                       const ReaderOptions& options = {});
 
 }  // namespace pulseline::vision

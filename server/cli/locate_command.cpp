@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -72,11 +73,18 @@ void locate_in(const std::string& name, const cv::Mat& image, const plant::Camer
     bool found_any = false;
     for (const MarkerKind kind : {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark}) {
         if (input.kind && *input.kind != kind) continue;
-        const auto found = vision::read_markers(kind, image, camera);
-        for (const auto& reading : found.readings)
-            print_found(name, reading, found.first_ms, input.json, out);
-        found_any |= !found.readings.empty();
-        if (found.refusal && (!why || tells_more(*found.refusal, *why))) why = found.refusal;
+        const auto begin = std::chrono::steady_clock::now();
+        const auto first = vision::read_marker(kind, image, camera);
+        const std::chrono::duration<double, std::milli> took =
+            std::chrono::steady_clock::now() - begin;
+        if (!first) {
+            if (!why || tells_more(first.error(), *why)) why = first.error();
+            continue;
+        }
+        found_any = true;
+        print_found(name, *first, took.count(), input.json, out);
+        for (const auto& other : vision::read_others(*first, image, camera))
+            print_found(name, other, took.count(), input.json, out);
     }
     if (!found_any && why) print_refused(name, *why, input.json, out);
 }
