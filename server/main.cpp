@@ -7,6 +7,7 @@
 
 #include "server/cli/access_commands.hpp"
 #include "server/cli/locate_command.hpp"
+#include "server/cli/markers_commands.hpp"
 #include "server/cli/plant_commands.hpp"
 #include "server/cli/serve_command.hpp"
 #include "server/server.hpp"
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
     cli::add_plant_commands(app, exit_code);
     cli::add_access_commands(app, exit_code);
     cli::add_locate_command(app, exit_code);
+    cli::add_markers_commands(app, exit_code);
     app.add_subcommand("version", "Print the version")->callback([] {
         fmt::print("pulseline {}\n", kVersion);
     });
