@@ -1,7 +1,8 @@
 // Detection, accuracy and time of every marker reader on rendered images, level by level (design.md
 // section 10), beside the libraries and the papers' pipelines on the same images, on one core.
 // usage: bench_vision [images per kind and level, default 1000] [kind] [level]
-// [--benchmark_out=FILE]
+// [--own] [--benchmark_out=FILE]
+// --own leaves the comparators out
 #include <fmt/core.h>
 #include <sys/resource.h>
 
@@ -167,9 +168,10 @@ struct Tally {
     }
 };
 
-nlohmann::json run(MarkerKind kind, const Level& level, int images) {
+nlohmann::json run(MarkerKind kind, const Level& level, int images, bool own_only) {
     std::mt19937_64 random{2026};
-    const auto methods = bench::methods(kind);
+    auto methods = bench::methods(kind);
+    if (own_only) methods.resize(1);
     std::vector<Tally> tallies(methods.size());
     std::vector<double> render_ms;
     for (int i = 0; i < images; ++i) {
@@ -199,11 +201,14 @@ nlohmann::json run(MarkerKind kind, const Level& level, int images) {
 int main(int argc, char** argv) {
     cv::setNumThreads(1);
     int images = 1000;
+    bool own_only = false;
     std::string kind_only, level_only, file;
     for (int i = 1; i < argc; ++i) {
         const std::string arg = argv[i];
         if (arg.starts_with("--benchmark_out=")) {
             file = arg.substr(arg.find('=') + 1);
+        } else if (arg == "--own") {
+            own_only = true;
         } else if (arg.starts_with("--")) {
             continue;  // ./dev bench passes Google Benchmark's options to every program
         } else if (!arg.empty() && arg.find_first_not_of("0123456789") == std::string::npos) {
@@ -219,6 +224,6 @@ int main(int argc, char** argv) {
         for (const Level& level : kLevels)
             if ((kind_only.empty() || kind_only == plant::to_string(kind)) &&
                 (level_only.empty() || level_only == level.name))
-                results.push_back(run(kind, level, images));
+                results.push_back(run(kind, level, images, own_only));
     if (!file.empty()) std::ofstream(file) << results.dump(2) << "\n";
 }
