@@ -104,6 +104,10 @@ struct Camera {
     double cu_px = 639.5;
     double cv_px = 511.5;
     double k1 = 0;
+    /// Of the optical axis against the plumb line, from calibration: turned first towards +u, then
+    /// towards +v. The foot is that of the optical centre, straight below it.
+    double tilt_u_rad = 0;
+    double tilt_v_rad = 0;
 };
 
 struct Bracket {
