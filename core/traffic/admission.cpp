@@ -213,6 +213,11 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
     while (!admission && make_way(admission.error(), now_s, made_way)) {
         admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
     }
+    if (!admission && in_the_way(vehicle) && untangle(now_s)) {
+        do {
+            admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
+        } while (!admission && make_way(admission.error(), now_s, made_way));
+    }
     const bool has_incumbent = plan.last() > plan.released;
     if (!admission && has_incumbent && task.sequences.empty()) {
         auto behind = plan_from(vehicle, plan.last(), task, 0, now_s, false);

@@ -78,6 +78,32 @@ bool Traffic::retreat(VehicleIndex vehicle, double now_s) {
     return true;
 }
 
+/// It has no plan and others wait for it to leave.
+bool Traffic::in_the_way(VehicleIndex vehicle) const {
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    return plan.last() == plan.released && !joint_.nobody_behind(vehicle);
+}
+
+/// Blocked vehicles give up what they planned behind their bases: they stand where their bases end,
+/// each on floor it holds alone, so the rest stays in order. That returns the resting places and
+/// gaps which they keep from each other, and whoever stands in the way can leave.
+bool Traffic::untangle(double now_s) {
+    predicted_ = false;
+    predict(now_s);
+    std::vector<VehicleIndex> blocked;
+    for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
+        const VehiclePlan& plan = joint_.plan(v);
+        if (plan.last() > plan.released && is_blocked(v, now_s)) blocked.push_back(v);
+    }
+    for (const VehicleIndex v : blocked) {
+        vehicles_[v].postponed = first_open_visit(v) < vehicles_[v].task.visits.size();
+        merge_plan(v, {}, Placement::kByTime, now_s);
+        predicted_ = false;
+        tell_plan(v);
+    }
+    return !blocked.empty();
+}
+
 /// The vehicle goes before the one it waits for, when both together gain.
 bool Traffic::improve_pair(VehicleIndex vehicle, VehicleIndex before, double now_s) {
     const VehiclePlan& other = joint_.plan(before);
@@ -122,7 +148,7 @@ Improvement Traffic::improve(Time now, int steps) {
     predict(now_s);
     struct Candidate {
         VehicleIndex vehicle;
-        int urgency;  // 2 blocked, 1 postponed, 0 slow
+        int urgency;  // 3 in the way, 2 blocked, 1 postponed at rest, 0 slow
         double loss_s;
     };
     std::vector<Candidate> candidates;
@@ -130,8 +156,12 @@ Improvement Traffic::improve(Time now, int steps) {
         const VehiclePlan& plan = joint_.plan(v);
         if (plan.halted || vehicles_[v].gone || vehicles_[v].graph == kNoGraph) continue;
         if (plan.place_after(plan.released) == kNoPlace) continue;
+        if (plan.last() == plan.released && in_the_way(v)) {
+            candidates.push_back({v, 3, 0});
+            continue;
+        }
         if (vehicles_[v].postponed) {
-            candidates.push_back({v, 1, 0});
+            candidates.push_back({v, is_resting(v) ? 1 : 2, 0});
             continue;
         }
         if (plan.last() == plan.released) continue;
@@ -155,9 +185,11 @@ Improvement Traffic::improve(Time now, int steps) {
         const VehicleIndex v = candidate.vehicle;
         vehicles_[v].tried_s = now_s;
         predict(now_s);
-        bool changed = improve_one(v, now_s);
-        if (!changed && candidate.urgency == 2 && is_blocked(v, now_s) && !is_resting(v)) {
-            changed = retreat(v, now_s);
+        const bool has_task = vehicles_[v].postponed || candidate.urgency < 3;
+        bool changed = has_task && improve_one(v, now_s);
+        if (!changed && candidate.urgency >= 2 && !is_resting(v)) changed = retreat(v, now_s);
+        if (!changed && candidate.urgency == 3 && untangle(now_s)) {
+            changed = (has_task && improve_one(v, now_s)) || retreat(v, now_s);
         }
         if (!changed && candidate.urgency == 0) {
             const VehiclePlan& plan = joint_.plan(v);

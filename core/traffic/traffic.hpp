@@ -238,6 +238,8 @@ private:
     bool improve_one(VehicleIndex vehicle, double now_s);
     bool improve_pair(VehicleIndex vehicle, VehicleIndex before, double now_s);
     bool retreat(VehicleIndex vehicle, double now_s);
+    bool in_the_way(VehicleIndex vehicle) const;
+    bool untangle(double now_s);
     Times times_to_places(GraphIndex graph, const std::vector<PlaceIndex>& goals);
     Block block_of(const Obstacle& obstacle) const;
     tl::unexpected<Error> refused(VehicleIndex vehicle, const Block& block);
