@@ -9,6 +9,7 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr double kWorthwhile_s = 1.0;  // less is not worth a message to the vehicle
+constexpr double kRetry_s = 10;        // between two searches for one vehicle; little changes sooner
 
 }  // namespace
 
@@ -155,6 +156,7 @@ Improvement Traffic::improve(Time now, int steps) {
     for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
         const VehiclePlan& plan = joint_.plan(v);
         if (plan.halted || vehicles_[v].gone || vehicles_[v].graph == kNoGraph) continue;
+        if (now_s < vehicles_[v].tried_s + kRetry_s) continue;
         if (plan.place_after(plan.released) == kNoPlace) continue;
         if (plan.last() == plan.released && in_the_way(v)) {
             candidates.push_back({v, 3, 0});

@@ -337,7 +337,7 @@ std::vector<std::vector<std::int64_t>> JointPlan::ranks() const {
 
 std::optional<TileIndex> JointPlan::closed_tile(const TileIndexes& stand,
                                                 const Shape& shape) const {
-    if (mutated(Mutation::kClosureIgnored)) return {};
+    if (closed_now_ == 0 || mutated(Mutation::kClosureIgnored)) return {};
     const auto closed = [&](TileIndex tile) { return is_closed(tile); };
     const auto it = std::find_if(shape.swept.begin(), shape.swept.end(), closed);
     if (it == shape.swept.end()) return {};
@@ -392,14 +392,14 @@ void JointPlan::set_halted(VehicleIndex vehicle, bool halted, double now_s) {
 void JointPlan::close(const TileIndexes& tiles) {
     for (const TileIndex tile : tiles) {
         if (tile >= closed_.size()) closed_.resize(tile + 1, 0);
-        ++closed_[tile];
+        if (++closed_[tile] == 1) ++closed_now_;
     }
 }
 
 void JointPlan::open(const TileIndexes& tiles) {
     for (const TileIndex tile : tiles) {
-        --closed_[tile];
-        if (mutated(Mutation::kReopenForgetsOverlap)) closed_[tile] = 0;
+        if (mutated(Mutation::kReopenForgetsOverlap) && closed_[tile] > 1) closed_[tile] = 1;
+        if (closed_[tile] > 0 && --closed_[tile] == 0) --closed_now_;
     }
 }
 

@@ -55,6 +55,7 @@ struct Use {
     VehicleIndex vehicle = 0;
     MoveNumber first = 0;
     MoveNumber last = 0;
+    friend bool operator==(const Use&, const Use&) = default;
 };
 
 /// Where new uses go in the order of a tile.
@@ -156,6 +157,7 @@ private:
     std::vector<VehiclePlan> vehicles_;
     std::vector<std::vector<Use>> queues_;  // by tile
     std::vector<std::uint16_t> closed_;     // how many closed areas hold the tile
+    std::size_t closed_now_ = 0;            // tiles that are closed
     std::vector<MoveRef> touched_moves_;
     std::uint32_t stamp_ = 0;
 };

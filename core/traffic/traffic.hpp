@@ -206,7 +206,7 @@ private:
         double admitted_s = 0;
         bool postponed = false;
         std::optional<Block> blocked_by;
-        double tried_s = 0;  // the last search by improve()
+        double tried_s = -1e9;  // the last search by improve()
     };
     struct Closure {
         TileIndexes tiles;

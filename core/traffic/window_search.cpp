@@ -143,8 +143,14 @@ bool WindowSearch::is_end(const Label& label) const {
 /// Intervals from the start on in which no other vehicle stays on any of the tiles.
 WindowSearch::Range WindowSearch::free_windows(const TileIndexes& tiles) {
     blocked_.clear();
+    const std::vector<Use>* last = nullptr;
     for (const TileIndex tile : tiles) {
-        for (const Use& use : joint_->queue(tile)) {
+        // Neighbouring tiles mostly have the same stays: a long body covers hundreds of tiles, but
+        // only a few queues differ.
+        const std::vector<Use>& uses = joint_->queue(tile);
+        if (uses.empty() || (last && *last == uses)) continue;
+        last = &uses;
+        for (const Use& use : uses) {
             if (use.vehicle == task_->vehicle) continue;
             const double end_s = joint_->end_of(use);
             if (task_->only_lasting && end_s < task_->now_s + kBlocked_s / 2) continue;
