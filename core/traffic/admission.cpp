@@ -7,7 +7,7 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::size_t kTimesKept = 16'000'000;  // floats of distance tables, 64 MB
-constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
+constexpr std::size_t kMostMakeWay = 3;         // idle vehicles sent off for one task
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
 
@@ -97,8 +97,7 @@ SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, cons
     search.vehicle = vehicle;
     search.start = plan.place_after(from_move);
     search.start_stand = plan.stand_after(from_move);
-    search.start_s =
-        from_move > plan.passed ? std::max(plan.at(from_move).end_s, now_s) : now_s;
+    search.start_s = from_move > plan.passed ? std::max(plan.at(from_move).end_s, now_s) : now_s;
     search.now_s = now_s;
     if (v.graph != kNoGraph) {
         search.graph = graphs_[v.graph].get();
@@ -126,8 +125,8 @@ SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, cons
     return search;
 }
 
-bool Traffic::merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves,
-                         Placement placement, double now_s, Undos* undos) {
+bool Traffic::merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves, Placement placement,
+                         double now_s, Undos* undos) {
     auto undo = joint_.replace(vehicle, std::move(moves), placement);
     note_touched();
     // The times that the plan was made with stay good for the next search at this instant.
@@ -154,8 +153,7 @@ void Traffic::roll_back(Undos& undos) {
 
 tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumber from_move,
                                                   const Task& task, VisitIndex first_visit,
-                                                  double now_s, bool before_others,
-                                                  Undos* undos) {
+                                                  double now_s, bool before_others, Undos* undos) {
     predict(now_s);
     SearchTask search = search_task(vehicle, from_move, task, first_visit, now_s);
     search.only_lasting = before_others;
@@ -233,8 +231,10 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
 
 tl::unexpected<Error> Traffic::refused(VehicleIndex vehicle, const Block& block) {
     vehicles_[vehicle].blocked_by = block;
-    return fail(Error{Errc::kConflict, reason_of(block),
-                      "No plan leads there at present; the vehicle keeps the one it has.", {}});
+    return fail(Error{Errc::kConflict,
+                      reason_of(block),
+                      "No plan leads there at present; the vehicle keeps the one it has.",
+                      {}});
 }
 
 Result<Admission> Traffic::admit(VehicleIndex vehicle, const Task& task, Time now) {

@@ -34,10 +34,10 @@ Status Traffic::found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex 
         const auto other = joint_.holder(tile);
         if (!other || *other == vehicle) continue;
         halt(vehicle, now);
-        return fail(Errc::kConflict, "floor_held",
-                    "The vehicle stands on floor that another one holds; stop that one first.", {},
-                    {{"vehicle", name(*other)},
-                     {"tile", static_cast<std::int64_t>(tiles_.id_of(tile))}});
+        return fail(
+            Errc::kConflict, "floor_held",
+            "The vehicle stands on floor that another one holds; stop that one first.", {},
+            {{"vehicle", name(*other)}, {"tile", static_cast<std::int64_t>(tiles_.id_of(tile))}});
     }
     Vehicle& v = vehicles_[vehicle];
     v.task = {};

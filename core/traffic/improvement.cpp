@@ -9,7 +9,7 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr double kWorthwhile_s = 1.0;  // less is not worth a message to the vehicle
-constexpr double kRetry_s = 10;        // between two searches for one vehicle; little changes sooner
+constexpr double kRetry_s = 10;  // between two searches for one vehicle; little changes sooner
 
 }  // namespace
 
@@ -139,8 +139,8 @@ bool Traffic::improve_pair(VehicleIndex vehicle, VehicleIndex before, double now
         roll_back(undos);
         return false;
     }
+    tell(plan_change(before));
     tell_plan(vehicle);
-    tell_plan(before);
     return true;
 }
 
@@ -168,7 +168,8 @@ Improvement Traffic::improve(Time now, int steps) {
         }
         if (plan.last() == plan.released) continue;
         double alone_s = 0;
-        for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) alone_s += plan.at(n).duration_s;
+        for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n)
+            alone_s += plan.at(n).duration_s;
         const double loss_s = joint_.finish_s(v) - now_s - alone_s;
         if (loss_s < kWorthwhile_s) continue;
         candidates.push_back({v, is_blocked(v, now_s) ? 2 : 0, loss_s});

@@ -64,7 +64,8 @@ std::vector<JointPlan::OpenUse> JointPlan::uses_of(VehicleIndex vehicle) const {
     const VehiclePlan& plan = vehicles_[vehicle];
     std::vector<OpenUse> done;
     std::vector<OpenUse> open;
-    for (const TileIndex tile : plan.stand) open.push_back({tile, {vehicle, plan.passed, kForever}});
+    for (const TileIndex tile : plan.stand)
+        open.push_back({tile, {vehicle, plan.passed, kForever}});
     for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) {
         const Shape& shape = *plan.at(n).shape;
         const TileIndexes& stand_before = plan.stand_after(n - 1);
@@ -115,8 +116,8 @@ void JointPlan::insert(TileIndex tile, const Use& use, Placement placement) {
         }
     } else {
         const double start_s = start_of(use);
-        while (it != uses.end() && (it->vehicle == use.vehicle ? it->first < use.first
-                                                               : start_of(*it) < start_s)) {
+        while (it != uses.end() &&
+               (it->vehicle == use.vehicle ? it->first < use.first : start_of(*it) < start_s)) {
             ++it;
         }
     }
@@ -162,9 +163,9 @@ void JointPlan::rebuild_waits(MoveRef ref) {
             if (uses[i].vehicle != ref.vehicle || uses[i].first != ref.move) continue;
             const Use& before = uses[i - 1];
             if (before.vehicle == ref.vehicle) break;
-            const auto same = std::find_if(
-                move.waits_for.begin(), move.waits_for.end(),
-                [&](const MoveRef& other) { return other.vehicle == before.vehicle; });
+            const auto same =
+                std::find_if(move.waits_for.begin(), move.waits_for.end(),
+                             [&](const MoveRef& other) { return other.vehicle == before.vehicle; });
             if (same == move.waits_for.end()) {
                 move.waits_for.push_back({before.vehicle, before.last});
             } else {

@@ -20,10 +20,10 @@ constexpr double kBlocked_s = 1e7;
 
 struct PlannedMove {
     ShapePtr shape;
-    PlaceIndex place = kNoPlace;   // where it ends, in the vehicle's graph
-    VisitIndex visit = kNoVisit;   // set on the stop that fulfils a visit of the task
+    PlaceIndex place = kNoPlace;  // where it ends, in the vehicle's graph
+    VisitIndex visit = kNoVisit;  // set on the stop that fulfils a visit of the task
     double duration_s = 0;
-    double start_s = 0;            // predicted
+    double start_s = 0;  // predicted
     double end_s = 0;
     std::vector<MoveRef> waits_for;  // moves of others that must be passed before this one's grant
     std::uint32_t stamp = 0;         // of the prediction that reached it last
@@ -31,14 +31,14 @@ struct PlannedMove {
 };
 
 struct VehiclePlan {
-    TileIndexes stand;             // where the last passed move ended
+    TileIndexes stand;  // where the last passed move ended
     PlaceIndex place = kNoPlace;
     MoveNumber passed = 0;
-    MoveNumber released = 0;       // passed <= released
-    MoveNumber dropped = 0;        // moves[0] has number dropped + 1
+    MoveNumber released = 0;  // passed <= released
+    MoveNumber dropped = 0;   // moves[0] has number dropped + 1
     std::vector<PlannedMove> moves;
-    double since_s = 0;            // when the move under way could begin
-    bool halted = false;           // broken down, or found at an unexpected place
+    double since_s = 0;   // when the move under way could begin
+    bool halted = false;  // broken down, or found at an unexpected place
 
     MoveNumber last() const { return dropped + static_cast<MoveNumber>(moves.size()); }
     PlannedMove& at(MoveNumber n) { return moves[n - dropped - 1]; }
@@ -91,8 +91,7 @@ public:
     /// True when no other has a stay behind the vehicle where its base ends.
     bool nobody_behind(VehicleIndex vehicle) const;
     /// The vehicle stands elsewhere and has no plan any more. REQUIRES: no other holds the tiles.
-    void move_stand(VehicleIndex vehicle, const TileIndexes& stand, PlaceIndex place,
-                    double now_s);
+    void move_stand(VehicleIndex vehicle, const TileIndexes& stand, PlaceIndex place, double now_s);
     /// Puts back plans as a record says. `ranks` orders the moves, per vehicle from passed + 1 on.
     /// False when two vehicles hold one tile.
     bool restore(std::vector<VehiclePlan> plans,

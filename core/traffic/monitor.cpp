@@ -77,6 +77,9 @@ void Monitor::on_plan(const Change& change, std::vector<Violation>& found) {
 
 void Monitor::on_granted(const Change& change, std::vector<Violation>& found) {
     Body& body = bodies_[change.vehicle];
+    if (change.number > body.end()) {
+        found.push_back({"unknown_move", change.vehicle, change.number, 0, 0});
+    }
     if (body.halted) found.push_back({"granted_halted", change.vehicle, change.number, 0, 0});
     for (MoveNumber n = body.granted + 1; n <= std::min(change.number, body.end()); ++n) {
         const Step& step = body.step(n);
@@ -119,20 +122,35 @@ std::vector<Violation> Monitor::apply(const std::vector<Change>& changes) {
     std::set<VehicleIndex> replanned;
     for (const Change& change : changes) {
         switch (change.kind) {
-            case Change::Kind::kStand: on_stand(change, found); break;
+            case Change::Kind::kStand:
+                on_stand(change, found);
+                break;
             case Change::Kind::kPlan:
                 on_plan(change, found);
                 replanned.insert(change.vehicle);
                 break;
             case Change::Kind::kWaits:
                 for (const auto& move : change.moves) {
-                    bodies_[change.vehicle].step(move.number).waits_for = move.waits_for;
+                    Body& body = bodies_[change.vehicle];
+                    if (move.number <= body.passed || move.number > body.end()) {
+                        found.push_back({"unknown_move", change.vehicle, move.number, 0, 0});
+                    } else {
+                        body.step(move.number).waits_for = move.waits_for;
+                    }
                 }
                 break;
-            case Change::Kind::kReleased: on_granted(change, found); break;
-            case Change::Kind::kPassed: on_passed(change, found); break;
-            case Change::Kind::kHalted: bodies_[change.vehicle].halted = true; break;
-            case Change::Kind::kResumed: bodies_[change.vehicle].halted = false; break;
+            case Change::Kind::kReleased:
+                on_granted(change, found);
+                break;
+            case Change::Kind::kPassed:
+                on_passed(change, found);
+                break;
+            case Change::Kind::kHalted:
+                bodies_[change.vehicle].halted = true;
+                break;
+            case Change::Kind::kResumed:
+                bodies_[change.vehicle].halted = false;
+                break;
             case Change::Kind::kClosed:
                 for (const Tile tile : tiles(change.tiles)) ++closures_[tile];
                 break;
@@ -261,11 +279,16 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
         for (const Tile tile : here) stays[tile].push_back({-1, v, body.passed, kForever});
         for (MoveNumber n = body.passed + 1; n <= body.end(); ++n) {
             const Step& step = body.step(n);
+            for (const MoveRef& ref : step.waits_for) {
+                // A vehicle without a plan may be in the way; one with a plan must not end there.
+                const bool crossed = ref.move == kForever && !bodies_[ref.vehicle].steps.empty();
+                if (crossed) found.push_back({"rest_crossed", ref.vehicle, kForever, v, 0});
+            }
             const std::int64_t number = n <= body.granted ? -1 : numbers[v][n - body.passed - 1];
             for (const Tile tile : step.swept) {
                 auto& list = stays[tile];
-                const bool still = !list.empty() && list.back().vehicle == v &&
-                                   list.back().last == kForever;
+                const bool still =
+                    !list.empty() && list.back().vehicle == v && list.back().last == kForever;
                 if (!still) list.push_back({number, v, n, kForever});
                 if (!std::binary_search(step.stand.begin(), step.stand.end(), tile)) {
                     list.back().last = n;
@@ -282,10 +305,6 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
             const Stay& a = list[i - 1];
             const Stay& b = list[i];
             if (a.vehicle == b.vehicle || b.number < 0) continue;
-            const Body& body = bodies_[a.vehicle];
-            if (a.last == kForever && !body.steps.empty()) {
-                found.push_back({"rest_crossed", a.vehicle, body.end(), b.vehicle, tile_ids_[tile]});
-            }
             const auto& waits = bodies_[b.vehicle].step(b.first).waits_for;
             const bool ordered = std::any_of(waits.begin(), waits.end(), [&](const MoveRef& ref) {
                 return ref.vehicle == a.vehicle && ref.move >= a.last;

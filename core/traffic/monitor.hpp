@@ -11,7 +11,7 @@ namespace pulseline::traffic {
 
 struct Violation {
     /// two_holders, footprint_outside, cycle, order_missing, rest_crossed, granted_out_of_order,
-    /// granted_closed, granted_halted, base_changed, passed_ungranted
+    /// granted_closed, granted_halted, base_changed, passed_ungranted, unknown_move
     std::string law;
     VehicleIndex vehicle = 0;
     MoveNumber move = 0;
@@ -74,8 +74,8 @@ private:
     std::unordered_map<TileId, Tile> tile_numbers_;
     std::vector<TileId> tile_ids_;
     std::vector<Body> bodies_;
-    std::vector<Owner> owners_;   // by tile
-    std::vector<int> closures_;   // by tile
+    std::vector<Owner> owners_;  // by tile
+    std::vector<int> closures_;  // by tile
 };
 
 }  // namespace pulseline::traffic

@@ -12,7 +12,7 @@
 /// What vehicles of one class can do on the floor: places to stand and moves between them.
 namespace pulseline::traffic {
 
-using TileIndex = std::uint32_t;   // dense handle of a tile, from TileTable
+using TileIndex = std::uint32_t;             // dense handle of a tile, from TileTable
 using TileIndexes = std::vector<TileIndex>;  // sorted, unique
 
 /// A place of the caller's graph: tiles under a vehicle of the class that stands there, position

@@ -27,9 +27,8 @@ enum class Mutation {
     kSuccessorsForgotten,    // those behind a new plan keep their old predecessors
     kVisitLost,              // a replanned task leaves out a stop
     kRestCrossed,            // a resting place that somebody still has to cross is accepted
-    kFreedByTime,            // floor counts as free at the predicted time
 };
-constexpr int kMutationCount = 22;
+constexpr int kMutationCount = 21;
 
 #ifdef PULSELINE_MUTATIONS
 inline Mutation planted_mutation = Mutation::kNone;

@@ -101,13 +101,12 @@ bool JointPlan::predict_before(VehicleIndex vehicle, double now_s) {
 bool JointPlan::times_agree(const Undo& undo) const {
     const auto agree = [&](MoveRef ref) {
         const PlannedMove& move = vehicles_[ref.vehicle].at(ref.move);
-        return std::all_of(
-            move.waits_for.begin(), move.waits_for.end(), [&](const MoveRef& other) {
-                const VehiclePlan& before = vehicles_[other.vehicle];
-                if (other.move == kForever) return true;  // nothing follows from a stand
-                return other.move <= before.passed ||
-                       before.at(other.move).end_s <= move.start_s + kRounding_s;
-            });
+        return std::all_of(move.waits_for.begin(), move.waits_for.end(), [&](const MoveRef& other) {
+            const VehiclePlan& before = vehicles_[other.vehicle];
+            if (other.move == kForever) return true;  // nothing follows from a stand
+            return other.move <= before.passed ||
+                   before.at(other.move).end_s <= move.start_s + kRounding_s;
+        });
     };
     const VehiclePlan& plan = vehicles_[undo.vehicle];
     for (MoveNumber n = plan.released + 1; n <= plan.last(); ++n) {

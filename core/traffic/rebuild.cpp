@@ -33,7 +33,13 @@ TrafficRecord Traffic::record() const {
         row.next_visit = vehicle.next_visit;
         row.admitted_s = vehicle.admitted_s;
         row.postponed = vehicle.postponed;
+        row.tried_s = vehicle.tried_s;
+        row.blocked_by = vehicle.blocked_by;
         record.vehicles.push_back(std::move(row));
+    }
+    record.predicted_s = predicted_ ? predicted_s_ : -1;
+    for (TileIndex tile = 0; tile < tiles_.size(); ++tile) {
+        record.tile_order.push_back(tiles_.id_of(tile));
     }
     for (const Closure& closure : closures_) {
         record.closures.push_back({tiles_.ids_of(closure.tiles), closure.open});
@@ -50,6 +56,9 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, const std::vector<
     };
     Traffic traffic(report_changes);
     for (const MoveGraph& graph : graphs) traffic.add_graph(graph);
+    for (const TileId tile : record.tile_order) traffic.tiles_.index_of(tile);
+    traffic.predicted_ = record.predicted_s >= 0;
+    traffic.predicted_s_ = record.predicted_s;
     std::vector<VehiclePlan> plans;
     std::vector<std::vector<std::int64_t>> ranks;
     for (const VehicleRecord& row : record.vehicles) {
@@ -89,6 +98,8 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, const std::vector<
         vehicle.next_visit = row.next_visit;
         vehicle.admitted_s = row.admitted_s;
         vehicle.postponed = row.postponed;
+        vehicle.tried_s = row.tried_s;
+        vehicle.blocked_by = row.blocked_by;
         traffic.vehicles_.push_back(std::move(vehicle));
     }
     if (!traffic.joint_.restore(std::move(plans), ranks)) return broken("two_holders", {});
@@ -121,6 +132,7 @@ Change Traffic::plan_change(VehicleIndex vehicle) const {
     return change;
 }
 
+/// REQUIRES: other plans that changed since the last call are told before.
 void Traffic::tell_plan(VehicleIndex vehicle) {
     if (!report_changes_) return;
     tell(plan_change(vehicle));
@@ -147,8 +159,7 @@ std::vector<Change> Traffic::all_as_changes() const {
     std::vector<Change> changes;
     for (VehicleIndex v = 0; v < joint_.vehicle_count(); ++v) {
         const VehiclePlan& plan = joint_.plan(v);
-        changes.push_back(
-            {Change::Kind::kStand, v, plan.passed, tiles_.ids_of(plan.stand), {}});
+        changes.push_back({Change::Kind::kStand, v, plan.passed, tiles_.ids_of(plan.stand), {}});
         Change all{Change::Kind::kPlan, v, plan.passed, {}, {}};
         for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) {
             const PlannedMove& move = plan.at(n);

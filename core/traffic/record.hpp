@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,24 @@ struct Visit {
     friend bool operator==(const Visit&, const Visit&) = default;
 };
 
+enum class BlockCause {
+    kVehicle,      // another vehicle holds the tile or comes first
+    kClosed,       // the tile is closed
+    kNoRoute,      // the graph has no way
+    kSearchLimit,  // the search was cut off
+    kCycle,        // the plan would have closed a circle of waits
+    kHalted,       // the vehicle itself is halted
+};
+
+/// Who or what keeps a vehicle from a plan or from its next grant.
+struct Block {
+    BlockCause cause = BlockCause::kNoRoute;
+    VehicleIndex vehicle = 0;    // kVehicle
+    MoveNumber move = 0;         // of that vehicle; kForever: it stands there with no plan to leave
+    std::optional<TileId> tile;  // kVehicle, kClosed
+    friend bool operator==(const Block&, const Block&) = default;
+};
+
 struct MoveRecord {
     TileSet swept;
     TileSet stand;
@@ -65,6 +84,8 @@ struct VehicleRecord {
     VisitIndex next_visit = 0;
     double admitted_s = 0;
     bool postponed = false;  // it gives way, its plan leaves out the visits for the time being
+    double tried_s = -1e9;   // last search by improve()
+    std::optional<Block> blocked_by;
     friend bool operator==(const VehicleRecord&, const VehicleRecord&) = default;
 };
 
@@ -79,6 +100,8 @@ struct ClosureRecord {
 struct TrafficRecord {
     std::vector<VehicleRecord> vehicles;
     std::vector<ClosureRecord> closures;
+    double predicted_s = -1;         // time of the predictions in the moves; -1: out of date
+    std::vector<TileId> tile_order;  // as the tiles became known; decides between equals
     friend bool operator==(const TrafficRecord&, const TrafficRecord&) = default;
 };
 

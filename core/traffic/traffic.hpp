@@ -43,11 +43,11 @@
 /// granted (or the first grantable one before it is); it takes finite time; so every move is passed
 /// one day, and all vehicles end at their resting places, which nobody else's plan needs. Halted
 /// vehicles and closed floor break "finite time": whoever waits for them is blocked, with a reason,
-/// but not deadlocked, and goes on once they end. Where the layout is well-formed (layout_check.hpp)
-/// a way behind all present plans always exists, so admission never fails but for disturbances.
-/// (Hoenig et al., "Persistent and robust execution of MAPF schedules", RA-L 2019; Cap et al.,
-/// "Complete decentralized method for on-line multi-robot trajectory planning in well-formed
-/// infrastructures", ICAPS 2015; Phillips, Likhachev, "SIPP", ICRA 2011.)
+/// but not deadlocked, and goes on once they end. Where the layout is well-formed
+/// (layout_check.hpp) a way behind all present plans always exists, so admission never fails but
+/// for disturbances. (Hoenig et al., "Persistent and robust execution of MAPF schedules", RA-L
+/// 2019; Cap et al., "Complete decentralized method for on-line multi-robot trajectory planning in
+/// well-formed infrastructures", ICAPS 2015; Phillips, Likhachev, "SIPP", ICRA 2011.)
 ///
 /// Deterministic: the same calls give the same state. No clock, thread or random source inside.
 /// Thread safety: none; one owner. Copyable.
@@ -68,23 +68,15 @@ struct Sequence {
 };
 
 struct Task {
-    std::vector<Visit> visits;         // in this order; empty: only to a resting place
-    std::vector<PlaceIndex> resting;   // where it may end; empty: any resting place of the graph
-    std::vector<Sequence> sequences;   // alternatives; REQUIRED when the vehicle stands at no place
-    bool may_delay_others = false;     // go before what others have not been granted, if need be
-};
-
-/// Who or what keeps a vehicle from a plan or from its next grant.
-struct Block {
-    Obstacle::Cause cause = Obstacle::Cause::kNoRoute;
-    VehicleIndex vehicle = 0;
-    MoveNumber move = 0;  // of that vehicle; kForever: it stands there with no plan to leave
-    std::optional<TileId> tile;
+    std::vector<Visit> visits;        // in this order; empty: only to a resting place
+    std::vector<PlaceIndex> resting;  // where it may end; empty: any resting place of the graph
+    std::vector<Sequence> sequences;  // alternatives; REQUIRED when the vehicle stands at no place
+    bool may_delay_others = false;    // go before what others have not been granted, if need be
 };
 
 struct Admission {
-    double finish_s = 0;                 // predicted arrival at the resting place
-    bool behind_incumbent = false;       // the old plan is driven to its end first
+    double finish_s = 0;            // predicted arrival at the resting place
+    bool behind_incumbent = false;  // the old plan is driven to its end first
     bool delays_others = false;
     std::vector<VehicleIndex> made_way;  // idle vehicles that got a plan to leave
     std::size_t labels = 0;              // work of the search
@@ -105,9 +97,9 @@ struct Improvement {
 
 struct VehicleSpec {
     std::string name;
-    GraphIndex graph = kNoGraph;   // kNoGraph: its tasks come with sequences
-    PlaceIndex place = kNoPlace;   // of the graph
-    TileSet stand;                 // tiles under it; empty: those of the place
+    GraphIndex graph = kNoGraph;  // kNoGraph: its tasks come with sequences
+    PlaceIndex place = kNoPlace;  // of the graph
+    TileSet stand;                // tiles under it; empty: those of the place
 };
 
 class Traffic {
@@ -219,9 +211,8 @@ private:
     void predict(double now_s);
     /// Search from `from_move`'s end (>= released) through visits to rest, and merge.
     tl::expected<Admission, Block> plan_from(VehicleIndex vehicle, MoveNumber from_move,
-                                             const Task& task, VisitIndex first_visit,
-                                             double now_s, bool before_others,
-                                             Undos* undos = nullptr);
+                                             const Task& task, VisitIndex first_visit, double now_s,
+                                             bool before_others, Undos* undos = nullptr);
     SearchTask search_task(VehicleIndex vehicle, MoveNumber from_move, const Task& task,
                            VisitIndex first_visit, double now_s);
     bool merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves, Placement placement,
@@ -258,7 +249,7 @@ private:
     std::vector<Closure> closures_;
     std::vector<Change> changes_;
     std::vector<MoveRef> untold_;  // moves of others whose waits_for a merge changed
-    bool predicted_ = false;  // times are those of predicted_s_
+    bool predicted_ = false;       // times are those of predicted_s_
     double predicted_s_ = 0;
     WindowSearch search_;
     std::map<std::pair<GraphIndex, std::vector<PlaceIndex>>, Times> times_;

@@ -11,7 +11,7 @@ Block Traffic::block_of(const Obstacle& obstacle) const {
 }
 
 Reason Traffic::reason_of(const Block& block) const {
-    static const char* const kCauses[] = {"vehicle",      "closed_floor",    "no_route",
+    static const char* const kCauses[] = {"vehicle",      "closed_floor",   "no_route",
                                           "search_limit", "circular_waits", "halted"};
     Reason reason{"traffic_blocked", {{"by", kCauses[static_cast<int>(block.cause)]}}};
     if (block.cause == Obstacle::Cause::kVehicle) {
@@ -50,10 +50,11 @@ std::vector<Wait> Traffic::waits() const {
                     std::find_if(waits.begin() + static_cast<std::ptrdiff_t>(first), waits.end(),
                                  [&](const Wait& w) { return w.block.vehicle == use.vehicle; });
                 if (same == waits.end()) {
-                    waits.push_back({v, n,
-                                     {Obstacle::Cause::kVehicle, use.vehicle, use.last,
-                                      tiles_.id_of(tile)},
-                                     joint_.end_of(use)});
+                    waits.push_back(
+                        {v,
+                         n,
+                         {Obstacle::Cause::kVehicle, use.vehicle, use.last, tiles_.id_of(tile)},
+                         joint_.end_of(use)});
                 } else if (use.last > same->block.move) {
                     same->block.move = use.last;
                     same->block.tile = tiles_.id_of(tile);

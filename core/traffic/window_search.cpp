@@ -262,12 +262,18 @@ void WindowSearch::expand(std::uint32_t index) {
     }
 }
 
-/// Remembers who keeps the tiles longest, when that is nearer to the goal than what is known.
+/// Remembers who is on the tiles or, with nobody there, who keeps them longest.
 void WindowSearch::note_obstacle(const TileIndexes& tiles, double bound_s) {
+    bool held = false;
     double latest_s = -1;
     for (const TileIndex tile : tiles) {
         for (const Use& use : joint_->queue(tile)) {
-            if (use.vehicle == task_->vehicle || joint_->end_of(use) <= latest_s) continue;
+            const bool is_held = std::isinf(joint_->start_of(use));
+            const bool later = joint_->end_of(use) > latest_s;
+            if (use.vehicle == task_->vehicle || held > is_held || (held == is_held && !later)) {
+                continue;
+            }
+            held = is_held;
             latest_s = joint_->end_of(use);
             obstacle_ = {Obstacle::Cause::kVehicle, use.vehicle, use.last, tile};
             obstacle_bound_s_ = bound_s;

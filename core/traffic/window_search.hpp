@@ -34,7 +34,7 @@ struct SearchTask {
     double start_s = 0;
     double now_s = 0;
     std::vector<Stop> stops;
-    std::vector<PlaceIndex> resting;                  // empty: all resting places of the graph
+    std::vector<PlaceIndex> resting;                    // empty: all resting places of the graph
     const std::vector<float>* times_to_rest = nullptr;  // to the nearest of them
     std::vector<FixedSequence> sequences;
     bool only_lasting = false;  // heed only stays without an end, as if all others would give way
@@ -43,14 +43,7 @@ struct SearchTask {
 
 /// What kept a vehicle from a plan or a grant.
 struct Obstacle {
-    enum class Cause {
-        kVehicle,      // another vehicle holds the tile or comes first
-        kClosed,       // the tile is closed
-        kNoRoute,      // the graph has no way
-        kSearchLimit,  // the search was cut off
-        kCycle,        // the plan would have closed a circle of waits
-        kHalted,       // the vehicle itself is halted
-    };
+    using Cause = BlockCause;
     Cause cause = Cause::kNoRoute;
     VehicleIndex vehicle = 0;       // kVehicle
     MoveNumber move = 0;            // of that vehicle: it must be passed; kForever: it stays
@@ -91,7 +84,7 @@ private:
         std::int32_t arc;  // of the graph; -1: a stop; < -1: step of a sequence
         double leave_s;    // when the move into this place starts
         double arrive_s;
-        double until_s;    // end of the interval
+        double until_s;      // end of the interval
         std::uint32_t next;  // of the same place and stage
         bool closed;
     };
@@ -124,8 +117,8 @@ private:
     const SearchTask* task_ = nullptr;
     std::size_t graph_places_ = 0;
     std::size_t places_ = 0;
-    std::vector<std::vector<Step>> steps_;     // by place behind the graph's places
-    std::vector<const Step*> step_list_;       // arc number -2 - index
+    std::vector<std::vector<Step>> steps_;        // by place behind the graph's places
+    std::vector<const Step*> step_list_;          // arc number -2 - index
     std::vector<const TileIndexes*> own_stands_;  // of those places
     std::vector<bool> own_ends_;                  // where a sequence ends for good
     std::vector<double> rest_of_way_s_;           // from stop k to the end, on an empty floor

@@ -57,9 +57,15 @@ void World::disturb() {
             ++outcome_.events["vehicle found between places"];
             break;
         case 6:
-        case 7: close_some(); break;
-        case 8: change_plan(); break;
-        default: restart(); break;
+        case 7:
+            close_some();
+            break;
+        case 8:
+            change_plan();
+            break;
+        default:
+            restart();
+            break;
     }
 }
 
@@ -94,8 +100,8 @@ void World::found(VehicleIndex v) {
 
 void World::close_some() {
     const auto& graph = plant_.classes[static_cast<std::size_t>(pick(0, 1))].graph;
-    const auto& move = graph.moves[static_cast<std::size_t>(
-        pick(0, static_cast<int>(graph.moves.size()) - 1))];
+    const auto& move =
+        graph.moves[static_cast<std::size_t>(pick(0, static_cast<int>(graph.moves.size()) - 1))];
     closed_.push_back({traffic_.close(move.swept, now()), now_s_ + pick(30, 600)});
     settle();
     ++outcome_.events["floor closed"];

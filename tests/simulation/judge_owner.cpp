@@ -13,8 +13,8 @@ void World::make_orders() {
         const auto& stations = plant_.classes[order.of_class].stations;
         const int stops = pick(1, 3);
         for (int k = 0; k < stops; ++k) {
-            const auto place = stations[static_cast<std::size_t>(
-                pick(0, static_cast<int>(stations.size()) - 1))];
+            const auto place =
+                stations[static_cast<std::size_t>(pick(0, static_cast<int>(stations.size()) - 1))];
             order.visits.push_back({place, static_cast<double>(pick(5, 60))});
         }
         order.from_s = pick(0, static_cast<int>(options_.disturbed_s * 0.8));

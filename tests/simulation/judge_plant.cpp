@@ -7,7 +7,8 @@
 namespace pulseline::judge {
 namespace {
 
-constexpr double kColumn_m = 7.5;  // a platform of 10.5 m reaches into the next column, not through it
+constexpr double kColumn_m =
+    7.5;  // a platform of 10.5 m reaches into the next column, not through it
 constexpr double kRow_m = 5.0;
 
 int pick(std::mt19937_64& random, int low, int high) {
@@ -111,7 +112,8 @@ void add_platform_bays(VehicleClass& of_class, const Lanes& lanes) {
 bool well_formed(const Plant& plant) {
     std::vector<traffic::LayoutClass> classes;
     for (const VehicleClass& c : plant.classes) {
-        classes.push_back({c.length_m > 5 ? "platform" : "small", &c.graph, c.stations, c.vehicles, {}});
+        classes.push_back(
+            {c.length_m > 5 ? "platform" : "small", &c.graph, c.stations, c.vehicles, {}});
     }
     return traffic::check_layout(classes).empty();
 }

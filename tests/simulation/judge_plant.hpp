@@ -23,8 +23,8 @@ struct VehicleClass {
     double length_m = 0;  // along x; vehicles translate and keep their heading
     double width_m = 0;
     traffic::MoveGraph graph;
-    std::vector<Point> points;          // of the places
-    std::vector<PlaceIndex> stations;   // what orders name
+    std::vector<Point> points;         // of the places
+    std::vector<PlaceIndex> stations;  // what orders name
     std::vector<PlaceIndex> resting;
     std::size_t vehicles = 0;
 };

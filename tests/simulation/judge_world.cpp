@@ -57,8 +57,8 @@ const VehicleClass& World::class_of(VehicleIndex v) const {
 
 void World::violate(const std::string& what) {
     if (outcome_.violations.size() < kMostViolations) {
-        outcome_.violations.push_back("t=" + std::to_string(static_cast<int>(now_s_)) + " s: " +
-                                      what);
+        outcome_.violations.push_back("t=" + std::to_string(static_cast<int>(now_s_)) +
+                                      " s: " + what);
     }
 }
 
@@ -73,9 +73,10 @@ void World::take_grants(VehicleIndex v, MoveNumber upto) {
         body.base.push_back(
             {n, class_of(v).points[move.place], move.place, stop, move.duration_s * slow});
         ++outcome_.grants;
-        outcome_.digest = outcome_.digest * 1099511628211ULL ^
-                          (static_cast<std::uint64_t>(v) << 40 ^ static_cast<std::uint64_t>(n) << 20 ^
-                           move.place ^ static_cast<std::uint64_t>(now_s_));
+        outcome_.digest =
+            outcome_.digest * 1099511628211ULL ^
+            (static_cast<std::uint64_t>(v) << 40 ^ static_cast<std::uint64_t>(n) << 20 ^
+             move.place ^ static_cast<std::uint64_t>(now_s_));
     }
 }
 
@@ -172,15 +173,17 @@ void World::describe() const {
         const auto& plan = traffic_.plan(v);
         const Body& body = bodies_[v];
         std::printf("%s at (%.1f, %.1f) place %d, passed %u released %u last %u%s%s%s",
-                    traffic_.name(v).c_str(), body.at.x_m, body.at.y_m, static_cast<int>(plan.place),
-                    plan.passed, plan.released, plan.last(), plan.halted ? ", halted" : "",
-                    traffic_.postponed(v) ? ", postponed" : "", body.order ? ", has an order" : "");
+                    traffic_.name(v).c_str(), body.at.x_m, body.at.y_m,
+                    static_cast<int>(plan.place), plan.passed, plan.released, plan.last(),
+                    plan.halted ? ", halted" : "", traffic_.postponed(v) ? ", postponed" : "",
+                    body.order ? ", has an order" : "");
         if (body.order) {
             for (const auto& visit : orders_[*body.order].visits) std::printf(" %u", visit.place);
         }
         if (const auto block = traffic_.blocked_by(v)) {
-            std::printf(", last refusal: cause %d vehicle %s move %u", static_cast<int>(block->cause),
-                        traffic_.name(block->vehicle).c_str(), block->move);
+            std::printf(", last refusal: cause %d vehicle %s move %u",
+                        static_cast<int>(block->cause), traffic_.name(block->vehicle).c_str(),
+                        block->move);
         }
         std::printf("\n");
     }
@@ -206,8 +209,8 @@ Outcome World::run() {
         disturb();
         assign();
         grant();
-        if (chance(0.4)) {
-            traffic_.improve(now(), 3);
+        if (chance(0.15)) {
+            traffic_.improve(now(), 2);
             settle();
         }
         if (!disturbed_ && all_done()) break;

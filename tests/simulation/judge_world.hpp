@@ -21,7 +21,7 @@ using traffic::MoveNumber;
 using traffic::VehicleIndex;
 
 struct JudgeOptions {
-    double disturbed_s = 3600;       // orders and disturbances come during this time
+    double disturbed_s = 3600;         // orders and disturbances come during this time
     double finish_limit_s = 6 * 3600;  // then everything must end within this
     bool verbose = false;
 };
@@ -61,14 +61,14 @@ private:
     struct Body {
         std::size_t of_class = 0;
         Point at;
-        Point from;              // where the move under way began
+        Point from;  // where the move under way began
         PlaceIndex from_place = 0;
         std::deque<Granted> base;
         double in_move_s = 0;
         double stands_until_s = 0;  // a random stop
         bool dead = false;
         double returns_s = 0;
-        bool strays = false;        // it is given up and found at an unexpected place
+        bool strays = false;  // it is given up and found at an unexpected place
         std::vector<std::pair<double, MoveNumber>> reports;  // on their way
         MoveNumber last_reported = 0;
         std::optional<std::size_t> order;

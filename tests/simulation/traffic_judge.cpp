@@ -1,5 +1,5 @@
-// Simulation judge of core/traffic: many seeds, each a random plant with random faults; every law is
-// checked at every step. A seed that fails prints itself; `--seed N` replays it identically.
+// Simulation judge of core/traffic: many seeds, each a random plant with random faults; every law
+// is checked at every step. A seed that fails prints itself; `--seed N` replays it identically.
 //   test_traffic_judge [--seeds N] [--first N] [--hours H] [--seed N]
 //   test_traffic_mutations [--seeds N]     (built with planted bugs: each must be found)
 #include <sys/wait.h>
@@ -48,10 +48,6 @@ Arguments arguments_from(int argc, char** argv) {
     return arguments;
 }
 
-bool is_fault(const std::string& event) {
-    return event.rfind("vehicle ", 0) == 0 || event == "floor closed" || event == "restart";
-}
-
 #ifdef PULSELINE_MUTATIONS
 
 constexpr unsigned kSecondsPerMutation = 60;
@@ -66,7 +62,8 @@ std::uint64_t hunt(traffic::Mutation mutation, const Arguments& arguments, std::
         close(pipes[0]);
         alarm(kSecondsPerMutation);
         traffic::planted_mutation = mutation;
-        for (std::uint64_t seed = arguments.first; seed < arguments.first + arguments.seeds; ++seed) {
+        for (std::uint64_t seed = arguments.first; seed < arguments.first + arguments.seeds;
+             ++seed) {
             dprintf(pipes[1], "%llu\n", static_cast<unsigned long long>(seed));
             const Outcome outcome = judge_seed(seed, {arguments.hours * 3600, 6 * 3600, false});
             if (outcome.violations.empty()) continue;
@@ -97,19 +94,34 @@ std::uint64_t hunt(traffic::Mutation mutation, const Arguments& arguments, std::
         }
         begin = end + 1;
     }
-    if (WIFSIGNALED(status)) how = "the program ended by signal " + std::to_string(WTERMSIG(status));
+    if (WIFSIGNALED(status))
+        how = "the program ended by signal " + std::to_string(WTERMSIG(status));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return 0;
     return seed;
 }
 
 int run(const Arguments& arguments) {
-    const char* const names[] = {
-        "none", "tail freed too early", "grant not atomic", "cycle test skipped", "order ignored",
-        "breakdown forgets tiles", "closure ignored", "reopen forgets overlap",
-        "rebuild loses base", "rebuild loses order", "rebuild loses closure", "rest not held",
-        "swept without tail", "replan changes base", "passed counts twice", "relocation not held",
-        "halted is released", "rollback incomplete", "successors forgotten", "visit lost",
-        "rest crossed", "freed by time"};
+    const char* const names[] = {"none",
+                                 "tail freed too early",
+                                 "grant not atomic",
+                                 "cycle test skipped",
+                                 "order ignored",
+                                 "breakdown forgets tiles",
+                                 "closure ignored",
+                                 "reopen forgets overlap",
+                                 "rebuild loses base",
+                                 "rebuild loses order",
+                                 "rebuild loses closure",
+                                 "rest not held",
+                                 "swept without tail",
+                                 "replan changes base",
+                                 "passed counts twice",
+                                 "relocation not held",
+                                 "halted is released",
+                                 "rollback incomplete",
+                                 "successors forgotten",
+                                 "visit lost",
+                                 "rest crossed"};
     static_assert(std::size(names) == traffic::kMutationCount);
     int missed = 0;
     for (int m = 1; m < traffic::kMutationCount; ++m) {
@@ -118,7 +130,8 @@ int run(const Arguments& arguments) {
         if (seed == 0) ++missed;
         std::printf("%-24s %s", names[m], seed == 0 ? "NOT FOUND\n" : "");
         if (seed != 0) {
-            std::printf("found by seed %llu: %s\n", static_cast<unsigned long long>(seed), how.c_str());
+            std::printf("found by seed %llu: %s\n", static_cast<unsigned long long>(seed),
+                        how.c_str());
         }
         std::fflush(stdout);
     }
@@ -128,6 +141,10 @@ int run(const Arguments& arguments) {
 }
 
 #else
+
+bool is_fault(const std::string& event) {
+    return event.rfind("vehicle ", 0) == 0 || event == "floor closed" || event == "restart";
+}
 
 int run(const Arguments& arguments) {
     std::map<std::string, std::uint64_t> events;
@@ -160,13 +177,15 @@ int run(const Arguments& arguments) {
         if (outcome.violations.empty()) continue;
         ++failed;
         for (const std::string& violation : outcome.violations) {
-            std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed), violation.c_str());
+            std::printf("seed %llu: %s\n", static_cast<unsigned long long>(seed),
+                        violation.c_str());
         }
         std::printf("replay: test_traffic_judge --seed %llu --hours %g\n",
                     static_cast<unsigned long long>(seed), arguments.hours);
         std::fflush(stdout);
     }
-    const auto share = 100.0 * static_cast<double>(with_faults) / static_cast<double>(arguments.seeds);
+    const auto share =
+        100.0 * static_cast<double>(with_faults) / static_cast<double>(arguments.seeds);
     std::printf("%llu seeds, %.0f simulated hours, %d to %d vehicles, %llu orders, %llu grants\n",
                 static_cast<unsigned long long>(arguments.seeds), hours, least_vehicles,
                 most_vehicles, static_cast<unsigned long long>(orders),
