@@ -174,7 +174,8 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
     if (before_others) {
         // The search took for granted that all others can give way; now it shows.
         predict(now_s);
-        const bool in_vain = is_blocked(vehicle, now_s) || count_blocked(now_s) > old_blocked;
+        const bool in_vain = is_blocked(vehicle, now_s) || !joint_.ends_last(vehicle) ||
+                             count_blocked(now_s) > old_blocked;
         if (in_vain && !mutated(Mutation::kCycleTestSkipped)) {
             roll_back(own);
             return tl::unexpected(Block{Obstacle::Cause::kCycle, 0, 0, {}});
@@ -289,6 +290,7 @@ Result<Admission> Traffic::cancel(VehicleIndex vehicle, Time now, bool stay_anyw
         v.blocked_by.reset();
         joint_.forget_visits(vehicle);
     };
+    predict(s(now));
     const PlaceIndex end = plan.place_after(plan.released);
     const bool may_stay = stay_anywhere || (end != kNoPlace && v.graph != kNoGraph &&
                                             graphs_[v.graph]->places[end].resting);

@@ -89,20 +89,29 @@ bool Traffic::in_the_way(VehicleIndex vehicle) const {
 /// each on floor it holds alone, so the rest stays in order. That returns the resting places and
 /// gaps which they keep from each other, and whoever stands in the way can leave.
 bool Traffic::untangle(double now_s) {
-    predicted_ = false;
-    predict(now_s);
-    std::vector<VehicleIndex> blocked;
-    for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
-        const VehiclePlan& plan = joint_.plan(v);
-        if (plan.last() > plan.released && is_blocked(v, now_s)) blocked.push_back(v);
-    }
-    for (const VehicleIndex v : blocked) {
-        vehicles_[v].postponed = first_open_visit(v) < vehicles_[v].task.visits.size();
-        merge_plan(v, {}, Placement::kByTime, now_s);
+    std::vector<VehicleIndex> changed;
+    for (bool more = true; more;) {
+        // A vehicle that is stopped here no longer leaves floor that it could have left before the
+        // place where it was blocked, so others can become blocked by it.
+        more = false;
         predicted_ = false;
-        tell_plan(v);
+        predict(now_s);
+        std::vector<VehicleIndex> blocked;
+        for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
+            const VehiclePlan& plan = joint_.plan(v);
+            if (plan.last() > plan.released && is_blocked(v, now_s)) blocked.push_back(v);
+        }
+        for (const VehicleIndex v : blocked) {
+            vehicles_[v].postponed = first_open_visit(v) < vehicles_[v].task.visits.size();
+            merge_plan(v, {}, Placement::kByTime, now_s);
+            changed.push_back(v);
+            more = true;
+        }
     }
-    return !blocked.empty();
+    predicted_ = false;
+    for (const VehicleIndex v : changed) tell(plan_change(v));
+    tell_touched();
+    return !changed.empty();
 }
 
 /// The vehicle goes before the one it waits for, when both together gain.

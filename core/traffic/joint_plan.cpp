@@ -273,6 +273,14 @@ bool JointPlan::nobody_behind(VehicleIndex vehicle) const {
     });
 }
 
+bool JointPlan::ends_last(VehicleIndex vehicle) const {
+    const VehiclePlan& plan = vehicles_[vehicle];
+    const TileIndexes& stand = plan.stand_after(plan.last());
+    return std::all_of(stand.begin(), stand.end(), [&](TileIndex tile) {
+        return queue(tile).back().vehicle == vehicle;
+    });
+}
+
 bool JointPlan::restore(std::vector<VehiclePlan> plans,
                         const std::vector<std::vector<std::int64_t>>& ranks) {
     vehicles_ = std::move(plans);

@@ -90,6 +90,8 @@ public:
     void forget_visits(VehicleIndex vehicle);
     /// True when no other has a stay behind the vehicle where its base ends.
     bool nobody_behind(VehicleIndex vehicle) const;
+    /// True when no other has a stay behind the vehicle where its plan ends.
+    bool ends_last(VehicleIndex vehicle) const;
     /// The vehicle stands elsewhere and has no plan any more. REQUIRES: no other holds the tiles.
     void move_stand(VehicleIndex vehicle, const TileIndexes& stand, PlaceIndex place, double now_s);
     /// Puts back plans as a record says. `ranks` orders the moves, per vehicle from passed + 1 on.

@@ -9,6 +9,7 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::ptrdiff_t kRecent = 12;  // stays looked back at; more costs more than it saves
 constexpr double kEver_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -143,6 +144,7 @@ bool WindowSearch::is_end(const Label& label) const {
 /// Intervals from the start on in which no other vehicle stays on any of the tiles.
 WindowSearch::Range WindowSearch::free_windows(const TileIndexes& tiles) {
     blocked_.clear();
+    seen_.clear();
     const std::vector<Use>* last = nullptr;
     for (const TileIndex tile : tiles) {
         // Neighbouring tiles mostly have the same stays: a long body covers hundreds of tiles, but
@@ -152,6 +154,9 @@ WindowSearch::Range WindowSearch::free_windows(const TileIndexes& tiles) {
         last = &uses;
         for (const Use& use : uses) {
             if (use.vehicle == task_->vehicle) continue;
+            const auto recent = seen_.size() > kRecent ? seen_.end() - kRecent : seen_.begin();
+            if (std::find(recent, seen_.end(), use) != seen_.end()) continue;
+            seen_.push_back(use);
             const double end_s = joint_->end_of(use);
             if (task_->only_lasting && end_s < task_->now_s + kBlocked_s / 2) continue;
             blocked_.push_back({joint_->start_of(use), end_s});

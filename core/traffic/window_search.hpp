@@ -128,6 +128,7 @@ private:
     std::vector<OpenEntry> open_;
     std::vector<Window> pool_;
     std::vector<Window> blocked_;
+    std::vector<Use> seen_;
     std::vector<Range> place_ranges_;
     std::vector<Range> arc_ranges_;
     std::uint32_t stamp_ = 0;
