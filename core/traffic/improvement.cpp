@@ -109,7 +109,10 @@ bool Traffic::untangle(double now_s) {
         }
     }
     predicted_ = false;
-    for (const VehicleIndex v : changed) tell(plan_change(v));
+    for (const VehicleIndex v : changed) {
+        replanned_.push_back(v);
+        if (report_changes_) tell(plan_change(v));
+    }
     tell_touched();
     return !changed.empty();
 }
@@ -148,7 +151,8 @@ bool Traffic::improve_pair(VehicleIndex vehicle, VehicleIndex before, double now
         roll_back(undos);
         return false;
     }
-    tell(plan_change(before));
+    replanned_.push_back(before);
+    if (report_changes_) tell(plan_change(before));
     tell_plan(vehicle);
     return true;
 }

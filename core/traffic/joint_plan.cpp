@@ -276,9 +276,8 @@ bool JointPlan::nobody_behind(VehicleIndex vehicle) const {
 bool JointPlan::ends_last(VehicleIndex vehicle) const {
     const VehiclePlan& plan = vehicles_[vehicle];
     const TileIndexes& stand = plan.stand_after(plan.last());
-    return std::all_of(stand.begin(), stand.end(), [&](TileIndex tile) {
-        return queue(tile).back().vehicle == vehicle;
-    });
+    return std::all_of(stand.begin(), stand.end(),
+                       [&](TileIndex tile) { return queue(tile).back().vehicle == vehicle; });
 }
 
 bool JointPlan::restore(std::vector<VehiclePlan> plans,

@@ -121,6 +121,13 @@ void Traffic::tell(Change change) {
 
 std::vector<Change> Traffic::take_changes() { return std::exchange(changes_, {}); }
 
+std::vector<VehicleIndex> Traffic::take_replanned() {
+    auto replanned = std::exchange(replanned_, {});
+    std::sort(replanned.begin(), replanned.end());
+    replanned.erase(std::unique(replanned.begin(), replanned.end()), replanned.end());
+    return replanned;
+}
+
 Change Traffic::plan_change(VehicleIndex vehicle) const {
     const VehiclePlan& plan = joint_.plan(vehicle);
     Change change{Change::Kind::kPlan, vehicle, plan.released, {}, {}};
@@ -134,6 +141,7 @@ Change Traffic::plan_change(VehicleIndex vehicle) const {
 
 /// REQUIRES: other plans that changed since the last call are told before.
 void Traffic::tell_plan(VehicleIndex vehicle) {
+    replanned_.push_back(vehicle);
     if (!report_changes_) return;
     tell(plan_change(vehicle));
     tell_touched();

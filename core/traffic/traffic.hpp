@@ -157,6 +157,9 @@ public:
     /// finish does not move back.
     Improvement improve(Time now, int steps);
 
+    /// Vehicles whose horizon changed since the last call, by whatever call: send it to them.
+    std::vector<VehicleIndex> take_replanned();
+
     // --- views
     const VehiclePlan& plan(VehicleIndex vehicle) const { return joint_.plan(vehicle); }
     std::size_t vehicle_count() const { return joint_.vehicle_count(); }
@@ -248,6 +251,7 @@ private:
     std::vector<Vehicle> vehicles_;
     std::vector<Closure> closures_;
     std::vector<Change> changes_;
+    std::vector<VehicleIndex> replanned_;
     std::vector<MoveRef> untold_;  // moves of others whose waits_for a merge changed
     bool predicted_ = false;       // times are those of predicted_s_
     double predicted_s_ = 0;

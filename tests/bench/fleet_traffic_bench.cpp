@@ -2,7 +2,8 @@
 // per simulated hour against two baselines on the same floor with the same orders: one vehicle per
 // resource (a leg holds all its tiles, as openTCS users secure theirs) and a joint plan after PIBT.
 // Admissions are measured in CPU time of the thread, release decisions by the wall clock.
-//   bench_traffic [--hours H] [--releases N] [--only halls|warehouse] [--out FILE]     JSON to build/bench/traffic.json
+//   bench_traffic [--hours H] [--releases N] [--only halls|warehouse] [--out FILE]     JSON to
+//   build/bench/traffic.json
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -39,23 +40,24 @@ std::string measure(const World& world, double hours, std::uint64_t releases) {
     line("joint plan (this library)", ours);
     line("one vehicle per resource", exclusive);
     line("PIBT", pibt);
-    std::printf("  admission p50 %.0f us, p99 %.0f us (%zu, refused %llu); release decision p50 %.2f us, "
-                "p99 %.2f us (%zu)\n  %llu releases, %llu violations; %.1f KB a vehicle\n",
-                quantile(ours.admission_us, 0.5), quantile(ours.admission_us, 0.99),
-                ours.admission_us.size(), static_cast<unsigned long long>(ours.refused),
-                quantile(ours.release_us, 0.5), quantile(ours.release_us, 0.99),
-                ours.release_us.size(), static_cast<unsigned long long>(ours.releases),
-                static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024);
+    std::printf(
+        "  admission p50 %.0f us, p99 %.0f us (%zu, refused %llu); release decision p50 %.2f us, "
+        "p99 %.2f us (%zu)\n  %llu releases, %llu violations; %.1f KB a vehicle\n",
+        quantile(ours.admission_us, 0.5), quantile(ours.admission_us, 0.99),
+        ours.admission_us.size(), static_cast<unsigned long long>(ours.refused),
+        quantile(ours.release_us, 0.5), quantile(ours.release_us, 0.99), ours.release_us.size(),
+        static_cast<unsigned long long>(ours.releases),
+        static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024);
     std::fflush(stdout);
     char text[512];
-    std::snprintf(text, sizeof text,
-                  "\"orders_per_hour\": {\"joint_plan\": %.0f, \"one_vehicle_per_resource\": %.0f, "
-                  "\"pibt\": %.0f}, \"stuck\": {\"joint_plan\": %d, \"one_vehicle_per_resource\": %d, "
-                  "\"pibt\": %d}, \"releases\": %llu, \"violations\": %llu, \"bytes_per_vehicle\": %.0f",
-                  ours.orders_per_hour(), exclusive.orders_per_hour(), pibt.orders_per_hour(),
-                  ours.stuck, exclusive.stuck, pibt.stuck,
-                  static_cast<unsigned long long>(ours.releases),
-                  static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle);
+    std::snprintf(
+        text, sizeof text,
+        "\"orders_per_hour\": {\"joint_plan\": %.0f, \"one_vehicle_per_resource\": %.0f, "
+        "\"pibt\": %.0f}, \"stuck\": {\"joint_plan\": %d, \"one_vehicle_per_resource\": %d, "
+        "\"pibt\": %d}, \"releases\": %llu, \"violations\": %llu, \"bytes_per_vehicle\": %.0f",
+        ours.orders_per_hour(), exclusive.orders_per_hour(), pibt.orders_per_hour(), ours.stuck,
+        exclusive.stuck, pibt.stuck, static_cast<unsigned long long>(ours.releases),
+        static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle);
     return "  \"" + world.name + "\": {\"vehicles\": " + std::to_string(world.starts.size()) +
            ", \"well_formed\": " + (world.well_formed ? "true" : "false") + ",\n    " +
            quantiles("admission", ours.admission_us) + ",\n    " +

@@ -70,7 +70,8 @@ public:
 
     /// Moves from every place to the goal; `rests` that are crossed count as walls but for `own`.
     std::vector<std::uint16_t> distances(PlaceIndex goal, bool cross_rests, PlaceIndex own) const {
-        std::vector<std::uint16_t> distance(next_.size(), std::numeric_limits<std::uint16_t>::max());
+        std::vector<std::uint16_t> distance(next_.size(),
+                                            std::numeric_limits<std::uint16_t>::max());
         std::vector<PlaceIndex> open{goal};
         distance[goal] = 0;
         for (std::size_t i = 0; i < open.size(); ++i) {
@@ -78,7 +79,8 @@ public:
             if (!cross_rests && place != goal && world_.graph.places[place].resting) continue;
             for (const PlaceIndex other : next_[place]) {
                 if (distance[other] != std::numeric_limits<std::uint16_t>::max()) continue;
-                const bool wall = !cross_rests && world_.graph.places[other].resting && other != own;
+                const bool wall =
+                    !cross_rests && world_.graph.places[other].resting && other != own;
                 if (wall) continue;
                 distance[other] = static_cast<std::uint16_t>(distance[place] + 1);
                 open.push_back(other);
@@ -178,8 +180,8 @@ Run run_traffic(const World& world, double seconds, std::uint64_t releases) {
     }
     const auto before = mallinfo2().uordblks;
     const auto copy = std::make_unique<traffic::Traffic>(traffic);
-    run.bytes_per_vehicle = static_cast<double>(mallinfo2().uordblks - before) /
-                            static_cast<double>(vehicles.size());
+    run.bytes_per_vehicle =
+        static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(vehicles.size());
     return run;
 }
 
@@ -205,7 +207,8 @@ Run run_exclusive_legs(const World& world, double seconds) {
         vehicles[v].place = world.starts[v];
         for (const auto tile : world.graph.places[world.starts[v]].stand) holder[tile] = v;
     }
-    std::unordered_map<std::uint64_t, std::vector<PlaceIndex>> ways;  // from, to: routes ignore others
+    std::unordered_map<std::uint64_t, std::vector<PlaceIndex>>
+        ways;  // from, to: routes ignore others
     const auto way = [&](PlaceIndex from, PlaceIndex to) -> const std::vector<PlaceIndex>& {
         auto& leg = ways[std::uint64_t{from} << 32 | to];
         if (!leg.empty() || from == to) return leg;
@@ -249,7 +252,8 @@ Run run_exclusive_legs(const World& world, double seconds) {
                 vehicle.leg.pop_back();
                 const auto& swept = moves[std::uint64_t{vehicle.place} << 32 | to]->swept;
                 traffic::TileSet kept = world.graph.places[to].stand;
-                if (!vehicle.leg.empty()) {  // a shortest way meets floor behind it in one move only
+                if (!vehicle.leg
+                         .empty()) {  // a shortest way meets floor behind it in one move only
                     const auto next = std::uint64_t{to} << 32 | vehicle.leg.back();
                     kept = traffic::merge(kept, moves[next]->swept);
                 }
@@ -335,7 +339,8 @@ private:
             if (other != kNobody && other != v && to[other] == at[v]) continue;  // no swaps
             next_[place] = v;
             to[v] = place;
-            if (other != kNobody && other != v && to[other] == traffic::kNoPlace && !choose(other)) {
+            if (other != kNobody && other != v && to[other] == traffic::kNoPlace &&
+                !choose(other)) {
                 continue;
             }
             return true;

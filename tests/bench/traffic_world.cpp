@@ -18,8 +18,7 @@ void link(traffic::MoveGraph& graph, PlaceIndex a, PlaceIndex b, traffic::TileSe
 }
 
 bool is_well_formed(const World& world) {
-    return traffic::check_layout(
-               {{"vehicle", &world.graph, world.goals, world.starts.size(), {}}})
+    return traffic::check_layout({{"vehicle", &world.graph, world.goals, world.starts.size(), {}}})
         .empty();
 }
 
@@ -78,8 +77,7 @@ void add_hall(World& world, std::size_t hall) {
                 const bool station = c % 10 == 6;
                 if (station ? stations >= 40 : rests >= 200) continue;
                 if (!station && c % 2 != 0 && c != 3 && c != 19) continue;  // ten a side
-                const PlaceIndex bay =
-                    add(kPitch_m * c, kLane_m * l + side * kPitch_m, !station);
+                const PlaceIndex bay = add(kPitch_m * c, kLane_m * l + side * kPitch_m, !station);
                 join(lane[l][c], bay);
                 if (station) {
                     ++stations;

@@ -66,6 +66,8 @@ TEST(Improvement, TellsWhoIsBlockedAndBringsThemOutOfTheWay) {
 
     EXPECT_EQ(improvement.changed, std::vector<VehicleIndex>{b});
     EXPECT_TRUE(hall.traffic.postponed(b));
+    EXPECT_EQ(hall.traffic.take_replanned(), (std::vector<VehicleIndex>{a, b}));
+    EXPECT_TRUE(hall.traffic.take_replanned().empty());
     hall.now_s = 60;
     hall.drive_all();
     const auto rest = hall.place_of(b);
