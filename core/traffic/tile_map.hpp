@@ -14,7 +14,7 @@
 /// with the deadlock-free order of design.md section 6 take this file's place later.
 namespace pulseline::traffic {
 
-using TileId = std::uint64_t;        // hall index and tile column and row
+using TileId = std::uint64_t;         // hall index and tile column and row
 using TileSet = std::vector<TileId>;  // sorted, unique
 
 constexpr double kTile_m = 0.5;  // fine enough that two parked platforms 3 m apart do not share one

@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "core/traffic/traffic.hpp"
+
+namespace pulseline::traffic {
+
+void Traffic::halt(VehicleIndex vehicle, Time now) {
+    if (joint_.plan(vehicle).halted) return;
+    joint_.set_halted(vehicle, true, s(now));
+    predicted_ = false;
+    tell({Change::Kind::kHalted, vehicle, 0, {}, {}});
+}
+
+void Traffic::resume(VehicleIndex vehicle, Time now) {
+    if (!joint_.plan(vehicle).halted) return;
+    joint_.set_halted(vehicle, false, s(now));
+    predicted_ = false;
+    tell({Change::Kind::kResumed, vehicle, 0, {}, {}});
+}
+
+void Traffic::remove_vehicle(VehicleIndex vehicle, Time now) {
+    vehicles_[vehicle].gone = true;
+    vehicles_[vehicle].task = {};
+    joint_.move_stand(vehicle, {}, kNoPlace, s(now));
+    predicted_ = false;
+    tell({Change::Kind::kStand, vehicle, joint_.plan(vehicle).passed, {}, {}});
+    note_touched();
+    tell_touched();
+}
+
+Status Traffic::found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex place, Time now) {
+    const TileIndexes tiles = tiles_.indexes_of(stand);
+    for (const TileIndex tile : tiles) {
+        const auto other = joint_.holder(tile);
+        if (!other || *other == vehicle) continue;
+        halt(vehicle, now);
+        return fail(
+            Errc::kConflict, "floor_held",
+            "The vehicle stands on floor that another one holds; stop that one first.", {},
+            {{"vehicle", name(*other)}, {"tile", static_cast<std::int64_t>(tiles_.id_of(tile))}});
+    }
+    Vehicle& v = vehicles_[vehicle];
+    v.task = {};
+    v.next_visit = 0;
+    v.postponed = false;
+    v.blocked_by.reset();
+    joint_.move_stand(vehicle, tiles, place, s(now));
+    predicted_ = false;
+    tell({Change::Kind::kStand, vehicle, joint_.plan(vehicle).passed, stand, {}});
+    note_touched();
+    tell_touched();
+    return {};
+}
+
+ClosureIndex Traffic::close(const TileSet& tiles, Time) {
+    closures_.push_back({tiles_.indexes_of(tiles), false});
+    joint_.close(closures_.back().tiles);
+    predicted_ = false;
+    tell({Change::Kind::kClosed, 0, 0, tiles, {}});
+    return static_cast<ClosureIndex>(closures_.size() - 1);
+}
+
+void Traffic::reopen(ClosureIndex closure, Time) {
+    Closure& c = closures_[closure];
+    if (c.open) return;
+    c.open = true;
+    joint_.open(c.tiles);
+    predicted_ = false;
+    tell({Change::Kind::kReopened, 0, 0, tiles_.ids_of(c.tiles), {}});
+}
+
+}  // namespace pulseline::traffic

@@ -1,0 +1,58 @@
+#include <algorithm>
+
+#include "core/traffic/mutation.hpp"
+#include "core/traffic/traffic.hpp"
+
+namespace pulseline::traffic {
+
+MoveNumber Traffic::grantable(VehicleIndex vehicle, MoveNumber wanted_moves) const {
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    MoveNumber n = plan.released;
+    if (plan.halted && !mutated(Mutation::kHaltedIsReleased)) return n;
+    const MoveNumber most = std::min(plan.last(), plan.passed + wanted_moves);
+    // Granting a move changes nothing that the next one's test reads: its own stays count as free.
+    while (n < most && !joint_.obstacle(vehicle, n + 1)) ++n;
+    return n;
+}
+
+MoveNumber Traffic::extend(VehicleIndex vehicle, MoveNumber wanted_moves, Time) {
+    const MoveNumber granted = grantable(vehicle, wanted_moves);
+    if (granted > joint_.plan(vehicle).released) {
+        joint_.set_released(vehicle, granted);
+        tell({Change::Kind::kReleased, vehicle, granted, {}, {}});
+    }
+    return granted;
+}
+
+Status Traffic::passed(VehicleIndex vehicle, MoveNumber move, Time now) {
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    if (move > plan.released) {
+        return fail(Errc::kConflict, "not_granted",
+                    "The vehicle reports floor behind it that it was not granted.", {},
+                    {{"move", std::int64_t{move}}, {"granted", std::int64_t{plan.released}}});
+    }
+    if (mutated(Mutation::kPassedCountsTwice) && move == plan.passed && move < plan.released) {
+        ++move;
+    }
+    if (move <= plan.passed) return {};
+    for (MoveNumber n = plan.passed + 1; n <= move; ++n) {
+        const VisitIndex visit = plan.at(n).visit;
+        if (visit != kNoVisit) {
+            vehicles_[vehicle].next_visit = static_cast<VisitIndex>(visit + 1);
+        }
+    }
+    joint_.pass(vehicle, move, s(now));
+    predicted_ = false;
+    tell({Change::Kind::kPassed, vehicle, move, {}, {}});
+    return {};
+}
+
+TileSet Traffic::held_tiles(VehicleIndex vehicle) const {
+    return tiles_.ids_of(joint_.held_tiles(vehicle));
+}
+
+std::optional<VehicleIndex> Traffic::holder(TileId tile) {
+    return joint_.holder(tiles_.index_of(tile));
+}
+
+}  // namespace pulseline::traffic

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/traffic/move_graph.hpp"
+
+namespace pulseline::traffic {
+
+/// What vehicles of one class may do in a layout.
+struct LayoutClass {
+    std::string name;
+    const MoveGraph* graph = nullptr;  // its resting places are those with `resting`
+    std::vector<PlaceIndex> goals;     // places that tasks may name
+    std::size_t vehicles = 0;
+    std::vector<std::string> place_names;  // for the reasons; empty: numbers
+};
+
+struct LayoutViolation {
+    Reason reason;
+};
+
+/// The condition under which admission is complete ("well-formed", Cap et al., ICAPS 2015): with a
+/// vehicle standing on every resting place, each vehicle can still get from its own to every goal,
+/// and from there to every resting place of its class, without crossing a third one's tiles; and
+/// there are resting places for all, no two of which share floor with vehicles on both. Reasons:
+/// unreachable {class, from, to, crossing?}, too_few_resting_places {class, resting_places,
+/// vehicles}. Breadth-first search from every resting place and goal.
+std::vector<LayoutViolation> check_layout(const std::vector<LayoutClass>& classes);
+
+}  // namespace pulseline::traffic

@@ -1,0 +1,72 @@
+#include <algorithm>
+
+#include "core/traffic/traffic.hpp"
+
+namespace pulseline::traffic {
+
+Block Traffic::block_of(const Obstacle& obstacle) const {
+    Block block{obstacle.cause, obstacle.vehicle, obstacle.move, {}};
+    if (obstacle.tile) block.tile = tiles_.id_of(*obstacle.tile);
+    return block;
+}
+
+Reason Traffic::reason_of(const Block& block) const {
+    static const char* const kCauses[] = {"vehicle",      "closed_floor",   "no_route",
+                                          "search_limit", "circular_waits", "halted"};
+    Reason reason{"traffic_blocked", {{"by", kCauses[static_cast<int>(block.cause)]}}};
+    if (block.cause == Obstacle::Cause::kVehicle) {
+        reason.params.push_back({"vehicle", name(block.vehicle)});
+        if (block.move != kForever) reason.params.push_back({"move", std::int64_t{block.move}});
+    }
+    if (block.tile) {
+        const auto box = tile_box(*block.tile);
+        reason.params.push_back({"tile_x_m", (box.min.x_m + box.max.x_m) / 2});
+        reason.params.push_back({"tile_y_m", (box.min.y_m + box.max.y_m) / 2});
+    }
+    return reason;
+}
+
+std::vector<Wait> Traffic::waits() const {
+    std::vector<Wait> waits;
+    constexpr double kEver_s = std::numeric_limits<double>::infinity();
+    for (VehicleIndex v = 0; v < joint_.vehicle_count(); ++v) {
+        const VehiclePlan& plan = joint_.plan(v);
+        if (plan.released == plan.last()) continue;
+        const MoveNumber n = plan.released + 1;
+        if (plan.halted) {
+            waits.push_back({v, n, {Obstacle::Cause::kHalted, v, 0, {}}, kEver_s});
+            continue;
+        }
+        if (!joint_.obstacle(v, n)) continue;
+        const Shape& shape = *plan.at(n).shape;
+        const std::size_t first = waits.size();
+        for (const TileIndex tile : shape.swept) {
+            for (const Use& use : joint_.queue(tile)) {
+                if (use.vehicle == v) {
+                    if (use.first <= n && use.last >= n) break;
+                    continue;
+                }
+                const auto same =
+                    std::find_if(waits.begin() + static_cast<std::ptrdiff_t>(first), waits.end(),
+                                 [&](const Wait& w) { return w.block.vehicle == use.vehicle; });
+                if (same == waits.end()) {
+                    waits.push_back(
+                        {v,
+                         n,
+                         {Obstacle::Cause::kVehicle, use.vehicle, use.last, tiles_.id_of(tile)},
+                         joint_.end_of(use)});
+                } else if (use.last > same->block.move) {
+                    same->block.move = use.last;
+                    same->block.tile = tiles_.id_of(tile);
+                    same->until_s = joint_.end_of(use);
+                }
+            }
+        }
+        if (const auto tile = joint_.closed_tile(plan.stand_after(n - 1), shape)) {
+            waits.push_back({v, n, {Obstacle::Cause::kClosed, 0, 0, tiles_.id_of(*tile)}, kEver_s});
+        }
+    }
+    return waits;
+}
+
+}  // namespace pulseline::traffic

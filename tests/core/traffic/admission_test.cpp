@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/traffic/traffic_floor.hpp"
+
+namespace pulseline::traffic {
+namespace {
+
+TEST(Admission, RefusesAPlaceThatIsNotThere) {
+    Hall hall({"r.r"});
+    const auto v = hall.add("A", 0, 0);
+    Task task;
+    task.visits = {{77, 1}};
+    const auto admission = hall.traffic.admit(v, task, at(0));
+    ASSERT_FALSE(admission);
+    EXPECT_EQ(admission.error().reason.code, "unknown_place");
+}
+
+TEST(Admission, NoTwoVehiclesJoinOnOneTile) {
+    Hall hall({"r.r"});
+    hall.add("A", 0, 0);
+    const auto second = hall.traffic.add_vehicle({"B", 0, hall.floor.place(0, 0), {}}, at(0));
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().reason.code, "floor_held");
+}
+
+TEST(Admission, ARefusalLeavesThePresentPlan) {
+    Hall hall({"r.r  ", "  ..r"});
+    const auto v = hall.add("A", 0, 0);
+    ASSERT_TRUE(hall.send(v, {{1, 0}}));
+    const auto before = hall.traffic.record();
+    hall.traffic.close({Floor::tile(2, 1)}, at(0));
+    hall.watch();
+
+    EXPECT_FALSE(hall.send(v, {{3, 1}}));
+
+    EXPECT_EQ(hall.traffic.record().vehicles[v].moves, before.vehicles[v].moves);
+    const auto block = hall.traffic.blocked_by(v);
+    ASSERT_TRUE(block);
+    EXPECT_EQ(block->cause, Obstacle::Cause::kClosed);
+    EXPECT_EQ(block->tile, Floor::tile(2, 1));
+}
+
+TEST(Admission, AnIdleVehicleOutsideItsRestMakesWay) {
+    Hall hall({"r.....r", "r      "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 0, 1);
+    // B has been left in the lane.
+    ASSERT_TRUE(hall.traffic.found_at(b, {Floor::tile(3, 0)}, hall.floor.place(3, 0), at(0)));
+    hall.watch();
+
+    const auto admission = hall.send(a, {{5, 0}});
+
+    ASSERT_TRUE(admission);
+    EXPECT_EQ(admission->made_way, std::vector<VehicleIndex>{b});
+    EXPECT_TRUE(hall.drive_all());
+}
+
+TEST(Admission, GoesBehindThePresentPlanWhenNothingElseIsLeft) {
+    // A drives down the lane into the bay; B follows and needs the lane behind it.
+    Hall hall({"r...r", "r    "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 0, 1);
+    ASSERT_TRUE(hall.send(a, {{4, 0}}));
+    hall.traffic.extend(a, 1, at(0));
+    hall.watch();
+    ASSERT_TRUE(hall.send(b, {{1, 0}}));
+
+    const auto admission = hall.send(a, {{2, 0}});
+
+    ASSERT_TRUE(admission);
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(a), 1);
+    EXPECT_EQ(hall.traffic.visits_done(b), 1);
+}
+
+TEST(Admission, AnUrgentTaskGoesBeforeWhatOthersAreNotGranted) {
+    Hall hall({"r.....r", "   r   "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 3, 1);
+    ASSERT_TRUE(hall.send(a, {{6, 0}, {0, 0}, {6, 0}}));
+    const double others_s = hall.traffic.finish_s(a);
+    Task task;
+    task.visits = {{hall.floor.place(3, 0), 3}};
+    task.may_delay_others = true;
+    ASSERT_TRUE(hall.traffic.admit(b, task, at(0)));
+    hall.watch();
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_GE(others_s, 15 * kMove_s);
+}
+
+TEST(Admission, CancelEndsAtTheRestOrWhereTheBaseEnds) {
+    Hall hall({"r....r"});
+    const auto v = hall.add("A", 0, 0);
+    ASSERT_TRUE(hall.send(v, {{3, 0}}));
+    hall.traffic.extend(v, 1, at(0));
+    hall.watch();
+
+    ASSERT_TRUE(hall.traffic.cancel(v, at(1)));
+    hall.watch();
+    EXPECT_EQ(hall.traffic.plan(v).at(hall.traffic.plan(v).last()).place, hall.floor.place(0, 0));
+
+    ASSERT_TRUE(hall.traffic.cancel(v, at(2), true));
+    hall.watch();
+    EXPECT_EQ(hall.traffic.plan(v).last(), 1u) << "truncated to the base";
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(v), 0);
+}
+
+TEST(Admission, RerouteTakesTheOpenWayAroundAClosure) {
+    Hall ring({"r...r",  //
+               " . . ",  //
+               " ... "});
+    const auto v = ring.add("A", 0, 0);
+    ASSERT_TRUE(ring.send(v, {{3, 0}}));
+    ring.traffic.close({Floor::tile(2, 0)}, at(0));
+    const auto rerouted = ring.traffic.reroute(v, at(0));
+    ring.watch();
+    ASSERT_TRUE(rerouted);
+    EXPECT_TRUE(ring.drive_all());
+    EXPECT_EQ(ring.traffic.visits_done(v), 1);
+}
+
+}  // namespace
+}  // namespace pulseline::traffic

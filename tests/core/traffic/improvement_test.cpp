@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/core/traffic/traffic_floor.hpp"
+
+namespace pulseline::traffic {
+namespace {
+
+TEST(Improvement, AVehicleBehindALateOneGoesFirstOrRound) {
+    Hall hall({" r  ",  //
+               "r..r",  //
+               " .. ",  //
+               " r  "});
+    const auto a = hall.add("A", 0, 1);
+    const auto b = hall.add("B", 1, 0);
+    ASSERT_TRUE(hall.send(a, {{3, 1}}, 0));
+    ASSERT_TRUE(hall.send(b, {{1, 3}}, 0));
+    hall.now_s = 600;  // A was expected to have passed long ago; it has not even started
+    hall.traffic.extend(a, 1, at(0));
+    hall.watch();
+    ASSERT_TRUE(hall.traffic.passed(a, 0, at(0)));
+    const auto improvement = hall.traffic.improve(at(hall.now_s), 4);
+    hall.watch();
+    EXPECT_TRUE(improvement.blocked.empty());
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(b), 1);
+}
+
+TEST(Improvement, NeverMovesTheOldestFinishBack) {
+    Hall hall({"r r r r",  //
+               ".......",  //
+               " r r r "});
+    std::vector<VehicleIndex> all;
+    for (const int c : {0, 2, 4, 6}) all.push_back(hall.add("T" + std::to_string(c), c, 0));
+    for (const int c : {1, 3, 5}) all.push_back(hall.add("B" + std::to_string(c), c, 2));
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        hall.now_s += 1;
+        ASSERT_TRUE(hall.send(all[i], {{static_cast<int>(6 - i), 1}}, 20));
+    }
+    const double oldest_s = hall.traffic.finish_s(all[0]);
+    for (int i = 0; i < 10; ++i) {
+        hall.traffic.improve(at(hall.now_s), 10);
+        hall.watch();
+        EXPECT_LE(hall.traffic.finish_s(all[0]), oldest_s + 1e-6);
+    }
+    EXPECT_TRUE(hall.drive_all());
+}
+
+TEST(Improvement, TellsWhoIsBlockedAndBringsThemOutOfTheWay) {
+    // A broke down on the only road while B is on it.
+    Hall hall({"r....r", "r  r  "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 0, 1);
+    ASSERT_TRUE(hall.send(a, {{5, 0}}, 5));
+    ASSERT_TRUE(hall.send(b, {{4, 0}}, 5));
+    hall.traffic.extend(a, 4, at(0));
+    ASSERT_TRUE(hall.traffic.passed(a, 4, at(20)));  // on (4, 0)
+    hall.traffic.extend(b, 2, at(20));
+    ASSERT_TRUE(hall.traffic.passed(b, 2, at(40)));  // on (1, 0)
+    hall.traffic.halt(a, at(41));
+    hall.watch();
+
+    const auto improvement = hall.traffic.improve(at(50), 5);
+    hall.watch();
+
+    EXPECT_EQ(improvement.changed, std::vector<VehicleIndex>{b});
+    EXPECT_TRUE(hall.traffic.postponed(b));
+    EXPECT_EQ(hall.traffic.take_replanned(), (std::vector<VehicleIndex>{a, b}));
+    EXPECT_TRUE(hall.traffic.take_replanned().empty());
+    hall.now_s = 60;
+    hall.drive_all();
+    const auto rest = hall.place_of(b);
+    EXPECT_TRUE(rest == hall.floor.place(0, 0) || rest == hall.floor.place(0, 1) ||
+                rest == hall.floor.place(3, 1));
+    const auto block = hall.traffic.blocked_by(b);
+    ASSERT_TRUE(block);
+    EXPECT_EQ(block->vehicle, a);
+
+    hall.now_s += 1000;
+    hall.traffic.resume(a, at(hall.now_s));
+    hall.traffic.improve(at(hall.now_s), 5);
+    hall.watch();
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(b), 1) << "the visit was only postponed";
+}
+
+}  // namespace
+}  // namespace pulseline::traffic
