@@ -8,7 +8,7 @@ import { Client } from "../harness/client.mjs";
 import { BUILD, System, until } from "../harness/processes.mjs";
 import { manyVehicles } from "./many_vehicles.mjs";
 
-const ORDERS = Number(process.argv[2] ?? 1000);  // of ten agents and more; one agent drives a tenth of them
+const ORDERS = Number(process.argv[2] ?? 500);  // of ten agents and more; one agent drives a tenth of them
 const AT_WORK = 16;  // vehicles that have an order at any moment
 const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
 const percentile = (values, p) => [...values].sort((a, b) => a - b)[Math.min(values.length - 1, Math.ceil(p * values.length) - 1)];
