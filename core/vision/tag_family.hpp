@@ -19,7 +19,8 @@ struct TagCode {
     bool mirrored = false;
 };
 
-/// The 587 codes of AprilTag 36h11, as libapriltag defines them.
+/// The 587 codes of AprilTag 36h11 as libapriltag and its authors' pictures have them. OpenCV 4's
+/// ArUco draws and reads all of them turned by 180 degrees; such a sheet's "up" is the other way.
 class TagFamily {
 public:
     static const TagFamily& instance();

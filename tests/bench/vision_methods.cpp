@@ -143,7 +143,8 @@ Outcome aruco(const cv::Mat& grey, const Camera&) {
     std::array<Pixel, 4> c;
     for (std::size_t i = 0; i < 4; ++i)
         c[i] = {static_cast<double>(corners[0][i].x), static_cast<double>(corners[0][i].y)};
-    return {from_corners(std::to_string(ids[0]), c), ""};
+    // OpenCV 4 has these tags turned by 180 degrees against their authors' pictures.
+    return {from_corners(std::to_string(ids[0]), {c[2], c[3], c[0], c[1]}), ""};
 }
 #endif
 
