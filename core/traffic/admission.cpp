@@ -7,6 +7,7 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::size_t kTimesKept = 16'000'000;  // floats of distance tables, 64 MB
+constexpr double kFresh_s = 0.5;  // predictions serve as long: they steer quality, not order
 constexpr std::size_t kMostMakeWay = 3;         // idle vehicles sent off for one task
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
@@ -42,7 +43,7 @@ Result<VehicleIndex> Traffic::add_vehicle(const VehicleSpec& spec, Time now) {
 }
 
 void Traffic::predict(double now_s) {
-    if (predicted_ && predicted_s_ == now_s) return;
+    if (predicted_ && now_s < predicted_s_ + kFresh_s) return;
     joint_.predict(now_s);
     predicted_ = true;
     predicted_s_ = now_s;

@@ -41,8 +41,7 @@ Status Traffic::passed(VehicleIndex vehicle, MoveNumber move, Time now) {
             vehicles_[vehicle].next_visit = static_cast<VisitIndex>(visit + 1);
         }
     }
-    joint_.pass(vehicle, move, s(now));
-    predicted_ = false;
+    joint_.pass(vehicle, move, s(now));  // less to wait for: the predicted times still agree
     tell({Change::Kind::kPassed, vehicle, move, {}, {}});
     return {};
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <map>
 #include <queue>
 
 namespace pulseline::traffic {
@@ -78,14 +79,17 @@ CompiledGraph compile(const MoveGraph& graph, TileTable& tiles) {
     result.back.resize(graph.moves.size());
     auto next_arc = result.first_arc;
     auto next_back = result.first_back;
+    std::map<TileIndexes, std::uint32_t> floors;  // there and back mostly sweep the same
     for (const Move& move : graph.moves) {
         const auto duration = static_cast<float>(move.duration_s);
-        result.arcs[next_arc[move.from]++] = {
-            move.to, duration,
-            make_shape(tiles.indexes_of(move.swept), result.places[move.from].stand,
-                       result.places[move.to].stand)};
+        auto shape = make_shape(tiles.indexes_of(move.swept), result.places[move.from].stand,
+                                result.places[move.to].stand);
+        const auto floor =
+            floors.emplace(shape->swept, static_cast<std::uint32_t>(floors.size())).first->second;
+        result.arcs[next_arc[move.from]++] = {move.to, duration, floor, std::move(shape)};
         result.back[next_back[move.to]++] = {move.from, duration};
     }
+    result.floors = static_cast<std::uint32_t>(floors.size());
     return result;
 }
 

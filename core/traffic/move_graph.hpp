@@ -67,6 +67,7 @@ struct CompiledGraph {
     struct Arc {
         PlaceIndex to = kNoPlace;
         float duration_s = 0;
+        std::uint32_t floor = 0;  // the same number for moves that sweep the same tiles
         ShapePtr shape;
     };
     struct Node {
@@ -76,6 +77,7 @@ struct CompiledGraph {
     std::vector<Node> places;
     std::vector<std::uint32_t> first_arc;  // per place, and one past the last
     std::vector<Arc> arcs;
+    std::uint32_t floors = 0;
     std::vector<std::uint32_t> first_back;  // arcs by the place where they end
     std::vector<std::pair<PlaceIndex, float>> back;
 };

@@ -88,7 +88,8 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
     }
     places_ = graph_places_ + steps_.size();
     place_ranges_.resize(std::max(place_ranges_.size(), places_));
-    arc_ranges_.resize(std::max(arc_ranges_.size(), task.graph ? task.graph->arcs.size() : 0));
+    const std::size_t floors = task.graph ? task.graph->floors : 0;
+    floor_ranges_.resize(std::max(floor_ranges_.size(), floors));
     const std::size_t heads = places_ * (task.stops.size() + 1);
     heads_.resize(std::max(heads_.size(), heads));
     head_stamps_.resize(std::max(head_stamps_.size(), heads), 0);
@@ -183,8 +184,9 @@ const WindowSearch::Range& WindowSearch::place_windows(PlaceIndex place) {
 }
 
 const WindowSearch::Range& WindowSearch::arc_windows(std::uint32_t arc) {
-    Range& range = arc_ranges_[arc];
-    if (range.stamp != stamp_) range = free_windows(task_->graph->arcs[arc].shape->swept);
+    const auto& a = task_->graph->arcs[arc];
+    Range& range = floor_ranges_[a.floor];
+    if (range.stamp != stamp_) range = free_windows(a.shape->swept);
     return range;
 }
 

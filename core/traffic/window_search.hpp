@@ -130,7 +130,7 @@ private:
     std::vector<Window> blocked_;
     std::vector<Use> seen_;
     std::vector<Range> place_ranges_;
-    std::vector<Range> arc_ranges_;
+    std::vector<Range> floor_ranges_;
     std::uint32_t stamp_ = 0;
     double obstacle_bound_s_ = 0;
     Obstacle obstacle_;
