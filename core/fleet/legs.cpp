@@ -9,10 +9,6 @@ namespace {
 
 using kinematics::Segment;
 
-// Nodes about this far apart: the base can grow in pieces, and floor behind is freed as it is left.
-constexpr double kNodeSpacing_m = 4.0;
-// Position error of a moving vehicle plus rounding; the planner's clearance is far larger.
-constexpr double kFloorMargin_m = 0.10;
 // Time from "node passed" on the vehicle to the extended base being there: report interval, tick,
 // commit and link, with reserve.
 constexpr double kExtendLatency_s = 0.5;
@@ -22,7 +18,7 @@ std::vector<Segment> split(const plant::VehicleType& type, const Segment& segmen
     const int pieces =
         segment.kind == Segment::Kind::kRotate
             ? 1
-            : std::max(1, static_cast<int>(std::ceil(length / kNodeSpacing_m - 1e-9)));
+            : std::max(1, static_cast<int>(std::ceil(length / planning::kLanePiece_m - 1e-9)));
     if (pieces == 1) return {segment};
     std::vector<Segment> parts;
     for (int i = 0; i < pieces; ++i) {
@@ -55,22 +51,6 @@ bool announces(const VehicleRun& run, const std::string& action) {
     return std::find(actions.begin(), actions.end(), action) != actions.end();
 }
 
-/// What the vehicle does at the station node: correct the stop, then measure it.
-std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
-                                 const plant::Station& station, const LegId& leg) {
-    std::vector<Action> actions;
-    if (station.markers.empty()) return actions;
-    for (const char* type : {"adjustToMarker", "measureStop"}) {
-        if (!announces(run, type)) continue;
-        Action action;
-        action.type = type;
-        action.id = leg.str() + "-" + type;
-        action.stop_target = stop_target(fleet.plant, station);
-        actions.push_back(std::move(action));
-    }
-    return actions;
-}
-
 OrderNode node_at(const std::string& name, std::size_t index, const Pose2& pose,
                   const std::string& map_id) {
     OrderNode node;
@@ -94,6 +74,21 @@ double accel_of(const VehicleRun& run) {
 
 }  // namespace
 
+std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
+                                 const plant::Station& station, const LegId& leg) {
+    std::vector<Action> actions;
+    if (station.markers.empty()) return actions;
+    for (const char* type : {"adjustToMarker", "measureStop"}) {
+        if (!announces(run, type)) continue;
+        Action action;
+        action.type = type;
+        action.id = leg.str() + "-" + type;
+        action.stop_target = stop_target(fleet.plant, station);
+        actions.push_back(std::move(action));
+    }
+    return actions;
+}
+
 planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run, const Pose2& start,
                                  const plant::StationId& target, plant::MotionMode mode) {
     planning::LegRequest request;
@@ -107,6 +102,14 @@ planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run,
     return request;
 }
 
+OrderNode start_node(const Pose2& pose, const std::string& hall) {
+    OrderNode node = node_at("start", 0, pose, hall);
+    node.released = true;
+    node.allowed_deviation_xy_m = 0.3;
+    node.allowed_deviation_theta_rad = 0.1;
+    return node;
+}
+
 Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::LegPlan& plan,
               const plant::Station& station, const Pose2& start, LegId id) {
     Leg leg;
@@ -116,10 +119,7 @@ Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::Le
     leg.mode = plan.mode;
     leg.hall = station.hall.str();
     leg.duration_s = plan.duration_s;
-    leg.nodes.push_back(node_at("start", 0, start, leg.hall));
-    leg.nodes.front().released = true;
-    leg.nodes.front().allowed_deviation_xy_m = 0.3;
-    leg.nodes.front().allowed_deviation_theta_rad = 0.1;
+    leg.nodes.push_back(start_node(start, leg.hall));
     for (const auto& segment : plan.segments) {
         for (const auto& piece : split(*run.type, segment)) {
             const std::size_t index = leg.nodes.size();
@@ -145,28 +145,10 @@ Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant
     leg.station = station.id;
     leg.mode = plant::MotionMode::kLinear;
     leg.hall = station.hall.str();
-    leg.nodes.push_back(node_at(station.id.str(), 0, pose, leg.hall));
-    leg.nodes.front().released = true;
-    leg.nodes.front().allowed_deviation_xy_m = 0.3;
-    leg.nodes.front().allowed_deviation_theta_rad = 0.1;
+    leg.nodes.push_back(start_node(pose, leg.hall));
+    leg.nodes.front().node_id = station.id.str();
     leg.nodes.front().actions = stop_actions(fleet, run, station, id);
     return leg;
-}
-
-std::vector<traffic::TileSet> tiles_of(const FleetState& fleet, const VehicleRun& run,
-                                       const Leg& leg) {
-    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
-    const std::size_t hall = hall_index(fleet, leg.hall);
-    std::vector<traffic::TileSet> tiles;
-    for (const auto& edge : leg.edges) {
-        tiles.push_back(
-            traffic::tiles_under(hall, kinematics::sweep(body, {edge.segment}), kFloorMargin_m));
-    }
-    if (leg.edges.empty()) {
-        tiles.push_back(
-            traffic::tiles_under(hall, outline_at(run, leg.nodes.front().pose), kFloorMargin_m));
-    }
-    return tiles;
 }
 
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
@@ -178,17 +160,32 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     for (std::size_t i = leg.passed_nodes; i < leg.released_nodes; ++i) {
         ahead_m += std::abs(leg.edges[i - 1].segment.length_m);
     }
-    const std::size_t before = leg.released_nodes;
-    while (leg.released_nodes < leg.nodes.size()) {
-        const bool first = leg.released_nodes == 1;
-        if (!first && ahead_m >= wanted_m) break;
+    std::size_t wanted = leg.released_nodes;
+    while (wanted < leg.nodes.size() && (wanted == 1 || ahead_m < wanted_m)) {
         // A turn on the spot ends standing anyway: released with the move behind it.
-        ahead_m += std::abs(leg.edges[leg.released_nodes - 1].segment.length_m);
-        leg.edges[leg.released_nodes - 1].released = true;
-        leg.nodes[leg.released_nodes].released = true;
-        ++leg.released_nodes;
+        ahead_m += std::abs(leg.edges[wanted - 1].segment.length_m);
+        ++wanted;
     }
-    if (leg.released_nodes == before) return;
+    const std::size_t before = leg.released_nodes;
+    if (wanted == before) return;
+    const std::size_t granted = grant_nodes(fleet, run, wanted - 1, now);
+    JobOrder* order = fleet.find(leg.order);
+    if (granted == before) {
+        // Standing at the end of its base, it waits for somebody; still driving, it does not.
+        const auto wait = floor_wait(fleet, run);
+        if (wait && order && order->state == JobState::kRunning &&
+            leg.passed_nodes >= leg.released_nodes) {
+            set_order_reason(fleet, *order, *wait, now);
+            fleet.changed_vehicles.insert(run.record.id);
+        }
+        return;
+    }
+    for (std::size_t i = before; i < granted; ++i) {
+        leg.edges[i - 1].released = true;
+        leg.nodes[i].released = true;
+    }
+    leg.released_nodes = granted;
+    if (order && order->state == JobState::kRunning) set_order_reason(fleet, *order, {}, now);
     const bool is_new = before == 1 && !run.update_sent && !run.leg_seen;
     if (!is_new) ++leg.update_id;
     send_order_update(fleet, run, is_new ? 0 : before - 1, now);
@@ -213,25 +210,7 @@ void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Tim
     ++run.update_sends;
 }
 
-void free_floor_behind(FleetState& fleet, VehicleRun& run) {
-    traffic::TileSet needed;
-    if (run.has_leg() && !run.edge_tiles.empty()) {
-        // Edge i starts at node i, so its floor includes the body standing there.
-        const std::size_t first = std::min(run.leg().passed_nodes - 1, run.edge_tiles.size() - 1);
-        for (std::size_t i = first; i < run.edge_tiles.size(); ++i) {
-            needed = traffic::merge(needed, run.edge_tiles[i]);
-        }
-    } else if (run.record.pose_known) {
-        needed = traffic::tiles_under(hall_index(fleet, hall_of(fleet, run)),
-                                      outline_at(run, run.record.pose), kFloorMargin_m);
-    } else {
-        return;  // nobody knows where it is: it keeps all it had
-    }
-    fleet.tiles.keep_only(run.record.id, needed);
-    fleet.tiles.try_hold(run.record.id, needed);
-}
-
-void drop_leg(FleetState& fleet, VehicleRun& run) {
+void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.record.has_leg = false;
     run.record.leg = LegId{};
     run.record.leg_data = Leg{};
@@ -239,9 +218,10 @@ void drop_leg(FleetState& fleet, VehicleRun& run) {
     run.update_sent.reset();
     run.update_sends = 0;
     run.cancelling = false;
-    run.edge_tiles.clear();
     run.leg_started.reset();
-    free_floor_behind(fleet, run);
+    run.floor.leg_planned = false;
+    run.floor.idle_since.reset();
+    settle(fleet, run, now, !arrived);
     fleet.store(run);
 }
 

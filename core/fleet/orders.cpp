@@ -215,6 +215,7 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
         if (order.steps[i].state != StepState::kDone) order.steps[i].state = StepState::kSkipped;
     }
     set_order_state(fleet, order, JobState::kAborted, std::move(reason), actor, now);
+    if (VehicleRun* run = fleet.find(order.assigned_vehicle)) give_up_task(fleet, *run, now);
 }
 
 }  // namespace pulseline::fleet

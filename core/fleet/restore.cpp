@@ -1,27 +1,9 @@
-#include <algorithm>
 #include <utility>
 
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
 namespace {
-
-traffic::TileSet all_of(const std::vector<traffic::TileSet>& sets, std::size_t first) {
-    traffic::TileSet all;
-    for (std::size_t i = std::min(first, sets.size()); i < sets.size(); ++i) {
-        all = traffic::merge(all, sets[i]);
-    }
-    return all;
-}
-
-void hold_restored_floor(FleetState& fleet, VehicleRun& run) {
-    if (run.has_leg()) {
-        run.edge_tiles = tiles_of(fleet, run, run.leg());
-        fleet.tiles.try_hold(run.record.id, all_of(run.edge_tiles, run.leg().passed_nodes - 1));
-    } else {
-        free_floor_behind(fleet, run);
-    }
-}
 
 /// Orders go on only after the person's act of design.md section 4.
 void interrupt_after_restart(FleetState& fleet, Time now) {
@@ -61,8 +43,8 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         VehicleRun* run = fleet.find(record.id);
         if (!run) continue;
         run->record = std::move(record);
-        hold_restored_floor(fleet, *run);
     }
+    open_floor(fleet, now);
     interrupt_after_restart(fleet, now);
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/floor.hpp"
 #include "core/fleet/order_book.hpp"
 #include "core/planning/leg_planner.hpp"
 
@@ -45,7 +46,7 @@ struct VehicleRun {
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
     bool cancelling = false;  // cancelOrder is not final: nothing but instant actions
-    std::vector<traffic::TileSet> edge_tiles;  // floor of each edge of the leg
+    FloorStand floor;
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
 
@@ -82,7 +83,7 @@ struct FleetState {
     std::map<plant::VehicleId, VehicleRun> vehicles;
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
-    traffic::TileMap tiles;
+    Floor floor;
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;
@@ -143,19 +144,19 @@ planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run,
 /// The drive as nodes and edges; nothing released but nodes[0].
 Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::LegPlan& plan,
               const plant::Station& station, const Pose2& start, LegId id);
+/// Where a leg starts: the vehicle stands there, within what a measured stop may be off.
+OrderNode start_node(const Pose2& pose, const std::string& hall);
 /// A leg that only measures and corrects where the vehicle stands (second approach).
 Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
                      const Pose2& pose, LegId id);
-/// Floor each edge of the vehicle's leg sweeps.
-std::vector<traffic::TileSet> tiles_of(const FleetState& fleet, const VehicleRun& run,
-                                       const Leg& leg);
+/// What the vehicle does at the station node: correct the stop, then measure it.
+std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
+                                 const plant::Station& station, const LegId& leg);
 /// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
 void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
-/// Keeps only the floor that the rest of the leg (or the standing vehicle) needs.
-void free_floor_behind(FleetState& fleet, VehicleRun& run);
-/// Forgets the leg; the vehicle keeps the floor it stands on.
-void drop_leg(FleetState& fleet, VehicleRun& run);
+/// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
+void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
 
 // --- vehicle input (vehicle_input.cpp) ---
 void connect(FleetState& fleet, VehicleRun& run, Time now);
@@ -197,6 +198,8 @@ void dispatch(FleetState& fleet, Time now);
 void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
 /// Why this vehicle may not start a move now; nullopt: it may.
 std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+/// Why it would not obey a release of floor, whatever its order; others are planned around it.
+std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run);
 
 // --- localisation from codes (code_pose.cpp) ---
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,

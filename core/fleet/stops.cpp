@@ -52,7 +52,7 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
     JobOrder* order = fleet.find(run.leg().order);
     const int attempt = run.leg().attempt;
     const int step = run.leg().step;
-    drop_leg(fleet, run);
+    drop_leg(fleet, run, now, true);
     if (!order) return;
     auto& current = order->steps[static_cast<std::size_t>(step)];
     current.state = StepState::kPending;
@@ -104,7 +104,8 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
                   now);
         return;
     }
-    drop_leg(fleet, run);
+    pass_stop(fleet, run, now);
+    drop_leg(fleet, run, now, true);
     if (!order) return;
     order->steps[static_cast<std::size_t>(stop.step)].state = StepState::kDone;
     order->current_step = static_cast<std::size_t>(stop.step) + 1;

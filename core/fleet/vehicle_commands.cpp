@@ -115,7 +115,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         JobOrder* order = state_->orders.of(id);
         if (run.has_leg() && run.state.order_id != run.leg().id.str()) {
             // The vehicle never got it or gave it up; the step starts anew from where it stands.
-            drop_leg(*state_, run);
+            drop_leg(*state_, run, now);
             if (order && order->current_step < order->steps.size()) {
                 order->steps[order->current_step].state = StepState::kPending;
                 state_->store(*order);

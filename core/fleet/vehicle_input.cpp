@@ -38,7 +38,7 @@ const ActionState* find_action(const StateMessage& state, const std::string& id)
 
 void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
     JobOrder* order = fleet.orders.of(run.record.id);
-    drop_leg(fleet, run);
+    drop_leg(fleet, run, now);
     if (!order) return;
     if (order->current_step < order->steps.size()) {
         order->steps[order->current_step].state = StepState::kPending;
@@ -83,7 +83,6 @@ void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
                       {{"x_m", state.pose->x_m},
                        {"y_m", state.pose->y_m},
                        {"heading_rad", state.pose->heading_rad}});
-            if (!run.has_leg()) free_floor_behind(fleet, run);
             fleet.store(run);
         }
     } else if (run.record.pose_known) {
@@ -147,7 +146,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             // Restarted, switched to manual or cancelled by hand: it no longer knows its order.
             require_person(fleet, run, {"vehicle_lost_order", {}}, now);
             run.leg_seen = false;
-            drop_leg(fleet, run);
+            drop_leg(fleet, run, now);
             if (JobOrder* order = fleet.orders.of(run.record.id);
                 order && order->current_step < order->steps.size()) {
                 order->steps[order->current_step].state = StepState::kPending;
@@ -157,7 +156,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             require_person(
                 fleet, run,
                 {"order_rejected", {{"type", error->type}, {"text", error->description}}}, now);
-            drop_leg(fleet, run);
+            drop_leg(fleet, run, now);
         }
         return;
     }
@@ -176,7 +175,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
         if (passed > leg.passed_nodes) {
             leg.passed_nodes = passed;
-            free_floor_behind(fleet, run);
+            pass_nodes(fleet, run, now);
         }
     }
     if (run.cancelling) return;
@@ -203,7 +202,13 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             fleet.store(*order);
         }
     }
+    const bool makes_way = leg.order.empty();
     const bool idle = state.node_states.empty() && state.edge_states.empty() && !state.driving;
+    if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
+        add_event(fleet, now, "leg.ended", {}, leg.id, leg.vehicle, {});
+        drop_leg(fleet, run, now, true);
+        return;
+    }
     if (!measures && idle && leg.passed_nodes == leg.nodes.size() && state.pose) {
         // A vehicle without measureStop: its own pose at the last node is the measurement.
         StopMeasurement found;
@@ -275,6 +280,8 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     take_pose(fleet, run, now);
     take_action_states(fleet, run, now);
     if (run.has_leg()) take_leg_progress(fleet, run, now);
+    if (!run.has_leg() && !state.driving) settle(fleet, run, now);
+    halt_or_resume(fleet, run, now);
     offer_pose_from_codes(fleet, run, now);
 }
 

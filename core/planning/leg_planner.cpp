@@ -272,4 +272,10 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     return std::move(options.front().plan);
 }
 
+MotionGraph LegPlanner::motion_graph(const plant::VehicleType& type, bool loaded) const {
+    std::optional<Passage> fresh;
+    const Passage& passage = static_->passage(type, loaded, fresh);
+    return planning::motion_graph(static_->plant, static_->roads, passage, type);
+}
+
 }  // namespace pulseline::planning

@@ -7,6 +7,7 @@
 
 #include "core/base/result.hpp"
 #include "core/kinematics/motion.hpp"
+#include "core/planning/motion_graph.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::planning {
@@ -76,6 +77,9 @@ public:
     /// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
     /// reason of the most promising mode).
     Result<LegPlan> plan_leg(const LegRequest& request) const;
+
+    /// What a vehicle of the type may do on the roadmap, for traffic.
+    MotionGraph motion_graph(const plant::VehicleType& type, bool loaded) const;
 
 private:
     struct Static;

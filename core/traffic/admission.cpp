@@ -7,8 +7,8 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::size_t kTimesKept = 16'000'000;  // floats of distance tables, 64 MB
-constexpr double kFresh_s = 0.5;  // predictions serve as long: they steer quality, not order
-constexpr std::size_t kMostMakeWay = 3;         // idle vehicles sent off for one task
+constexpr double kFresh_s = 0.5;         // predictions serve as long: they steer quality, not order
+constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
 
@@ -90,6 +90,14 @@ Status Traffic::check(VehicleIndex vehicle, const Task& task) const {
     return {};
 }
 
+double Traffic::travel_s(VehicleIndex vehicle, PlaceIndex to) {
+    const Vehicle& v = vehicles_[vehicle];
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    const PlaceIndex from = plan.place_after(plan.released);
+    if (v.graph == kNoGraph || from == kNoPlace) return std::numeric_limits<double>::infinity();
+    return (*times_to_places(v.graph, {to}))[from];
+}
+
 SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, const Task& task,
                                 VisitIndex first_visit, double now_s) {
     const VehiclePlan& plan = joint_.plan(vehicle);
@@ -118,7 +126,7 @@ SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, cons
         for (const Sequence::Step& step : sequence.steps) {
             const TileIndexes after = tiles_.indexes_of(step.stand);
             fixed.steps.push_back({make_shape(tiles_.indexes_of(step.swept), stand, after),
-                                   step.duration_s, step.visit});
+                                   step.duration_s, step.visit, step.place});
             stand = after;
         }
         if (!fixed.steps.empty()) search.sequences.push_back(std::move(fixed));

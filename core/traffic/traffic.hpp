@@ -60,6 +60,7 @@ struct Sequence {
         TileSet stand;  // at its end
         double duration_s = 0;
         VisitIndex visit = kNoVisit;  // this step is the stop of that visit
+        PlaceIndex place = kNoPlace;  // of the graph, when it ends at one; its stand is the place's
     };
     std::vector<Step> steps;
     /// Where in the graph it ends, and the search goes on; kNoPlace: it ends at a resting place and
@@ -70,8 +71,10 @@ struct Sequence {
 struct Task {
     std::vector<Visit> visits;        // in this order; empty: only to a resting place
     std::vector<PlaceIndex> resting;  // where it may end; empty: any resting place of the graph
-    std::vector<Sequence> sequences;  // alternatives; REQUIRED when the vehicle stands at no place
-    bool may_delay_others = false;    // go before what others have not been granted, if need be
+    /// Alternatives to begin with instead of the graph's moves. REQUIRED when the base ends at no
+    /// place.
+    std::vector<Sequence> sequences;
+    bool may_delay_others = false;  // go before what others have not been granted, if need be
 };
 
 struct Admission {
@@ -178,6 +181,12 @@ public:
     }
     /// Every vehicle whose next move may not be granted, with everybody it waits for.
     std::vector<Wait> waits() const;
+    /// Those of one vehicle; empty: its next move may be granted, or there is none.
+    std::vector<Wait> waits_of(VehicleIndex vehicle) const;
+    /// Exact time in seconds on an empty floor from where the vehicle's plan ends to a place of its
+    /// graph, turns included; infinity: no way, or it ends at no place. A table read after the
+    /// first time.
+    double travel_s(VehicleIndex vehicle, PlaceIndex to);
     /// {code: traffic_blocked, by, vehicle?, move?, tile_x_m?, tile_y_m?}
     Reason reason_of(const Block& block) const;
 

@@ -28,43 +28,45 @@ Reason Traffic::reason_of(const Block& block) const {
 
 std::vector<Wait> Traffic::waits() const {
     std::vector<Wait> waits;
-    constexpr double kEver_s = std::numeric_limits<double>::infinity();
     for (VehicleIndex v = 0; v < joint_.vehicle_count(); ++v) {
-        const VehiclePlan& plan = joint_.plan(v);
-        if (plan.released == plan.last()) continue;
-        const MoveNumber n = plan.released + 1;
-        if (plan.halted) {
-            waits.push_back({v, n, {Obstacle::Cause::kHalted, v, 0, {}}, kEver_s});
-            continue;
-        }
-        if (!joint_.obstacle(v, n)) continue;
-        const Shape& shape = *plan.at(n).shape;
-        const std::size_t first = waits.size();
-        for (const TileIndex tile : shape.swept) {
-            for (const Use& use : joint_.queue(tile)) {
-                if (use.vehicle == v) {
-                    if (use.first <= n && use.last >= n) break;
-                    continue;
-                }
-                const auto same =
-                    std::find_if(waits.begin() + static_cast<std::ptrdiff_t>(first), waits.end(),
-                                 [&](const Wait& w) { return w.block.vehicle == use.vehicle; });
-                if (same == waits.end()) {
-                    waits.push_back(
-                        {v,
-                         n,
-                         {Obstacle::Cause::kVehicle, use.vehicle, use.last, tiles_.id_of(tile)},
-                         joint_.end_of(use)});
-                } else if (use.last > same->block.move) {
-                    same->block.move = use.last;
-                    same->block.tile = tiles_.id_of(tile);
-                    same->until_s = joint_.end_of(use);
-                }
+        for (Wait& wait : waits_of(v)) waits.push_back(std::move(wait));
+    }
+    return waits;
+}
+
+std::vector<Wait> Traffic::waits_of(VehicleIndex v) const {
+    constexpr double kEver_s = std::numeric_limits<double>::infinity();
+    const VehiclePlan& plan = joint_.plan(v);
+    if (plan.released == plan.last()) return {};
+    const MoveNumber n = plan.released + 1;
+    if (plan.halted) return {{v, n, {Obstacle::Cause::kHalted, v, 0, {}}, kEver_s}};
+    if (!joint_.obstacle(v, n)) return {};
+    std::vector<Wait> waits;
+    const Shape& shape = *plan.at(n).shape;
+    for (const TileIndex tile : shape.swept) {
+        for (const Use& use : joint_.queue(tile)) {
+            if (use.vehicle == v) {
+                if (use.first <= n && use.last >= n) break;
+                continue;
+            }
+            const auto same = std::find_if(waits.begin(), waits.end(), [&](const Wait& w) {
+                return w.block.vehicle == use.vehicle;
+            });
+            if (same == waits.end()) {
+                waits.push_back(
+                    {v,
+                     n,
+                     {Obstacle::Cause::kVehicle, use.vehicle, use.last, tiles_.id_of(tile)},
+                     joint_.end_of(use)});
+            } else if (use.last > same->block.move) {
+                same->block.move = use.last;
+                same->block.tile = tiles_.id_of(tile);
+                same->until_s = joint_.end_of(use);
             }
         }
-        if (const auto tile = joint_.closed_tile(plan.stand_after(n - 1), shape)) {
-            waits.push_back({v, n, {Obstacle::Cause::kClosed, 0, 0, tiles_.id_of(*tile)}, kEver_s});
-        }
+    }
+    if (const auto tile = joint_.closed_tile(plan.stand_after(n - 1), shape)) {
+        waits.push_back({v, n, {Obstacle::Cause::kClosed, 0, 0, tiles_.id_of(*tile)}, kEver_s});
     }
     return waits;
 }

@@ -244,8 +244,9 @@ void WindowSearch::move_along(std::uint32_t index, PlaceIndex to, std::int32_t a
 
 void WindowSearch::expand(std::uint32_t index) {
     const Label from = labels_[index];
-    if (from.place >= graph_places_) {
-        for (const Step& step : steps_[from.place - graph_places_]) {
+    const bool begins = index == 0 && !task_->sequences.empty();
+    if (begins || from.place >= graph_places_) {
+        for (const Step& step : steps_[begins ? 0 : from.place - graph_places_]) {
             const auto number = std::find(step_list_.begin(), step_list_.end(), &step);
             const auto arc = -2 - static_cast<std::int32_t>(number - step_list_.begin());
             const Range windows = free_windows(step.step->shape->swept);
@@ -312,6 +313,7 @@ SearchResult WindowSearch::result_from(std::uint32_t last) const {
             const Step& step = *step_list_[static_cast<std::size_t>(-2 - label.arc)];
             move.shape = step.step->shape;
             move.visit = step.step->visit;
+            if (move.place == kNoPlace) move.place = step.step->place;
             move.duration_s = step.step->duration_s;
         }
         result.moves.push_back(std::move(move));

@@ -14,6 +14,7 @@ struct FixedSequence {
         ShapePtr shape;
         double duration_s = 0;
         VisitIndex visit = kNoVisit;
+        PlaceIndex place = kNoPlace;  // that it ends at, if the graph has it
     };
     std::vector<Step> steps;
     PlaceIndex ends_at = kNoPlace;  // in the graph; kNoPlace: it ends at a resting place of its own
@@ -29,14 +30,14 @@ struct SearchTask {
     };
     VehicleIndex vehicle = 0;
     const CompiledGraph* graph = nullptr;  // may be null when sequences lead to the end
-    PlaceIndex start = kNoPlace;           // of the graph; kNoPlace: only sequences lead on
+    PlaceIndex start = kNoPlace;           // of the graph; kNoPlace: it has none
     TileIndexes start_stand;
     double start_s = 0;
     double now_s = 0;
     std::vector<Stop> stops;
     std::vector<PlaceIndex> resting;                    // empty: all resting places of the graph
     const std::vector<float>* times_to_rest = nullptr;  // to the nearest of them
-    std::vector<FixedSequence> sequences;
+    std::vector<FixedSequence> sequences;  // when there are any, the way begins with one of them
     bool only_lasting = false;  // heed only stays without an end, as if all others would give way
     std::size_t most_labels = 200'000;  // bound of the work
 };

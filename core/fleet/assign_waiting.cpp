@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/fleet/assignment.hpp"
+#include "core/fleet/dispatch_phases.hpp"
+
+// Free vehicles and waiting orders, solved as one assignment.
+namespace pulseline::fleet {
+namespace {
+
+// What a second of driving weighs against: urgency decides who is served when vehicles are short,
+// ways decide by whom.
+constexpr double kPriority_s = 600;  // one step of priority
+constexpr double kAge = 0.5;         // per second of waiting: nobody waits for ever
+constexpr double kMostUrgency_s = 1e8;
+// Orders looked at in one go, the most urgent ones: bounds the work with a thousand of each.
+constexpr std::size_t kMostOrders = 64;
+
+double urgency_s(const JobOrder& order, Time now) {
+    const double urgency = kPriority_s * order.priority + kAge * seconds(now - order.created);
+    return std::clamp(urgency, -kMostUrgency_s, kMostUrgency_s);
+}
+
+bool is_free(const FleetState& fleet, const VehicleRun& run) {
+    return !run.has_leg() && fleet.orders.of(run.record.id) == nullptr;
+}
+
+NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
+    NewOrder request;
+    request.vehicle = run.record.id;
+    for (const auto& step : order.steps) {
+        if (const auto* station = plant::find_station(fleet.plant, step.station)) {
+            request.steps.push_back({station->number, step.mode});
+        }
+    }
+    return request;
+}
+
+/// Time to the order's first station on an empty floor; infinity: the vehicle cannot serve it.
+double way_s(FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    const Step& first = order.steps[order.current_step];
+    const auto& of_class = fleet.floor.classes[run.floor.of_class];
+    const auto place = of_class.motion.station_place(first.station);
+    if (!place) return kNever;
+    const bool any_way =
+        first.mode == plant::MotionMode::kAuto || first.mode == plant::MotionMode::kLinear;
+    const double table_s =
+        fleet.floor.traffic.travel_s(run.floor.vehicle, static_cast<traffic::PlaceIndex>(*place));
+    if (any_way && std::isfinite(table_s)) return table_s;
+    const auto plan =
+        fleet.planner.plan_leg(leg_request(fleet, run, run.record.pose, first.station, first.mode));
+    if (plan) return plan->duration_s;
+    const auto* station = plant::find_station(fleet.plant, first.station);
+    return nearly_there(run, run.record.pose, *station) ? 0 : kNever;
+}
+
+/// Why the order has no vehicle now.
+Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
+    if (order.wanted_vehicle.empty()) return {"no_free_vehicle", {}};
+    const VehicleRun* run = fleet.find(order.wanted_vehicle);
+    if (!run) return {"unknown_vehicle", {{"vehicle", order.wanted_vehicle.str()}}};
+    if (!is_free(fleet, *run)) {
+        Reason busy{"vehicle_busy", {{"vehicle", run->record.id.str()}}};
+        if (const JobOrder* other = fleet.orders.of(run->record.id)) {
+            busy.params.push_back({"order", "JO-" + std::to_string(other->number)});
+        }
+        return busy;
+    }
+    if (auto reason = not_ready(fleet, *run, now)) return *reason;
+    return {"no_free_vehicle", {}};
+}
+
+}  // namespace
+
+void assign_waiting(FleetState& fleet, Time now) {
+    std::vector<JobOrder*> orders = by_urgency(fleet, JobState::kAllowedToStart);
+    if (orders.empty()) return;
+    std::vector<VehicleRun*> free;
+    for (auto& [id, run] : fleet.vehicles) {
+        if (is_free(fleet, run) && !not_ready(fleet, run, now)) free.push_back(&run);
+    }
+    const std::size_t looked_at = free.empty() ? 0 : std::min(orders.size(), kMostOrders);
+    CostMatrix matrix{looked_at, free.size(), {}};
+    matrix.costs.assign(looked_at * free.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t row = 0; row < looked_at; ++row) {
+        const JobOrder& order = *orders[row];
+        for (std::size_t column = 0; column < free.size(); ++column) {
+            const VehicleRun& run = *free[column];
+            if (!order.wanted_vehicle.empty() && order.wanted_vehicle != run.record.id) continue;
+            matrix.at(row, column) = way_s(fleet, order, run) - urgency_s(order, now);
+        }
+    }
+    const auto chosen = assign(matrix);
+    for (std::size_t row = 0; row < orders.size(); ++row) {
+        JobOrder& order = *orders[row];
+        VehicleRun* run = row < chosen.size() && chosen[row] ? free[*chosen[row]] : nullptr;
+        if (!run) {
+            set_order_reason(fleet, order, why_it_waits(fleet, order, now), now);
+            continue;
+        }
+        if (const auto plan = plan_order(fleet, as_request(fleet, order, *run), now); !plan) {
+            set_order_reason(fleet, order, plan.error().reason, now);
+            continue;
+        }
+        fleet.orders.assign(order, run->record.id);
+        run->floor.next_try.reset();
+        set_order_state(fleet, order, JobState::kRunning, {}, {}, now);
+    }
+}
+
+}  // namespace pulseline::fleet

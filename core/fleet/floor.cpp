@@ -1,0 +1,235 @@
+#include "core/fleet/floor.hpp"
+
+#include <algorithm>
+#include <set>
+#include <unordered_set>
+
+#include "core/fleet/state.hpp"
+#include "core/kinematics/motion.hpp"
+
+// The classes of vehicles, and who stands where.
+namespace pulseline::fleet {
+namespace {
+
+using traffic::TileSet;
+
+// A standing vehicle that is found this far from where it stood was moved by hand.
+constexpr double kMoved_m = 0.02;
+constexpr double kMoved_rad = 0.2 * kPi / 180.0;
+
+FloorClass make_class(const FleetState& fleet, const plant::VehicleType& type, bool loaded) {
+    FloorClass made;
+    made.type = &type;
+    made.loaded = loaded;
+    made.motion = fleet.planner.motion_graph(type, loaded);
+    const auto body = plant::outline_with_load(type, loaded);
+    for (const auto& place : made.motion.places) {
+        std::vector<geometry::Polygon> standing;
+        for (const auto& piece : body) {
+            standing.push_back(geometry::transformed(place.pose, piece));
+        }
+        made.stands.push_back(
+            traffic::tiles_under(hall_index(fleet, place.hall.str()), standing, kFloorMargin_m));
+    }
+    for (std::size_t i = 0; i < made.motion.ways.size(); ++i) {
+        made.way_between[{made.motion.ways[i].from, made.motion.ways[i].to}] = i;
+    }
+    return made;
+}
+
+traffic::MoveGraph move_graph(const FleetState& fleet, const FloorClass& of_class) {
+    traffic::MoveGraph graph;
+    const auto body = plant::outline_with_load(*of_class.type, of_class.loaded);
+    bool any_resting = false;
+    for (std::size_t i = 0; i < of_class.motion.places.size(); ++i) {
+        const auto* station = plant::find_station(fleet.plant, of_class.motion.places[i].station);
+        const bool resting = station && station->resting_place;
+        graph.places.push_back({of_class.stands[i], resting});
+        any_resting |= resting;
+    }
+    // A plant that names no resting places for a type lets it rest where it works.
+    for (std::size_t i = 0; !any_resting && i < graph.places.size(); ++i) {
+        graph.places[i].resting = !of_class.motion.places[i].station.empty();
+    }
+    for (const auto& way : of_class.motion.ways) {
+        traffic::Move move;
+        move.from = static_cast<traffic::PlaceIndex>(way.from);
+        move.to = static_cast<traffic::PlaceIndex>(way.to);
+        move.duration_s = way.duration_s;
+        // Coarse pieces hold all of the sweep, too, and there are many turns.
+        move.swept = traffic::tiles_under(
+            hall_index(fleet, of_class.motion.places[way.from].hall.str()),
+            kinematics::sweep(body, {way.segment}, kinematics::kOutlineDetail), kFloorMargin_m);
+        graph.moves.push_back(std::move(move));
+    }
+    return graph;
+}
+
+std::size_t class_of(FleetState& fleet, const VehicleRun& run) {
+    auto& classes = fleet.floor.classes;
+    for (std::size_t i = 0; i < classes.size(); ++i) {
+        if (classes[i].type == run.type && classes[i].loaded == is_loaded(run)) return i;
+    }
+    classes.push_back(make_class(fleet, *run.type, is_loaded(run)));
+    return classes.size() - 1;
+}
+
+traffic::PlaceIndex place_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
+    const auto place = fleet.floor.classes[run.floor.of_class].motion.place_at(
+        plant::HallId(hall_of(fleet, run)), pose);
+    return place ? static_cast<traffic::PlaceIndex>(*place) : traffic::kNoPlace;
+}
+
+bool is_away(const Pose2& a, const Pose2& b) {
+    return geometry::distance(a.position(), b.position()) > kMoved_m ||
+           std::abs(wrap(a.heading_rad - b.heading_rad)) > kMoved_rad;
+}
+
+/// What the vehicle's record says of its floor: where it stands and the rest of its base.
+traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
+    traffic::VehicleRecord row;
+    row.name = run.record.id.str();
+    row.graph = fleet.floor.classes[run.floor.of_class].graph;
+    std::optional<Pose2> pose;
+    if (run.has_leg()) {
+        pose = run.leg().nodes[run.leg().passed_nodes - 1].pose;
+    } else if (run.record.pose_known) {
+        pose = run.record.pose;
+    }
+    if (!pose) return row;
+    row.stand = floor_under(fleet, run, *pose);
+    row.place = place_at(fleet, run, *pose);
+    if (row.place != traffic::kNoPlace) {
+        row.stand =
+            traffic::merge(row.stand, fleet.floor.classes[run.floor.of_class].stands[row.place]);
+    }
+    run.floor.pose = pose;
+    if (!run.has_leg()) return row;
+    const Leg& leg = run.leg();
+    run.floor.moves_before_leg = -static_cast<std::int64_t>(leg.passed_nodes - 1);
+    for (std::size_t i = leg.passed_nodes; i < leg.released_nodes; ++i) {
+        traffic::MoveRecord move;
+        move.swept = floor_of_edge(fleet, run, leg.edges[i - 1].segment);
+        move.stand = floor_under(fleet, run, leg.nodes[i].pose);
+        move.place = place_at(fleet, run, leg.nodes[i].pose);
+        if (move.place != traffic::kNoPlace) {
+            move.stand = fleet.floor.classes[run.floor.of_class].stands[move.place];
+        }
+        move.swept = traffic::merge(move.swept, move.stand);
+        move.duration_s = leg.edges[i - 1].segment.duration_s;
+        move.rank = static_cast<std::int64_t>(i);
+        row.moves.push_back(std::move(move));
+    }
+    row.released = static_cast<traffic::MoveNumber>(row.moves.size());
+    return row;
+}
+
+/// Rows may contradict each other when a vehicle was moved by hand while the server was down: the
+/// first one keeps the floor, the other holds none and is not moved until that is cleared up.
+void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& rows) {
+    std::unordered_set<traffic::TileId> taken;
+    for (auto& row : rows) {
+        TileSet needed = row.stand;
+        for (const auto& move : row.moves) needed = traffic::merge(needed, move.swept);
+        const bool conflict = std::any_of(needed.begin(), needed.end(),
+                                          [&](traffic::TileId t) { return taken.count(t) != 0; });
+        if (conflict) {
+            VehicleRun& run = *fleet.find(plant::VehicleId(row.name));
+            run.floor.conflict = Reason{"floor_conflict", {{"vehicle", row.name}}};
+            run.floor.pose.reset();
+            row.stand.clear();
+            row.place = traffic::kNoPlace;
+            row.moves.clear();
+            row.released = 0;
+            continue;
+        }
+        taken.insert(needed.begin(), needed.end());
+    }
+}
+
+}  // namespace
+
+TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
+    return traffic::tiles_under(hall_index(fleet, hall_of(fleet, run)), outline_at(run, pose),
+                                kFloorMargin_m);
+}
+
+void open_floor(FleetState& fleet, Time now) {
+    Floor& floor = fleet.floor;
+    std::vector<traffic::MoveGraph> graphs;
+    traffic::TrafficRecord record;
+    for (auto& [id, run] : fleet.vehicles) {
+        const std::size_t known = floor.classes.size();
+        run.floor.of_class = class_of(fleet, run);
+        if (floor.classes.size() > known) {
+            floor.classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
+            graphs.push_back(move_graph(fleet, floor.classes.back()));
+        }
+        run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
+        record.vehicles.push_back(stored_floor(fleet, run));
+    }
+    without_conflicts(fleet, record.vehicles);
+    auto rebuilt = traffic::Traffic::rebuild(record, graphs, true);
+    // Nobody shares floor any more, and bases alone cannot form a circle.
+    if (!rebuilt) {
+        floor.stopped = rebuilt.error().reason;
+        return;
+    }
+    floor.traffic = std::move(*rebuilt);
+    for (const auto& violation : floor.monitor.apply(floor.traffic.all_as_changes())) {
+        floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violation)}}};
+    }
+    for (auto& [id, run] : fleet.vehicles) halt_or_resume(fleet, run, now);
+    floor_is_sound(fleet, now);
+}
+
+void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
+    if (run.has_leg() || !run.record.pose_known) return;
+    auto& traffic = fleet.floor.traffic;
+    const auto& plan = traffic.plan(run.floor.vehicle);
+    const auto place = place_at(fleet, run, run.record.pose);
+    const bool as_planned = run.floor.pose && !run.floor.conflict && plan.passed == plan.released &&
+                            (plan.place == place && place != traffic::kNoPlace);
+    if (as_planned && !give_up_plan) {
+        run.floor.pose = run.record.pose;
+        return;
+    }
+    const bool stays = run.floor.pose && !run.floor.conflict && !give_up_plan &&
+                       plan.passed == plan.released && !is_away(*run.floor.pose, run.record.pose);
+    if (stays) return;
+    TileSet stand = floor_under(fleet, run, run.record.pose);
+    if (place != traffic::kNoPlace) {
+        stand = traffic::merge(stand, fleet.floor.classes[run.floor.of_class].stands[place]);
+    }
+    const auto found = traffic.found_at(run.floor.vehicle, stand, place, now);
+    run.floor.leg_planned = false;
+    if (found) {
+        if (run.floor.conflict) {
+            add_event(fleet, now, "vehicle.floor_cleared", {}, {}, run.record.id, {});
+        }
+        run.floor.conflict.reset();
+        run.floor.pose = run.record.pose;
+    } else if (!run.floor.conflict) {
+        Params who;
+        for (const auto& param : found.error().reason.params) {
+            if (param.name == "vehicle") who.push_back({"other", param.value});
+        }
+        who.insert(who.begin(), {"vehicle", run.record.id.str()});
+        run.floor.conflict = Reason{"floor_conflict", who};
+        add_event(fleet, now, "vehicle.floor_conflict", {}, {}, run.record.id, {}, who);
+    }
+    halt_or_resume(fleet, run, now);
+}
+
+void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target, Time now) {
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    if (plan.place != traffic::kNoPlace) return;  // the place's floor covers the correction
+    const TileSet both =
+        traffic::merge(floor_under(fleet, run, run.record.pose), floor_under(fleet, run, target));
+    if (fleet.floor.traffic.found_at(run.floor.vehicle, both, traffic::kNoPlace, now)) {
+        run.floor.pose = run.record.pose;
+    }
+    halt_or_resume(fleet, run, now);
+}
+
+}  // namespace pulseline::fleet

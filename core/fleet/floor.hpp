@@ -1,0 +1,103 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/fleet/job_order.hpp"
+#include "core/kinematics/motion.hpp"
+#include "core/planning/motion_graph.hpp"
+#include "core/traffic/monitor.hpp"
+#include "core/traffic/traffic.hpp"
+
+/// The floor that the fleet's vehicles share: its joint plan (core/traffic) and how a leg, which is
+/// nodes and edges for a vehicle, stands in it as moves. Not for use outside core/fleet.
+namespace pulseline::fleet {
+
+struct FleetState;
+struct VehicleRun;
+
+/// Vehicles of one type with the same outline: what they can do on the floor.
+struct FloorClass {
+    const plant::VehicleType* type = nullptr;
+    bool loaded = false;
+    traffic::GraphIndex graph = traffic::kNoGraph;
+    planning::MotionGraph motion;  // its places are those of the graph
+    std::vector<traffic::TileSet> stands;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> way_between;  // of motion.ways
+};
+
+/// What the fleet keeps of a vehicle about the floor; nothing of it is stored, all is rebuilt.
+struct FloorStand {
+    std::size_t of_class = 0;
+    traffic::VehicleIndex vehicle = 0;
+    /// Node k of the leg is reached when this many + k moves are passed.
+    std::int64_t moves_before_leg = 0;
+    bool leg_planned = false;        // the leg's moves are in the joint plan
+    std::optional<Pose2> pose;       // where it was settled last; none: it holds no floor yet
+    std::optional<Reason> conflict;  // it stands on another's floor
+    std::optional<Time> next_try;    // of an admission that failed
+    std::optional<Time> idle_since;
+};
+
+struct Floor {
+    traffic::Traffic traffic{true};  // reports its changes to the monitor
+    traffic::Monitor monitor;
+    std::vector<FloorClass> classes;
+    /// Set on the first violation that the monitor finds: nothing is granted any more.
+    std::optional<Reason> stopped;
+    std::optional<Time> improved;
+    std::optional<Time> checked;
+};
+
+/// Makes the classes and puts every vehicle on the floor its record says, base included.
+void open_floor(FleetState& fleet, Time now);
+
+// Position error of a moving vehicle plus rounding; the planner's clearance is far larger.
+constexpr double kFloorMargin_m = 0.10;
+
+/// Floor under the vehicle's outline at a pose, position error included.
+traffic::TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);
+/// Floor that the vehicle sweeps on an edge of its leg.
+traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
+                               const kinematics::Segment& segment);
+
+/// A vehicle without a leg stands where its record says. It keeps its plan when that is where the
+/// plan has it, unless `give_up_plan`.
+void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan = false);
+/// The last approach was not successful enough to move on: floor for a correction in place.
+void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target, Time now);
+
+/// Takes the rest of the run's leg (all behind its base) into the joint plan. Nothing is changed
+/// when there is no plan: the reason says who or what is in the way. The leg's horizon may come out
+/// different: another way, when its own is blocked for good.
+std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now);
+/// A leg of one node becomes the drive that the vehicle's plan already has.
+void take_plan_as_leg(FleetState& fleet, VehicleRun& run);
+/// Brings the legs of all vehicles with new plans up to date and tells those on the way.
+void follow_replans(FleetState& fleet, Time now);
+/// Grants moves so that nodes up to `wanted_node` are in the base, as far as traffic lets it;
+/// returns the number of released nodes.
+std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_node, Time now);
+/// Nodes up to leg.passed_nodes are behind the vehicle.
+void pass_nodes(FleetState& fleet, VehicleRun& run, Time now);
+/// The stop of the leg is made.
+void pass_stop(FleetState& fleet, VehicleRun& run, Time now);
+/// The task is given up where the vehicle stands without a leg.
+void give_up_task(FleetState& fleet, VehicleRun& run, Time now);
+/// Vehicles that cannot move hold their floor and are planned around.
+void halt_those_that_cannot_move(FleetState& fleet, Time now);
+void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now);
+/// Who waits tries other ways, about once a second.
+void improve_floor(FleetState& fleet, Time now);
+
+/// Why the vehicle's next move is not granted; none: it is, or there is none.
+std::optional<Reason> floor_wait(const FleetState& fleet, const VehicleRun& run);
+Reason floor_reason(const FleetState& fleet, const traffic::Block& block);
+/// Feeds the monitor; false: it found a violation, and nothing may be granted.
+bool floor_is_sound(FleetState& fleet, Time now);
+void check_whole_floor(FleetState& fleet, Time now);
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,342 @@
+#include <algorithm>
+#include <cmath>
+
+#include "core/fleet/floor.hpp"
+#include "core/fleet/state.hpp"
+#include "core/kinematics/primitives.hpp"
+
+// Legs in the joint plan: admission, horizon, grants, passing.
+namespace pulseline::fleet {
+namespace {
+
+using traffic::kNoPlace;
+using traffic::kNoVisit;
+using traffic::MoveNumber;
+
+constexpr double kStop_s = 20;  // predicted time of a correction and its measurement
+constexpr double kSamePose_m = 1e-3;
+constexpr double kSamePose_rad = 1e-3;
+constexpr Duration kRetry = std::chrono::milliseconds(500);
+constexpr Duration kImproveEvery = std::chrono::seconds(1);
+constexpr Duration kCheckEvery = std::chrono::seconds(1);
+constexpr int kImproveSteps = 4;
+
+const FloorClass& class_of(const FleetState& fleet, const VehicleRun& run) {
+    return fleet.floor.classes[run.floor.of_class];
+}
+
+bool same_pose(const Pose2& a, const Pose2& b) {
+    return geometry::distance(a.position(), b.position()) < kSamePose_m &&
+           std::abs(wrap(a.heading_rad - b.heading_rad)) < kSamePose_rad;
+}
+
+/// The place whose pose it is but for rounding.
+traffic::PlaceIndex exact_place(const FloorClass& of_class, const std::string& hall,
+                                const Pose2& pose) {
+    const auto place = of_class.motion.place_at(plant::HallId(hall), pose);
+    return place && same_pose(of_class.motion.places[*place].pose, pose)
+               ? static_cast<traffic::PlaceIndex>(*place)
+               : kNoPlace;
+}
+
+MoveNumber move_of_node(const VehicleRun& run, std::size_t node) {
+    return static_cast<MoveNumber>(run.floor.moves_before_leg + static_cast<std::int64_t>(node));
+}
+
+/// The leg's edges behind its base as traffic takes them.
+traffic::Sequence sequence_of(const FleetState& fleet, const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    const FloorClass& of_class = class_of(fleet, run);
+    traffic::Sequence sequence;
+    for (std::size_t i = leg.released_nodes; i < leg.nodes.size(); ++i) {
+        const auto& segment = leg.edges[i - 1].segment;
+        traffic::Sequence::Step step;
+        step.swept = floor_of_edge(fleet, run, segment);
+        step.place = exact_place(of_class, leg.hall, leg.nodes[i].pose);
+        step.stand = step.place != kNoPlace ? of_class.stands[step.place]
+                                            : floor_under(fleet, run, leg.nodes[i].pose);
+        step.duration_s = std::max(0.1, segment.duration_s);
+        sequence.steps.push_back(std::move(step));
+    }
+    return sequence;
+}
+
+OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
+    OrderNode node;
+    const std::size_t index = leg.nodes.size();
+    node.node_id = "p" + std::to_string(index);
+    node.sequence_id = static_cast<std::int64_t>(2 * index);
+    node.pose = pose;
+    node.map_id = leg.hall;
+    return node;
+}
+
+OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment, double max_speed_mps) {
+    OrderEdge edge;
+    const std::size_t index = leg.nodes.size();
+    edge.edge_id = "e" + std::to_string(index);
+    edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
+    edge.segment = std::move(segment);
+    edge.max_speed_mps = max_speed_mps;
+    return edge;
+}
+
+/// One more move of the plan at the end of the leg. A straight keeps the heading the vehicle was
+/// measured at; the last turn or the correction at the stop takes the rest away.
+void append_move(const FloorClass& of_class, Leg& leg, traffic::PlaceIndex place,
+                 std::optional<traffic::PlaceIndex> from) {
+    const Pose2 here = leg.nodes.back().pose;
+    const Pose2& there = of_class.motion.places[place].pose;
+    std::vector<kinematics::Segment> segments;
+    if (geometry::distance(here.position(), there.position()) <= planning::kAtPlace_m) {
+        kinematics::append_turn(segments, here,
+                                kinematics::shortest_turn_rad(here.heading_rad, there.heading_rad));
+    } else {
+        kinematics::append_straight(segments, here, there.position());
+    }
+    kinematics::Segment segment;
+    segment.start = segment.end = here;
+    if (!segments.empty()) segment = segments.front();
+    if (segments.size() > 1) {  // half a turn comes as two places; rounding must not make it three
+        segment.end = segments.back().end;
+        segment.turn_rad += segments.back().turn_rad;
+    }
+    double max_speed_mps = 0;
+    if (from) {
+        const auto way = of_class.way_between.find({*from, place});
+        if (way != of_class.way_between.end()) {
+            max_speed_mps = of_class.motion.ways[way->second].max_speed_mps;
+            segment.duration_s = of_class.motion.ways[way->second].duration_s;
+        }
+    }
+    const Pose2 end = segment.end;
+    leg.edges.push_back(horizon_edge(leg, std::move(segment), max_speed_mps));
+    leg.nodes.push_back(horizon_node(leg, end));
+}
+
+/// Makes the leg's horizon that of the plan; true when it changed.
+bool take_horizon(FleetState& fleet, VehicleRun& run) {
+    Leg& leg = run.leg();
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    const FloorClass& of_class = class_of(fleet, run);
+    const auto is_drive = [&](MoveNumber n) {
+        return n <= plan.last() && plan.at(n).visit == kNoVisit;
+    };
+    std::size_t node = leg.released_nodes;
+    for (; node < leg.nodes.size() && is_drive(move_of_node(run, node)); ++node) {
+        const auto& move = plan.at(move_of_node(run, node));
+        // Without a place it is the leg's own step: those never come from a search.
+        if (move.place == kNoPlace) continue;
+        if (!same_pose(of_class.motion.places[move.place].pose, leg.nodes[node].pose)) break;
+    }
+    const bool ends = !is_drive(move_of_node(run, node));
+    const bool has_stop = move_of_node(run, node) <= plan.last() && ends;
+    if (node == leg.nodes.size() && ends && has_stop == !leg.nodes.back().actions.empty()) {
+        return false;
+    }
+    leg.nodes.resize(node);
+    leg.edges.resize(node - 1);
+    for (MoveNumber n = move_of_node(run, node); is_drive(n); ++n) {
+        const traffic::PlaceIndex before = plan.place_after(n - 1);
+        append_move(of_class, leg, plan.at(n).place,
+                    before == kNoPlace ? std::nullopt : std::optional(before));
+    }
+    if (has_stop) {
+        const auto* station = plant::find_station(fleet.plant, leg.station);
+        leg.nodes.back().node_id = station->id.str();
+        leg.nodes.back().actions = stop_actions(fleet, run, *station, leg.id);
+    }
+    leg.duration_s = 0;
+    for (const auto& edge : leg.edges) leg.duration_s += edge.segment.duration_s;
+    return true;
+}
+
+}  // namespace
+
+traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
+                               const kinematics::Segment& segment) {
+    return traffic::tiles_under(
+        hall_index(fleet, run.leg().hall),
+        kinematics::sweep(plant::outline_with_load(*run.type, is_loaded(run)), {segment}),
+        kFloorMargin_m);
+}
+
+std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    auto& stand = run.floor;
+    if (stand.conflict) return stand.conflict;
+    if (fleet.floor.stopped) return fleet.floor.stopped;
+    Leg& leg = run.leg();
+    const auto target = class_of(fleet, run).motion.station_place(leg.station);
+    if (!target) return Reason{"station_not_for_type", {{"station", leg.station.str()}}};
+    const auto& plan = traffic.plan(stand.vehicle);
+    if (!stand.leg_planned && leg.released_nodes <= 1) {
+        stand.moves_before_leg = static_cast<std::int64_t>(plan.passed);
+    }
+    traffic::Task task;
+    const auto goal = static_cast<traffic::PlaceIndex>(*target);
+    if (leg.order.empty()) {
+        task.resting = {goal};  // it makes way: no stop to make
+    } else {
+        task.visits = {{goal, kStop_s}};
+    }
+    auto sequence = sequence_of(fleet, run);
+    sequence.ends_at = goal;
+    if (!sequence.steps.empty()) task.sequences = {std::move(sequence)};
+    auto admitted = traffic.admit(stand.vehicle, task, now);
+    const bool on_roads =
+        plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;
+    if (!admitted && on_roads && !task.sequences.empty()) {
+        // The wanted way has no end of waiting: any other way is better.
+        task.sequences.clear();
+        if (auto other = traffic.admit(stand.vehicle, task, now)) admitted = std::move(other);
+    }
+    if (!admitted) {
+        stand.next_try = now + kRetry;
+        const auto block = traffic.blocked_by(stand.vehicle);
+        return block ? floor_reason(fleet, *block) : admitted.error().reason;
+    }
+    stand.next_try.reset();
+    stand.leg_planned = true;
+    take_horizon(fleet, run);
+    return std::nullopt;
+}
+
+void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {
+    run.floor.moves_before_leg =
+        static_cast<std::int64_t>(fleet.floor.traffic.plan(run.floor.vehicle).passed);
+    run.floor.leg_planned = true;
+    take_horizon(fleet, run);
+}
+
+void follow_replans(FleetState& fleet, Time now) {
+    for (const auto vehicle : fleet.floor.traffic.take_replanned()) {
+        VehicleRun* run = fleet.find(plant::VehicleId(fleet.floor.traffic.name(vehicle)));
+        if (!run || !run->has_leg() || !run->floor.leg_planned || run->cancelling) continue;
+        if (!take_horizon(fleet, *run)) continue;
+        Leg& leg = run->leg();
+        add_event(fleet, now, "leg.rerouted", leg.order, leg.id, leg.vehicle, {},
+                  {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
+                   {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
+        fleet.store(*run);
+        if (leg.released_nodes > 1 && !run->record.needs_resume && run->leg_seen) {
+            ++leg.update_id;
+            send_order_update(fleet, *run, leg.released_nodes - 1, now);
+        }
+    }
+}
+
+std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_node, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    const Leg& leg = run.leg();
+    if (!run.floor.leg_planned || fleet.floor.stopped) return leg.released_nodes;
+    const MoveNumber passed = traffic.plan(run.floor.vehicle).passed;
+    const MoveNumber wanted = move_of_node(run, wanted_node);
+    if (wanted <= passed) return leg.released_nodes;
+    const MoveNumber granted = traffic.extend(run.floor.vehicle, wanted - passed, now);
+    if (!floor_is_sound(fleet, now)) return leg.released_nodes;
+    const auto nodes = static_cast<std::int64_t>(granted) - run.floor.moves_before_leg + 1;
+    return std::clamp(static_cast<std::size_t>(std::max<std::int64_t>(nodes, 1)),
+                      leg.released_nodes, leg.nodes.size());
+}
+
+void pass_nodes(FleetState& fleet, VehicleRun& run, Time now) {
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    const std::size_t reported = run.leg().passed_nodes - 1;
+    const MoveNumber move = move_of_node(run, reported);
+    if (move <= plan.passed || plan.last() < move) return;
+    if (!fleet.floor.traffic.passed(run.floor.vehicle, move, now)) {
+        require_person(
+            fleet, run,
+            {"left_its_base",
+             {{"vehicle", run.record.id.str()}, {"node", static_cast<std::int64_t>(reported)}}},
+            now);
+    }
+}
+
+void pass_stop(FleetState& fleet, VehicleRun& run, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    const auto& plan = traffic.plan(run.floor.vehicle);
+    const MoveNumber stop = plan.passed + 1;
+    if (stop > plan.last() || plan.at(stop).visit == kNoVisit) return;
+    if (traffic.extend(run.floor.vehicle, 1, now) < stop) return;
+    static_cast<void>(traffic.passed(run.floor.vehicle, stop, now));
+}
+
+void give_up_task(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.has_leg()) return;
+    run.floor.leg_planned = false;
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    if (plan.last() == plan.passed) return;
+    static_cast<void>(fleet.floor.traffic.cancel(run.floor.vehicle, now));
+}
+
+void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now) {
+    const bool can_move = !run.floor.conflict && run.floor.pose && !cannot_move(fleet, run);
+    if (can_move) {
+        fleet.floor.traffic.resume(run.floor.vehicle, now);
+    } else {
+        fleet.floor.traffic.halt(run.floor.vehicle, now);
+    }
+}
+
+void halt_those_that_cannot_move(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) halt_or_resume(fleet, run, now);
+}
+
+void improve_floor(FleetState& fleet, Time now) {
+    Floor& floor = fleet.floor;
+    if (floor.stopped) return;
+    if (!floor.improved || now - *floor.improved >= kImproveEvery) {
+        floor.improved = now;
+        floor.traffic.improve(now, kImproveSteps);
+    }
+    follow_replans(fleet, now);
+}
+
+Reason floor_reason(const FleetState& fleet, const traffic::Block& block) {
+    Reason reason = fleet.floor.traffic.reason_of(block);
+    if (block.cause == traffic::BlockCause::kVehicle) {
+        reason.code = "floor_held";
+        std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
+    } else if (block.cause == traffic::BlockCause::kClosed) {
+        reason.code = "floor_closed";
+        std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
+    }
+    return reason;
+}
+
+std::optional<Reason> floor_wait(const FleetState& fleet, const VehicleRun& run) {
+    if (fleet.floor.stopped) return fleet.floor.stopped;
+    if (run.floor.conflict) return run.floor.conflict;
+    const auto waits = fleet.floor.traffic.waits_of(run.floor.vehicle);
+    if (waits.empty()) {
+        if (fleet.floor.traffic.postponed(run.floor.vehicle)) {
+            return Reason{"gives_way", {{"vehicle", run.record.id.str()}}};
+        }
+        return std::nullopt;
+    }
+    return floor_reason(fleet, waits.front().block);
+}
+
+bool floor_is_sound(FleetState& fleet, Time now) {
+    Floor& floor = fleet.floor;
+    const auto violations = floor.monitor.apply(floor.traffic.take_changes());
+    if (violations.empty() || floor.stopped) return !floor.stopped;
+    floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};
+    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, floor.stopped->params);
+    return false;
+}
+
+void check_whole_floor(FleetState& fleet, Time now) {
+    Floor& floor = fleet.floor;
+    if (floor.checked && now - *floor.checked < kCheckEvery) return;
+    floor.checked = now;
+    if (!floor_is_sound(fleet, now)) return;
+    const auto violations = floor.monitor.check_all();
+    if (violations.empty()) return;
+    floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};
+    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, floor.stopped->params);
+}
+
+}  // namespace pulseline::fleet

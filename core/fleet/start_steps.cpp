@@ -1,0 +1,104 @@
+#include "core/fleet/dispatch_phases.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+Result<Leg> leg_to(FleetState& fleet, const VehicleRun& run, const Step& step, LegId id) {
+    const plant::Station* station = plant::find_station(fleet.plant, step.station);
+    // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
+    const auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
+    const auto& newest = fleet.newest_plan;
+    const bool planned = newest && newest->vehicle == run.record.id && newest->request == request;
+    const auto plan =
+        planned ? Result<planning::LegPlan>(newest->plan) : fleet.planner.plan_leg(request);
+    if (!plan) return fail(plan.error());
+    return build_leg(fleet, run, *plan, *station, run.record.pose, id);
+}
+
+void take_leg(VehicleRun& run, Leg leg) {
+    run.record.has_leg = true;
+    run.record.leg = leg.id;
+    run.record.leg_data = std::move(leg);
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.update_sends = 0;
+    run.leg_started.reset();
+    run.floor.idle_since.reset();
+}
+
+bool waits_to_try(const VehicleRun& run, Time now) {
+    return run.floor.next_try && now < *run.floor.next_try;
+}
+
+/// A leg that outlived a restart has its base only; the rest of it is planned again.
+void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
+    if (run.leg().nodes.size() < 2 || cannot_move(fleet, run)) return;
+    if (!run.leg_seen || run.update_sent) return;
+    const auto reason = plan_on_floor(fleet, run, now);
+    JobOrder* order = fleet.find(run.leg().order);
+    if (order && order->state == JobState::kRunning) {
+        set_order_reason(fleet, *order, reason.value_or(Reason{}), now);
+    }
+}
+
+}  // namespace
+
+void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
+    if (waits_to_try(run, now)) return;
+    Step& step = order.steps[order.current_step];
+    const plant::Station* station = plant::find_station(fleet.plant, step.station);
+    const LegId id(fleet.ids.next(now));
+    const bool corrects = nearly_there(run, run.record.pose, *station);
+    auto leg = corrects ? Result<Leg>(build_adjust_leg(fleet, run, *station, run.record.pose, id))
+                        : leg_to(fleet, run, step, id);
+    if (!leg) {
+        set_order_state(fleet, order, JobState::kInterrupted, leg.error().reason, {}, now);
+        return;
+    }
+    leg->order = order.id;
+    leg->step = static_cast<int>(order.current_step);
+    leg->attempt = step.attempts + 1;
+    const VehicleRecord before = run.record;
+    take_leg(run, std::move(*leg));
+    if (corrects) {
+        hold_for_correction(fleet, run, station->pose, now);
+    } else if (const auto reason = plan_on_floor(fleet, run, now)) {
+        run.record = before;
+        set_order_reason(fleet, order, *reason, now);
+        return;
+    }
+    step.leg = id;
+    step.state = StepState::kDriving;
+    order.reason = {};
+    fleet.store(order);
+    fleet.store(run);
+    fleet.changed_stations.insert(station->id);
+    add_event(fleet, now, "step.started", order.id, id, run.record.id, {},
+              {{"step", static_cast<std::int64_t>(order.current_step)},
+               {"station", std::int64_t{station->number}},
+               {"mode", plant::to_string(run.leg().mode)},
+               {"attempt", std::int64_t{run.leg().attempt}}});
+    if (corrects) {
+        send_order_update(fleet, run, 0, now);
+    } else {
+        extend_base(fleet, run, now);
+    }
+}
+
+void start_steps(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) {
+        if (run.has_leg()) plan_rest(fleet, run, now);
+    }
+    for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
+        VehicleRun* run = fleet.find(order->assigned_vehicle);
+        if (!run || run->has_leg() || order->current_step >= order->steps.size()) continue;
+        if (const auto reason = not_ready(fleet, *run, now)) {
+            set_order_reason(fleet, *order, *reason, now);
+            continue;
+        }
+        start_step(fleet, *order, *run, now);
+    }
+}
+
+}  // namespace pulseline::fleet
