@@ -17,60 +17,12 @@ using traffic::TileSet;
 constexpr double kMoved_m = 0.02;
 constexpr double kMoved_rad = 0.2 * kPi / 180.0;
 
-FloorClass make_class(const FleetState& fleet, const plant::VehicleType& type, bool loaded) {
-    FloorClass made;
-    made.type = &type;
-    made.loaded = loaded;
-    made.motion = fleet.planner.motion_graph(type, loaded);
-    const auto body = plant::outline_with_load(type, loaded);
-    for (const auto& place : made.motion.places) {
-        std::vector<geometry::Polygon> standing;
-        for (const auto& piece : body) {
-            standing.push_back(geometry::transformed(place.pose, piece));
-        }
-        made.stands.push_back(
-            traffic::tiles_under(hall_index(fleet, place.hall.str()), standing, kFloorMargin_m));
-    }
-    for (std::size_t i = 0; i < made.motion.ways.size(); ++i) {
-        made.way_between[{made.motion.ways[i].from, made.motion.ways[i].to}] = i;
-    }
-    return made;
-}
-
-traffic::MoveGraph move_graph(const FleetState& fleet, const FloorClass& of_class) {
-    traffic::MoveGraph graph;
-    const auto body = plant::outline_with_load(*of_class.type, of_class.loaded);
-    bool any_resting = false;
-    for (std::size_t i = 0; i < of_class.motion.places.size(); ++i) {
-        const auto* station = plant::find_station(fleet.plant, of_class.motion.places[i].station);
-        const bool resting = station && station->resting_place;
-        graph.places.push_back({of_class.stands[i], resting});
-        any_resting |= resting;
-    }
-    // A plant that names no resting places for a type lets it rest where it works.
-    for (std::size_t i = 0; !any_resting && i < graph.places.size(); ++i) {
-        graph.places[i].resting = !of_class.motion.places[i].station.empty();
-    }
-    for (const auto& way : of_class.motion.ways) {
-        traffic::Move move;
-        move.from = static_cast<traffic::PlaceIndex>(way.from);
-        move.to = static_cast<traffic::PlaceIndex>(way.to);
-        move.duration_s = way.duration_s;
-        // Coarse pieces hold all of the sweep, too, and there are many turns.
-        move.swept = traffic::tiles_under(
-            hall_index(fleet, of_class.motion.places[way.from].hall.str()),
-            kinematics::sweep(body, {way.segment}, kinematics::kOutlineDetail), kFloorMargin_m);
-        graph.moves.push_back(std::move(move));
-    }
-    return graph;
-}
-
 std::size_t class_of(FleetState& fleet, const VehicleRun& run) {
     auto& classes = fleet.floor.classes;
     for (std::size_t i = 0; i < classes.size(); ++i) {
         if (classes[i].type == run.type && classes[i].loaded == is_loaded(run)) return i;
     }
-    classes.push_back(make_class(fleet, *run.type, is_loaded(run)));
+    classes.push_back(floor_class(fleet.plant, fleet.planner, *run.type, is_loaded(run)));
     return classes.size() - 1;
 }
 
@@ -163,7 +115,7 @@ void open_floor(FleetState& fleet, Time now) {
         run.floor.of_class = class_of(fleet, run);
         if (floor.classes.size() > known) {
             floor.classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
-            graphs.push_back(move_graph(fleet, floor.classes.back()));
+            graphs.push_back(move_graph(fleet.plant, floor.classes.back()));
         }
         run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
         record.vehicles.push_back(stored_floor(fleet, run));

@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/fleet/floor_graph.hpp"
 #include "core/fleet/job_order.hpp"
-#include "core/kinematics/motion.hpp"
-#include "core/planning/motion_graph.hpp"
 #include "core/traffic/monitor.hpp"
 #include "core/traffic/traffic.hpp"
 
@@ -18,16 +17,6 @@ namespace pulseline::fleet {
 
 struct FleetState;
 struct VehicleRun;
-
-/// Vehicles of one type with the same outline: what they can do on the floor.
-struct FloorClass {
-    const plant::VehicleType* type = nullptr;
-    bool loaded = false;
-    traffic::GraphIndex graph = traffic::kNoGraph;
-    planning::MotionGraph motion;  // its places are those of the graph
-    std::vector<traffic::TileSet> stands;
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> way_between;  // of motion.ways
-};
 
 /// What the fleet keeps of a vehicle about the floor; nothing of it is stored, all is rebuilt.
 struct FloorStand {
@@ -54,9 +43,6 @@ struct Floor {
 
 /// Makes the classes and puts every vehicle on the floor its record says, base included.
 void open_floor(FleetState& fleet, Time now);
-
-// Position error of a moving vehicle plus rounding; the planner's clearance is far larger.
-constexpr double kFloorMargin_m = 0.10;
 
 /// Floor under the vehicle's outline at a pose, position error included.
 traffic::TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);

@@ -72,7 +72,7 @@ double speed_share(const VehicleRun& run) {
 }
 
 bool is_loaded(const VehicleRun& run) {
-    return run.vehicle->load_kg > 0 || !run.vehicle->load_name.empty();
+    return is_loaded(*run.vehicle);
 }
 
 std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose) {
@@ -92,10 +92,7 @@ std::string hall_of(const FleetState& fleet, const VehicleRun& run) {
 }
 
 std::size_t hall_index(const FleetState& fleet, const std::string& hall) {
-    for (std::size_t i = 0; i < fleet.plant.halls.size(); ++i) {
-        if (fleet.plant.halls[i].id.str() == hall) return i;
-    }
-    return 0;
+    return hall_index(fleet.plant, plant::HallId(hall));
 }
 
 plant::StationId station_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {

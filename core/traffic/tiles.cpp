@@ -17,7 +17,7 @@ constexpr int kCoordinateBits = 24;  // +-4,194 km in tiles of 0.5 m
 constexpr std::int64_t kOffset = std::int64_t{1} << (kCoordinateBits - 1);
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kCoordinateBits) - 1;
 constexpr double kTouch_m = 1e-9;  // rounding: touching counts
-constexpr int kCorners = 16;       // of the polygon around the margin's circle: 2 % too large
+constexpr int kCorners = 8;        // of the polygon around the margin's circle: 8 % too large
 
 TileId tile_id(std::size_t hall, std::int64_t col, std::int64_t row) {
     const auto place = [](std::int64_t index) {
@@ -86,7 +86,13 @@ std::vector<Run> runs_of(const Polygon& piece, std::int64_t first_row, std::int6
 }  // namespace
 
 TileSet tiles_under(std::size_t hall_index, const std::vector<Polygon>& pieces, double margin_m) {
-    TileSet tiles;
+    // Pieces of a sweep overlap a lot: their runs are joined before they become tiles.
+    struct Columns {
+        std::int64_t row;
+        std::int64_t first;
+        std::int64_t last;
+    };
+    std::vector<Columns> columns;
     for (const Polygon& piece : pieces) {
         if (piece.empty()) continue;
         const Polygon area = grown(piece, margin_m);
@@ -96,14 +102,24 @@ TileSet tiles_under(std::size_t hall_index, const std::vector<Polygon>& pieces, 
         const auto runs = runs_of(area, first_row, last_row);
         for (std::size_t i = 0; i < runs.size(); ++i) {
             if (runs[i].min_m > runs[i].max_m) continue;
-            const std::int64_t last = index_of(runs[i].max_m + kTouch_m);
-            for (std::int64_t col = index_of(runs[i].min_m - kTouch_m); col <= last; ++col) {
-                tiles.push_back(tile_id(hall_index, col, first_row + static_cast<std::int64_t>(i)));
+            columns.push_back({first_row + static_cast<std::int64_t>(i),
+                               index_of(runs[i].min_m - kTouch_m),
+                               index_of(runs[i].max_m + kTouch_m)});
+        }
+    }
+    std::sort(columns.begin(), columns.end(), [](const Columns& a, const Columns& b) {
+        return a.row != b.row ? a.row < b.row : a.first < b.first;
+    });
+    TileSet tiles;
+    for (std::size_t i = 0; i < columns.size();) {
+        const std::int64_t row = columns[i].row;
+        std::int64_t next = columns[i].first;
+        for (; i < columns.size() && columns[i].row == row; ++i) {
+            for (next = std::max(next, columns[i].first); next <= columns[i].last; ++next) {
+                tiles.push_back(tile_id(hall_index, next, row));
             }
         }
     }
-    std::sort(tiles.begin(), tiles.end());
-    tiles.erase(std::unique(tiles.begin(), tiles.end()), tiles.end());
     return tiles;
 }
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/planning/leg_planner.hpp"
+#include "core/traffic/move_graph.hpp"
+
+/// The floor of a plant as each class of its vehicles can use it.
+namespace pulseline::fleet {
+
+// Position error of a moving vehicle plus rounding; the planner's clearance is far larger.
+constexpr double kFloorMargin_m = 0.10;
+
+/// Vehicles of one type with the same outline: what they can do on the floor.
+struct FloorClass {
+    const plant::VehicleType* type = nullptr;
+    bool loaded = false;
+    traffic::GraphIndex graph = traffic::kNoGraph;
+    planning::MotionGraph motion;  // its places are those of the graph
+    std::vector<traffic::TileSet> stands;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> way_between;  // of motion.ways
+};
+
+/// Whether the vehicle carries something that counts with its outline.
+bool is_loaded(const plant::Vehicle& vehicle);
+/// Number of a hall in the ids of tiles.
+std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall);
+
+FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& planner,
+                       const plant::VehicleType& type, bool loaded);
+/// The class's motions with the tiles that they sweep. Vehicles rest at stations that are resting
+/// places; a plant that names none for a type lets it rest where it works.
+traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_class);
+
+/// What stands in the way of traffic's guarantee that every order can always be served (see
+/// traffic/layout_check.hpp): reasons unreachable {class, from, to, crossing?} and
+/// too_few_resting_places {class, resting_places, vehicles}, with the stations' names.
+std::vector<Reason> check_layout(const plant::Plant& plant);
+
+}  // namespace pulseline::fleet
