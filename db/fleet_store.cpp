@@ -5,6 +5,7 @@
 #include "db/fleet_rows.hpp"
 #include "db/names.hpp"
 #include "db/order_reader.hpp"
+#include "db/plant_json.hpp"
 #include "db/statement.hpp"
 
 namespace pulseline::db {
@@ -20,6 +21,36 @@ struct KeyRow {
     auto fields() { return std::tie(client, key, body_sha256, order_id, at_ns); }
 };
 
+struct ClosureRow {
+    static constexpr const char* kColumns =
+        "id, name, hall, outline, edges, created_by, created_ns";
+    std::string id, name, hall, outline, edges, created_by;
+    std::int64_t created_ns = 0;
+
+    auto fields() { return std::tie(id, name, hall, outline, edges, created_by, created_ns); }
+    void set(const fleet::Closure& closure) {
+        id = stored_id(closure.id);
+        name = closure.name;
+        hall = closure.hall.str();
+        outline = polygon_to_json(closure.outline);
+        edges = names_to_json(closure.edges);
+        created_by = closure.created_by;
+        created_ns = to_ns(closure.created);
+    }
+    fleet::Closure get() const {
+        fleet::Closure closure;
+        read_id(id, closure.id);
+        closure.name = name;
+        closure.hall = plant::HallId(hall);
+        closure.outline = polygon_from_json(outline);
+        closure.edges = edges_from_json(edges);
+        closure.created_by = created_by;
+        closure.created = time_from_ns(created_ns);
+        return closure;
+    }
+};
+
+constexpr const char* kDropClosure = "DELETE FROM closures WHERE id = :id";
 constexpr const char* kDropSteps =
     "DELETE FROM job_order_steps WHERE order_id = :order_id AND position >= :count";
 constexpr const char* kDropKeys = "DELETE FROM idempotency_keys WHERE at_ns < :before";
@@ -44,7 +75,9 @@ struct FleetStore::Statements {
                       vehicle.fields()),
           put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
                   key.fields()),
-          drop_keys(sql, kDropKeys, std::tie(keys_before)) {}
+          drop_keys(sql, kDropKeys, std::tie(keys_before)),
+          put_closure(sql, upsert_into("closures", ClosureRow::kColumns, "id"), closure.fields()),
+          drop_closure(sql, kDropClosure, std::tie(closure.id)) {}
 
     OrderRow order;
     StepRow step;
@@ -52,9 +85,11 @@ struct FleetStore::Statements {
     EventRow event;
     VehicleRow vehicle;
     KeyRow key;
+    ClosureRow closure;
     std::int64_t step_count = 0;
     std::int64_t keys_before = 0;
-    Statement put_order, put_step, drop_steps, put_stop, put_event, put_vehicle, put_key, drop_keys;
+    Statement put_order, put_step, drop_steps, put_stop, put_event, put_vehicle, put_key, drop_keys,
+        put_closure, drop_closure;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -113,6 +148,14 @@ void FleetStore::commit(const fleet::Records& records) {
             s.keys_before = s.key.at_ns - kKept_ns;
             s.drop_keys.run();
         }
+        for (const auto& closure : records.closures) {
+            s.closure.set(closure);
+            s.put_closure.run();
+        }
+        for (const auto& id : records.reopened) {
+            s.closure.id = stored_id(id);
+            s.drop_closure.run();
+        }
     });
     last_seq_ = seq;
 }
@@ -161,6 +204,12 @@ fleet::StoredFleet FleetStore::load() {
             read_id(key.order_id, record.order);
             stored.idempotency.push_back(std::move(record));
         }
+
+        ClosureRow closure;
+        Statement closures(
+            sql, std::string("SELECT ") + ClosureRow::kColumns + " FROM closures ORDER BY id",
+            std::tuple<>(), closure.fields());
+        for (closures.start(); closures.fetch();) stored.closures.push_back(closure.get());
         return stored;
     });
 }

@@ -43,6 +43,14 @@ plant::Polygon polygon_from_json(const std::string& text) {
     return list_from_json<Point2>(text, decode_point);
 }
 
+std::string names_to_json(const std::vector<plant::EdgeId>& edges) {
+    return list_to_json(edges, [](const plant::EdgeId& edge) { return Json(edge.str()); });
+}
+std::vector<plant::EdgeId> edges_from_json(const std::string& text) {
+    return list_from_json<plant::EdgeId>(
+        text, [](const Json& j) { return plant::EdgeId(j.get<std::string>()); });
+}
+
 std::string wheels_to_json(const std::vector<plant::Wheel>& wheels) {
     return list_to_json(wheels, [](const plant::Wheel& w) {
         return Json{{"name", w.name},

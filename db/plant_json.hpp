@@ -10,6 +10,8 @@ namespace pulseline::db {
 
 std::string polygon_to_json(const plant::Polygon& polygon);
 plant::Polygon polygon_from_json(const std::string& text);
+std::string names_to_json(const std::vector<plant::EdgeId>& edges);
+std::vector<plant::EdgeId> edges_from_json(const std::string& text);
 std::string wheels_to_json(const std::vector<plant::Wheel>& wheels);
 std::vector<plant::Wheel> wheels_from_json(const std::string& text);
 std::string cameras_to_json(const std::vector<plant::Camera>& cameras);

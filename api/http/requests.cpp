@@ -22,6 +22,8 @@ constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
 constexpr double kMaxHeading_rad = 6.2832;
 constexpr std::size_t kMaxKeyBytes = 128;
 constexpr json::TextLimits kVehicleName{1, 64};
+constexpr json::TextLimits kClosureName{1, 100};
+constexpr json::CountLimits kOutline{0, 64};
 
 Result<Json> read_body(const Request& request) {
     if (request.body.empty()) {
@@ -172,6 +174,26 @@ Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request) 
             vehicles.emplace_back(json::read_text(item, pointer, in.errors(), kVehicleName));
         });
         return vehicles;
+    });
+}
+
+Result<fleet::NewClosure> read_new_closure(const Request& request) {
+    return read_object<fleet::NewClosure>(request, [](ObjectReader& in) {
+        fleet::NewClosure closure;
+        closure.name = in.text("name", kClosureName);
+        closure.hall = plant::HallId(in.text_or("hall", "", kVehicleName));
+        in.items_if_any("outline", kOutline, [&](const Json& item, const std::string& pointer) {
+            ObjectReader point(item, pointer, in.errors());
+            const json::NumberLimits metres{-kMaxCoordinate_m, kMaxCoordinate_m};
+            closure.outline.push_back({point.number("x_m", metres), point.number("y_m", metres)});
+            point.refuse_unknown();
+        });
+        in.items_if_any("edges", {0, kMaxClosed},
+                        [&](const Json& item, const std::string& pointer) {
+                            closure.edges.emplace_back(
+                                json::read_text(item, pointer, in.errors(), kVehicleName));
+                        });
+        return closure;
     });
 }
 

@@ -26,6 +26,7 @@ Result<fleet::NewOrder> read_new_order(const Request& request);
 Result<geometry::Pose2> read_pose(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 
+Result<fleet::NewClosure> read_new_closure(const Request& request);
 Result<planning::WhatIf> read_what_if(const Request& request);
 
 Result<bool> read_dry_run(const Request& request);

@@ -4,6 +4,7 @@
 #include "api/http/service_handlers.hpp"
 #include "api/http/session_handlers.hpp"
 #include "api/http/stop_record_handlers.hpp"
+#include "api/http/traffic_handlers.hpp"
 #include "api/http/vehicle_handlers.hpp"
 
 namespace pulseline::api {
@@ -69,6 +70,10 @@ std::span<const Route> routes() {
          kOperator,
          {},
          cancel_job_order},
+
+        {"GET", "/api/v1/traffic", "getTraffic", kViewer, {}, get_traffic},
+        {"POST", "/api/v1/closures", "closeFloor", kOperator, {}, close_floor},
+        {"DELETE", "/api/v1/closures/{id}", "reopenFloor", kOperator, {}, reopen_floor},
 
         {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes},
 

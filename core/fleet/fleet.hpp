@@ -14,7 +14,6 @@
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/fleet/views.hpp"
 #include "core/plant/plant.hpp"
-#include "core/traffic/tile_map.hpp"
 
 namespace pulseline::fleet {
 
@@ -91,6 +90,11 @@ public:
     void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
     bool connection_refused(const plant::VehicleId& id) const;
 
+    /// Floor that nobody is granted until it is reopened; who stands there may leave.
+    /// Errors: nothing_to_close, unknown_hall, unknown_edge, bad_outline, too_many_closures.
+    Result<Closure> close_floor(const NewClosure& wanted, const std::string& actor, Time now);
+    Status reopen_floor(ClosureId id, const std::string& actor, Time now);
+
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
@@ -105,6 +109,8 @@ public:
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
     FleetView view(Time now) const;
+    /// Who waits for whom on the floor, and what is closed.
+    TrafficView traffic(Time now) const;
 
 private:
     std::unique_ptr<FleetState> state_;

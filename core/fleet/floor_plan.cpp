@@ -272,6 +272,11 @@ void give_up_task(FleetState& fleet, VehicleRun& run, Time now) {
 }
 
 void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now) {
+    // Who has an order wants to leave anyway. An idle platform with an aircraft on it stays.
+    const JobOrder* order = fleet.orders.of(run.record.id);
+    fleet.floor.traffic.set_leaves_rest(
+        run.floor.vehicle,
+        order ? order->state == JobState::kRunning && !run.has_leg() : !is_loaded(run));
     const bool can_move = !run.floor.conflict && run.floor.pose && !cannot_move(fleet, run);
     if (can_move) {
         fleet.floor.traffic.resume(run.floor.vehicle, now);
@@ -302,6 +307,9 @@ Reason floor_reason(const FleetState& fleet, const traffic::Block& block) {
     } else if (block.cause == traffic::BlockCause::kClosed) {
         reason.code = "floor_closed";
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
+        if (const Closure* closure = block.tile ? closure_at(fleet, *block.tile) : nullptr) {
+            reason.params.push_back({"closure", closure->name});
+        }
     }
     return reason;
 }

@@ -50,7 +50,9 @@ void park_idle(FleetState& fleet, Time now) {
     std::optional<std::set<traffic::VehicleIndex>> wanted_away;
     for (auto& [id, run] : fleet.vehicles) {
         const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
-        const bool idle = !run.has_leg() && !fleet.orders.of(id) && plan.last() > plan.passed;
+        // An order whose own way is barred does not keep its vehicle from making way meanwhile.
+        const bool waits = !fleet.orders.of(id) || run.floor.next_try;
+        const bool idle = !run.has_leg() && waits && plan.last() > plan.passed;
         if (!idle || cannot_move(fleet, run) || not_ready(fleet, run, now)) {
             if (!idle) run.floor.idle_since.reset();
             continue;

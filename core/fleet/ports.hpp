@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "core/fleet/closures.hpp"
 #include "core/fleet/job_order.hpp"
 
 /// Where the fleet core meets the outside: what it reads at start and what every step puts out.
@@ -26,9 +27,11 @@ struct Records {
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
+    std::vector<Closure> closures;    // new ones
+    std::vector<ClosureId> reopened;  // to forget
     bool empty() const {
         return orders.empty() && vehicles.empty() && stops.empty() && events.empty() &&
-               idempotency.empty();
+               idempotency.empty() && closures.empty() && reopened.empty();
     }
 };
 
@@ -37,6 +40,7 @@ struct StoredFleet {
     std::vector<JobOrder> orders;  // not final ones, and the final ones of the last 7 days
     std::vector<VehicleRecord> vehicles;
     std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
+    std::vector<Closure> closures;               // oldest first
     std::int64_t last_event_seq = 0;
     std::int64_t last_order_number = 0;
     Time last_time;  // newest stored time; the clock may not start before it

@@ -45,6 +45,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         run->record = std::move(record);
     }
     open_floor(fleet, now);
+    restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);
 }
 

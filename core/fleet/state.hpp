@@ -84,6 +84,12 @@ struct FleetState {
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     Floor floor;
+    struct ClosedFloor {
+        Closure closure;
+        traffic::TileSet tiles;
+        traffic::ClosureIndex in_traffic = 0;
+    };
+    std::vector<ClosedFloor> closures;
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fleet/closures.hpp"
 #include "core/fleet/job_order.hpp"
 #include "core/planning/leg_planner.hpp"
 
@@ -78,6 +79,19 @@ struct FleetView {
     int vehicles_total = 0;
     std::vector<plant::VehicleId> needs_resume;
     Time started;
+};
+
+/// The live wait-for graph of traffic and the closed floor.
+struct TrafficView {
+    struct Wait {
+        plant::VehicleId vehicle;
+        plant::VehicleId waits_for;  // empty: it waits for something else, as the reason says
+        Reason reason;
+        std::optional<Time> until;  // predicted; absent: nothing known ends it
+    };
+    std::optional<Reason> stopped;  // the monitor found a violation: nothing is granted
+    std::vector<Wait> waits;
+    std::vector<Closure> closures;
 };
 
 struct Check {

@@ -204,10 +204,20 @@ bool Traffic::make_way(const Block& block, double now_s, std::vector<VehicleInde
     const VehiclePlan& other = joint_.plan(block.vehicle);
     const Vehicle& v = vehicles_[block.vehicle];
     const bool idle = other.last() == other.passed && !other.halted && !v.gone;
-    if (!idle || v.graph == kNoGraph || other.place == kNoPlace || is_resting(block.vehicle)) {
-        return false;
+    if (!idle || v.graph == kNoGraph || other.place == kNoPlace) return false;
+    Task elsewhere;
+    if (is_resting(block.vehicle)) {
+        if (!v.leaves_rest) return false;
+        const CompiledGraph& graph = *graphs_[v.graph];
+        const TileIndexes& here = graph.places[other.place].stand;
+        for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
+            if (graph.places[p].resting && !meet(graph.places[p].stand, here)) {
+                elsewhere.resting.push_back(p);
+            }
+        }
+        if (elsewhere.resting.empty()) return false;
     }
-    if (!plan_from(block.vehicle, other.released, {}, 0, now_s, false)) return false;
+    if (!plan_from(block.vehicle, other.released, elsewhere, 0, now_s, false)) return false;
     tell_plan(block.vehicle);
     made_way.push_back(block.vehicle);
     return true;

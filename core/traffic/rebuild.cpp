@@ -28,6 +28,7 @@ TrafficRecord Traffic::record() const {
         row.since_s = plan.since_s;
         row.halted = plan.halted;
         row.gone = vehicle.gone;
+        row.leaves_rest = vehicle.leaves_rest;
         row.visits = vehicle.task.visits;
         row.resting = vehicle.task.resting;
         row.next_visit = vehicle.next_visit;
@@ -93,6 +94,7 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, const std::vector<
         vehicle.name = row.name;
         vehicle.graph = row.graph;
         vehicle.gone = row.gone;
+        vehicle.leaves_rest = row.leaves_rest;
         vehicle.task.visits = row.visits;
         vehicle.task.resting = row.resting;
         vehicle.next_visit = row.next_visit;

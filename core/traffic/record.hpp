@@ -79,6 +79,7 @@ struct VehicleRecord {
     double since_s = 0;
     bool halted = false;
     bool gone = false;
+    bool leaves_rest = false;
     std::vector<Visit> visits;  // of its task
     std::vector<PlaceIndex> resting;
     VisitIndex next_visit = 0;

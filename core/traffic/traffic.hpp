@@ -117,6 +117,13 @@ public:
     /// Out of traffic; its floor is free at once. For a vehicle carried away.
     void remove_vehicle(VehicleIndex vehicle, Time now);
 
+    /// Whether an idle vehicle at its resting place leaves it for another when a task needs its
+    /// floor. Without this, who rests is never in the way by the layout's condition, or is waited
+    /// for.
+    void set_leaves_rest(VehicleIndex vehicle, bool leaves) {
+        vehicles_[vehicle].leaves_rest = leaves;
+    }
+
     // --- plans
     /// A new task instead of the present one, behind the base. Tries in turn: the soonest plan that
     /// delays nobody (SIPP over the others' predicted stays); the same with idle vehicles out of
@@ -205,6 +212,7 @@ private:
         std::string name;
         GraphIndex graph = kNoGraph;
         bool gone = false;
+        bool leaves_rest = false;
         Task task;  // sequences are used up by the admission
         VisitIndex next_visit = 0;
         double admitted_s = 0;

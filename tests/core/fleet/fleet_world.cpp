@@ -89,6 +89,10 @@ void MemoryStore::commit(const Records& records) {
     stops.insert(stops.end(), records.stops.begin(), records.stops.end());
     events.insert(events.end(), records.events.begin(), records.events.end());
     idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());
+    closures.insert(closures.end(), records.closures.begin(), records.closures.end());
+    std::erase_if(closures, [&](const Closure& closure) {
+        return std::count(records.reopened.begin(), records.reopened.end(), closure.id) > 0;
+    });
 }
 
 StoredFleet MemoryStore::load() const {
@@ -99,6 +103,7 @@ StoredFleet MemoryStore::load() const {
     }
     for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
     stored.idempotency = idempotency;
+    stored.closures = closures;
     if (!events.empty()) {
         stored.last_event_seq = events.back().seq;
         stored.last_time = events.back().at;

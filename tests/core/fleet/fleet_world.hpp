@@ -27,6 +27,7 @@ public:
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
+    std::vector<Closure> closures;
 };
 
 /// Obeys VDA 5050: drives released nodes one by one, measures stops, answers instant actions.

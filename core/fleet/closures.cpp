@@ -1,0 +1,149 @@
+#include "core/fleet/closures.hpp"
+
+#include <algorithm>
+
+#include "core/fleet/state.hpp"
+#include "core/geometry/convex.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr std::size_t kMostClosures = 200;
+constexpr std::size_t kMostCorners = 64;
+constexpr double kLaneHalfWidth_m = 0.1;  // the line vehicles' centres follow
+constexpr double kLaneEnd_m = 0.75;       // of a lane stays open: other lanes meet at its nodes
+
+tl::unexpected<Error> bad(std::string code, std::string what, std::string field,
+                          Params params = {}) {
+    return fail(Errc::kUnreachable, std::move(code), std::move(what), std::move(field),
+                std::move(params));
+}
+
+const plant::RoadmapEdge* find_edge(const plant::Plant& plant, const plant::EdgeId& id) {
+    for (const auto& edge : plant.edges) {
+        if (edge.id == id) return &edge;
+    }
+    return nullptr;
+}
+
+/// A thin strip along the lane.
+geometry::Polygon strip(geometry::Point2 from, geometry::Point2 to) {
+    const geometry::Point2 way = to - from;
+    const double length = norm(way);
+    const double cut = std::min(kLaneEnd_m, length / 3) / length;
+    const geometry::Point2 a = from + cut * way;
+    const geometry::Point2 b = to - cut * way;
+    const geometry::Point2 side{-way.y_m / length * kLaneHalfWidth_m,
+                                way.x_m / length * kLaneHalfWidth_m};
+    return {a - side, b - side, b + side, a + side};
+}
+
+traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
+    traffic::TileSet tiles;
+    if (!closure.outline.empty()) {
+        tiles = traffic::tiles_under(hall_index(fleet.plant, closure.hall),
+                                     geometry::convex_pieces(closure.outline), 0);
+    }
+    for (const auto& id : closure.edges) {
+        const auto* edge = find_edge(fleet.plant, id);
+        const auto* from = edge ? plant::find_node(fleet.plant, edge->from) : nullptr;
+        const auto* to = edge ? plant::find_node(fleet.plant, edge->to) : nullptr;
+        if (!from || !to) continue;
+        tiles =
+            traffic::merge(tiles, traffic::tiles_under(hall_index(fleet.plant, from->hall),
+                                                       {strip(from->position, to->position)}, 0));
+    }
+    return tiles;
+}
+
+Status check(const FleetState& fleet, const NewClosure& wanted) {
+    if (fleet.closures.size() >= kMostClosures) {
+        return bad("too_many_closures", "There are 200 closures already. Reopen some first.", "",
+                   {{"max", static_cast<std::int64_t>(kMostClosures)}});
+    }
+    if (wanted.outline.empty() && wanted.edges.empty()) {
+        return bad("nothing_to_close", "Give an outline of the closed area or the lanes to close.",
+                   "/outline");
+    }
+    if (!wanted.outline.empty()) {
+        if (!plant::find_hall(fleet.plant, wanted.hall)) {
+            return bad("unknown_hall",
+                       "There is no hall " + wanted.hall.str() + ". GET /api/v1/plant lists them.",
+                       "/hall", {{"hall", wanted.hall.str()}});
+        }
+        if (wanted.outline.size() < 3 || wanted.outline.size() > kMostCorners ||
+            std::abs(geometry::area_m2(wanted.outline)) < 1e-4) {
+            return bad("bad_outline", "An outline is an area of 3 to 64 corners.", "/outline");
+        }
+    }
+    for (std::size_t i = 0; i < wanted.edges.size(); ++i) {
+        if (find_edge(fleet.plant, wanted.edges[i])) continue;
+        return bad("unknown_edge", "There is no lane " + wanted.edges[i].str() + " in the roadmap.",
+                   "/edges/" + std::to_string(i), {{"edge", wanted.edges[i].str()}});
+    }
+    return {};
+}
+
+void put_on_floor(FleetState& fleet, Closure closure, Time now) {
+    FleetState::ClosedFloor closed;
+    closed.tiles = tiles_of(fleet, closure);
+    closed.in_traffic = fleet.floor.traffic.close(closed.tiles, now);
+    closed.closure = std::move(closure);
+    fleet.closures.push_back(std::move(closed));
+}
+
+}  // namespace
+
+Result<Closure> close_floor(FleetState& fleet, const NewClosure& wanted, const std::string& actor,
+                            Time now) {
+    if (auto ok = check(fleet, wanted); !ok) return fail(ok.error());
+    Closure closure{ClosureId(fleet.ids.next(now)),
+                    wanted.name,
+                    wanted.hall,
+                    wanted.outline,
+                    wanted.edges,
+                    actor,
+                    now};
+    put_on_floor(fleet, closure, now);
+    fleet.out.records.closures.push_back(closure);
+    fleet.out.fleet_changed = true;
+    add_event(fleet, now, "floor.closed", {}, {}, {}, actor,
+              {{"closure", closure.id.str()}, {"name", closure.name}});
+    // Who is on the way there looks for another way at once.
+    fleet.floor.improved.reset();
+    return closure;
+}
+
+Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, Time now) {
+    const auto found = std::find_if(fleet.closures.begin(), fleet.closures.end(),
+                                    [&](const auto& c) { return c.closure.id == id; });
+    if (found == fleet.closures.end()) {
+        return fail(Errc::kNotFound, "unknown_closure",
+                    "There is no closure " + id.str() + "; perhaps it was reopened.", {},
+                    {{"closure", id.str()}});
+    }
+    fleet.floor.traffic.reopen(found->in_traffic, now);
+    fleet.out.records.reopened.push_back(id);
+    fleet.out.fleet_changed = true;
+    add_event(fleet, now, "floor.reopened", {}, {}, {}, actor,
+              {{"closure", id.str()}, {"name", found->closure.name}});
+    fleet.closures.erase(found);
+    fleet.floor.improved.reset();
+    return {};
+}
+
+void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now) {
+    for (auto& closure : closures) put_on_floor(fleet, std::move(closure), now);
+    floor_is_sound(fleet, now);
+}
+
+const Closure* closure_at(const FleetState& fleet, traffic::TileId tile) {
+    for (const auto& closed : fleet.closures) {
+        if (std::binary_search(closed.tiles.begin(), closed.tiles.end(), tile)) {
+            return &closed.closure;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,285 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/fleet/fleet_world.hpp"
+
+// Vehicles that meet: the fleet's side of core/traffic, with obedient vehicles.
+namespace pulseline::fleet::testing {
+namespace {
+
+using plant::VehicleId;
+
+struct Spot {
+    const char* name;
+    double x_m;
+    double y_m;
+    int station = 0;  // number; 0: only a node
+};
+
+/// A hall of stations and nodes joined by two-way lanes; every station is a resting place. Vehicles
+/// stand at the first stations.
+plant::Plant plant_of(const std::vector<Spot>& spots,
+                      const std::vector<std::pair<const char*, const char*>>& lanes, int vehicles) {
+    plant::Plant plant = small_plant();
+    plant.halls[0].outline = {{0, 0}, {100, 0}, {100, 80}, {0, 80}};
+    plant.stations.clear();
+    plant.markers.clear();
+    plant.nodes.clear();
+    plant.edges.clear();
+    plant.vehicles.clear();
+    for (const Spot& spot : spots) {
+        plant.nodes.push_back({plant::NodeId(spot.name), plant.halls[0].id, {spot.x_m, spot.y_m}});
+        if (spot.station == 0) continue;
+        plant::Station station;
+        station.id = plant::StationId("s" + std::to_string(spot.station));
+        station.number = spot.station;
+        station.name = spot.name;
+        station.hall = plant.halls[0].id;
+        station.pose = {spot.x_m, spot.y_m, 0};
+        station.node = plant::NodeId(spot.name);
+        station.resting_place = true;
+        plant.stations.push_back(station);
+    }
+    for (const auto& [a, b] : lanes) {
+        for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, a}}) {
+            plant::RoadmapEdge edge;
+            edge.from = plant::NodeId(from);
+            edge.to = plant::NodeId(to);
+            edge.id = plant::EdgeId(std::string(from) + "." + to);
+            plant.edges.push_back(edge);
+        }
+    }
+    for (int i = 0; i < vehicles; ++i) {
+        plant::Vehicle vehicle;
+        vehicle.id = VehicleId("V" + std::to_string(i + 1));
+        vehicle.type = plant.vehicle_types[0].id;
+        vehicle.manufacturer = "test";
+        vehicle.serial_number = vehicle.id.str();
+        vehicle.home = plant.stations[static_cast<std::size_t>(i)].id;
+        plant.vehicles.push_back(vehicle);
+    }
+    return plant;
+}
+
+/// Two ends of a lane with a bay beside its middle.
+plant::Plant corridor() {
+    return plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40}, {"bay", 40, 52, 3}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "bay"}}, 2);
+}
+
+void confirm_poses(World& world) {
+    world.connect_all();
+    for (auto& [id, vehicle] : world.vehicles) {
+        vehicle.state.position_initialized = true;
+    }
+    world.run(1);
+}
+
+JobOrder order_of(const World& world, const std::string& vehicle) {
+    for (const auto& [id, order] : world.store.orders) {
+        if (order.assigned_vehicle == VehicleId(vehicle) ||
+            order.wanted_vehicle == VehicleId(vehicle)) {
+            return order;
+        }
+    }
+    return {};
+}
+
+TEST(TrafficScenarios, TwoThatWantEachOthersPlaceMeetHeadOnAndOneUsesTheBay) {
+    World world(corridor());
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.order("V2", {1}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_EQ(order_of(world, "V2").state, JobState::kEnded) << order_of(world, "V2").reason.code;
+    EXPECT_FALSE(world.fleet->traffic(world.now).stopped);
+}
+
+TEST(TrafficScenarios, WhoWaitsIsInTheWaitForGraphWithWhomItWaitsFor) {
+    World world(corridor());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.order("V2", {1}));
+
+    bool seen = false;
+    for (int i = 0; i < 600 && !seen; ++i) {
+        world.run(0.5);
+        for (const auto& wait : world.fleet->traffic(world.now).waits) {
+            seen |= wait.vehicle != wait.waits_for && !wait.waits_for.empty() &&
+                    wait.reason.code == "floor_held";
+        }
+    }
+    EXPECT_TRUE(seen);
+}
+
+TEST(TrafficScenarios, AnIdleVehicleInABayLeavesItForAnother) {
+    World world(plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+                         {{"west", "middle"}, {"middle", "east"}}, 2));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V2", {3}));
+    world.run(200);
+    ASSERT_EQ(order_of(world, "V2").state, JobState::kEnded);
+
+    // V2 rests in the middle of the only lane; V1 has to get past it.
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(400);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
+    EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s2"));
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
+}
+
+TEST(TrafficScenarios, ALoadedVehicleStaysWhereItStands) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+                                  {{"west", "middle"}, {"middle", "east"}}, 2);
+    plant.vehicles[1].load_name = "A-101";
+    World world(plant);
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(200);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kRunning);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 0);
+}
+
+TEST(TrafficScenarios, FourThatWantTheNextOnesPlaceGoRoundOverACrossing) {
+    World world(plant_of({{"west", 10, 40, 1},
+                          {"north", 40, 70, 2},
+                          {"east", 70, 40, 3},
+                          {"south", 40, 10, 4},
+                          {"crossing", 40, 40},
+                          {"bay", 60, 60, 5}},
+                         {{"west", "crossing"},
+                          {"north", "crossing"},
+                          {"east", "crossing"},
+                          {"south", "crossing"},
+                          {"crossing", "bay"}},
+                         4));
+    confirm_poses(world);
+
+    for (int i = 1; i <= 4; ++i) {
+        ASSERT_TRUE(world.order("V" + std::to_string(i), {i % 4 + 1}));
+    }
+    world.run(1500);
+
+    for (int i = 1; i <= 4; ++i) {
+        const auto order = order_of(world, "V" + std::to_string(i));
+        EXPECT_EQ(order.state, JobState::kEnded) << i << " " << order.reason.code;
+    }
+    EXPECT_FALSE(world.fleet->traffic(world.now).stopped);
+}
+
+/// Two ways from west to east, the upper one longer.
+plant::Plant two_ways() {
+    return plant_of({{"west", 10, 40, 1},
+                     {"east", 70, 40, 2},
+                     {"low", 40, 40, 3},
+                     {"a", 10, 60},
+                     {"b", 70, 60},
+                     {"far", 90, 40, 4}},
+                    {{"west", "low"},
+                     {"low", "east"},
+                     {"west", "a"},
+                     {"a", "b"},
+                     {"b", "east"},
+                     {"east", "far"}},
+                    2);
+}
+
+TEST(TrafficScenarios, ABrokenDownVehicleOnTheShortWayIsPassedOnTheLongOne) {
+    plant::Plant plant = two_ways();
+    plant.vehicles[1].home = plant::StationId("s3");
+    World world(plant);
+    confirm_poses(world);
+    world.vehicle("V2").state.errors.push_back({"driveFault", true, "no drive", {}});
+    world.run(1);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
+TEST(TrafficScenarios, OnTheOnlyRoadABreakdownIsWaitedForWithItsName) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+                                  {{"west", "middle"}, {"middle", "east"}}, 2);
+    plant.vehicles[1].home = plant::StationId("s3");
+    World world(plant);
+    confirm_poses(world);
+    world.vehicle("V2").state.errors.push_back({"driveFault", true, "no drive", {}});
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(60);
+    ASSERT_EQ(order_of(world, "V1").state, JobState::kRunning);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
+
+    world.vehicle("V2").state.errors.clear();
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << "it made way once it could";
+}
+
+TEST(TrafficScenarios, ClosedLanesAreGoneRoundAndKeptOverARestart) {
+    World world(two_ways());
+    confirm_poses(world);
+    world.run(1);
+    NewClosure closure;
+    closure.name = "Wet paint";
+    closure.edges = {plant::EdgeId("west.low")};
+    const auto closed = world.fleet->close_floor(closure, "op", world.now);
+    ASSERT_TRUE(closed);
+    world.settle();
+    world.crash_server();
+    ASSERT_EQ(world.fleet->traffic(world.now).closures.size(), 1u);
+    world.run(2);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(600);
+    ASSERT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_GT(world.vehicle("V1").node_steps, 20) << "by the long way";
+
+    ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
+    world.settle();
+    EXPECT_TRUE(world.fleet->traffic(world.now).closures.empty());
+    EXPECT_TRUE(world.store.closures.empty());
+}
+
+TEST(TrafficScenarios, AnOrderWithoutAnyOtherWayWaitsForTheClosureByName) {
+    World world(corridor());
+    confirm_poses(world);
+    NewClosure closure;
+    closure.name = "Door test";
+    closure.hall = plant::HallId("h1");
+    closure.outline = {{20, 36}, {24, 36}, {24, 44}, {20, 44}};
+    const auto closed = world.fleet->close_floor(closure, "op", world.now);
+    ASSERT_TRUE(closed);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(5);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_closed");
+
+    ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
+    world.run(300);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
+}
+
+TEST(TrafficScenarios, WrongClosuresAreRefusedWithTheField) {
+    World world(corridor());
+    const auto refused = [&](NewClosure wanted) {
+        const auto closed = world.fleet->close_floor(wanted, "op", world.now);
+        return closed ? std::string() : closed.error().reason.code + " " + closed.error().field;
+    };
+    EXPECT_EQ(refused({"x", {}, {}, {}}), "nothing_to_close /outline");
+    EXPECT_EQ(refused({"x", {}, {}, {plant::EdgeId("no")}}), "unknown_edge /edges/0");
+    EXPECT_EQ(refused({"x", plant::HallId("h9"), {{0, 0}, {1, 0}, {0, 1}}, {}}),
+              "unknown_hall /hall");
+    EXPECT_EQ(refused({"x", plant::HallId("h1"), {{0, 0}, {1, 0}, {2, 0}}, {}}),
+              "bad_outline /outline");
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing
