@@ -11,7 +11,10 @@ namespace {
 constexpr std::size_t kMostClosures = 200;
 constexpr std::size_t kMostCorners = 64;
 constexpr double kLaneHalfWidth_m = 0.1;  // the line vehicles' centres follow
-constexpr double kLaneEnd_m = 0.75;       // of a lane stays open: other lanes meet at its nodes
+// The ends of a lane stay open: who stands at its nodes is not on it. Nobody drives it without
+// crossing its middle.
+constexpr double kLaneEnd_m = 6.0;
+constexpr double kLaneEndShare = 0.4;
 
 tl::unexpected<Error> bad(std::string code, std::string what, std::string field,
                           Params params = {}) {
@@ -30,7 +33,7 @@ const plant::RoadmapEdge* find_edge(const plant::Plant& plant, const plant::Edge
 geometry::Polygon strip(geometry::Point2 from, geometry::Point2 to) {
     const geometry::Point2 way = to - from;
     const double length = norm(way);
-    const double cut = std::min(kLaneEnd_m, length / 3) / length;
+    const double cut = std::min(kLaneEnd_m, kLaneEndShare * length) / length;
     const geometry::Point2 a = from + cut * way;
     const geometry::Point2 b = to - cut * way;
     const geometry::Point2 side{-way.y_m / length * kLaneHalfWidth_m,

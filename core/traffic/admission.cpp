@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "core/traffic/mutation.hpp"
 #include "core/traffic/traffic.hpp"
@@ -9,6 +10,7 @@ namespace {
 constexpr std::size_t kTimesKept = 16'000'000;  // floats of distance tables, 64 MB
 constexpr double kFresh_s = 0.5;         // predictions serve as long: they steer quality, not order
 constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
+constexpr std::size_t kMostRestsTried = 8;  // for one of them
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
 
@@ -199,25 +201,50 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
     return admission;
 }
 
-bool Traffic::make_way(const Block& block, double now_s, std::vector<VehicleIndex>& made_way) {
+/// The nearest other resting place at which the vehicle is out of the task's way.
+bool Traffic::rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
+                             double now_s) {
+    const GraphIndex number = vehicles_[resting].graph;
+    const CompiledGraph& graph = *graphs_[number];
+    const VehiclePlan& plan = joint_.plan(resting);
+    const TileIndexes& here = graph.places[plan.place].stand;
+    std::vector<std::pair<float, PlaceIndex>> others;
+    for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
+        if (!graph.places[p].resting || meet(graph.places[p].stand, here)) continue;
+        const float away_s = (*times_to_places(number, {p}))[plan.place];
+        if (!std::isinf(away_s)) others.push_back({away_s, p});
+    }
+    std::sort(others.begin(), others.end());
+    if (others.size() > kMostRestsTried) others.resize(kMostRestsTried);
+    for (const auto& [away_s, place] : others) {
+        Undos undos;
+        Task elsewhere;
+        elsewhere.resting = {place};
+        if (!plan_from(resting, plan.released, elsewhere, 0, now_s, false, &undos)) continue;
+        Undos trial;
+        const MoveNumber from = joint_.plan(for_vehicle).released;
+        const auto through = plan_from(for_vehicle, from, task, 0, now_s, false, &trial);
+        const bool helps = through || through.error().cause != BlockCause::kVehicle ||
+                           through.error().vehicle != resting;
+        roll_back(trial);
+        if (helps) return true;
+        roll_back(undos);
+    }
+    return false;
+}
+
+bool Traffic::make_way(const Block& block, VehicleIndex vehicle, const Task& task, double now_s,
+                       std::vector<VehicleIndex>& made_way) {
     if (block.cause != Obstacle::Cause::kVehicle || made_way.size() >= kMostMakeWay) return false;
     const VehiclePlan& other = joint_.plan(block.vehicle);
     const Vehicle& v = vehicles_[block.vehicle];
     const bool idle = other.last() == other.passed && !other.halted && !v.gone;
     if (!idle || v.graph == kNoGraph || other.place == kNoPlace) return false;
-    Task elsewhere;
     if (is_resting(block.vehicle)) {
-        if (!v.leaves_rest) return false;
-        const CompiledGraph& graph = *graphs_[v.graph];
-        const TileIndexes& here = graph.places[other.place].stand;
-        for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
-            if (graph.places[p].resting && !meet(graph.places[p].stand, here)) {
-                elsewhere.resting.push_back(p);
-            }
-        }
-        if (elsewhere.resting.empty()) return false;
+        if (!v.leaves_rest || !rest_elsewhere(block.vehicle, vehicle, task, now_s)) return false;
+    } else if (!plan_from(block.vehicle, other.released, {}, 0, now_s, false)) {
+        return false;
     }
-    if (!plan_from(block.vehicle, other.released, elsewhere, 0, now_s, false)) return false;
     tell_plan(block.vehicle);
     made_way.push_back(block.vehicle);
     return true;
@@ -228,13 +255,13 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
     const VehiclePlan& plan = joint_.plan(vehicle);
     std::vector<VehicleIndex> made_way;
     auto admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-    while (!admission && make_way(admission.error(), now_s, made_way)) {
+    while (!admission && make_way(admission.error(), vehicle, task, now_s, made_way)) {
         admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
     }
     if (!admission && in_the_way(vehicle) && untangle(now_s)) {
         do {
             admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-        } while (!admission && make_way(admission.error(), now_s, made_way));
+        } while (!admission && make_way(admission.error(), vehicle, task, now_s, made_way));
     }
     const bool has_incumbent = plan.last() > plan.released;
     if (!admission && has_incumbent && task.sequences.empty()) {

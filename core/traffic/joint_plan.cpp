@@ -349,7 +349,10 @@ std::optional<TileIndex> JointPlan::closed_tile(const TileIndexes& stand,
     const auto closed = [&](TileIndex tile) { return is_closed(tile); };
     const auto it = std::find_if(shape.swept.begin(), shape.swept.end(), closed);
     if (it == shape.swept.end()) return {};
-    if (std::any_of(stand.begin(), stand.end(), closed)) return {};
+    // Leaving never gets it deeper in: else a long body would drive through, piece after piece.
+    const auto before = std::count_if(stand.begin(), stand.end(), closed);
+    const auto after = std::count_if(shape.stand.begin(), shape.stand.end(), closed);
+    if (before > 0 && after <= before) return {};
     return *it;
 }
 

@@ -156,7 +156,8 @@ public:
     /// floor_held {vehicle, tile} when another holds floor there: nothing is changed but that the
     /// vehicle is halted; stop the other one first.
     Status found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex place, Time now);
-    /// No grants into the tiles any more; who stands on closed floor may leave it.
+    /// No grants into the tiles any more; who stands on closed floor may leave it, on any way that
+    /// ends with no more of its body on closed floor.
     ClosureIndex close(const TileSet& tiles, Time now);
     void reopen(ClosureIndex closure, Time now);
 
@@ -240,7 +241,10 @@ private:
     void roll_back(Undos& undos);
     tl::expected<Admission, Block> admit_any_way(VehicleIndex vehicle, const Task& task,
                                                  double now_s);
-    bool make_way(const Block& block, double now_s, std::vector<VehicleIndex>& made_way);
+    bool make_way(const Block& block, VehicleIndex vehicle, const Task& task, double now_s,
+                  std::vector<VehicleIndex>& made_way);
+    bool rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
+                        double now_s);
     VisitIndex first_open_visit(VehicleIndex vehicle) const;
     bool is_resting(VehicleIndex vehicle) const;
     bool is_blocked(VehicleIndex vehicle, double now_s) const;
