@@ -58,9 +58,10 @@ struct SearchResult {
 };
 
 /// Safe-interval path planning (Phillips, Likhachev, ICRA 2011) over sets of tiles. Input: the
-/// predicted stays of all others. Output: the plan that ends soonest without delaying any of
-/// them. A state is a place, a number of visits done and one interval in which the place's tiles
-/// are free of others; A* with the exact times on an empty floor as bound. Keeps its working
+/// predicted stays of all others. Output: a plan that delays none of them and takes at most 1.25
+/// times as long as the soonest one. A state is a place, a number of visits done and one interval
+/// in which the place's tiles are free of others; weighted A* with the exact times on an empty
+/// floor as bound. Keeps its working
 /// memory between searches; holds no state that matters.
 class WindowSearch {
 public:
