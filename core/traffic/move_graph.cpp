@@ -62,6 +62,7 @@ CompiledGraph compile(const MoveGraph& graph, TileTable& tiles) {
     CompiledGraph result;
     result.places.reserve(graph.places.size());
     for (const Place& place : graph.places) {
+        if (place.resting) result.resting.push_back(static_cast<PlaceIndex>(result.places.size()));
         result.places.push_back({tiles.indexes_of(place.stand), place.resting});
     }
     const std::size_t count = graph.places.size();

@@ -75,6 +75,7 @@ struct CompiledGraph {
         bool resting = false;
     };
     std::vector<Node> places;
+    std::vector<PlaceIndex> resting;
     std::vector<std::uint32_t> first_arc;  // per place, and one past the last
     std::vector<Arc> arcs;
     std::uint32_t floors = 0;

@@ -218,6 +218,7 @@ private:
                                              bool before_others, Undos* undos = nullptr);
     SearchTask search_task(VehicleIndex vehicle, MoveNumber from_move, const Task& task,
                            VisitIndex first_visit, double now_s);
+    void choose_rests(VehicleIndex vehicle, const Task& task, SearchTask& search);
     bool merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves, Placement placement,
                     double now_s, Undos* undos = nullptr);
     void roll_back(Undos& undos);

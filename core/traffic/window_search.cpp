@@ -18,6 +18,11 @@ constexpr double kEver_s = std::numeric_limits<double>::infinity();
 }  // namespace
 
 SearchResult WindowSearch::find(const JointPlan& joint, const SearchTask& task) {
+    if (task.hopeless) {
+        SearchResult hopeless;
+        hopeless.obstacle = *task.hopeless;
+        return hopeless;
+    }
     start(joint, task);
     const auto later = [](const OpenEntry& a, const OpenEntry& b) {
         if (a.bound_s != b.bound_s) return a.bound_s > b.bound_s;
@@ -102,7 +107,7 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
     for (std::size_t k = task.stops.size(); k-- > 0;) {
         const PlaceIndex here = task.stops[k].place;
         const bool last = k + 1 == task.stops.size();
-        const auto* onward = last ? task.times_to_rest : task.stops[k + 1].times_to;
+        const auto& onward = last ? task.times_to_rest : task.stops[k + 1].times_to;
         rest_of_way_s_[k] = task.stops[k].dwell_s + (onward ? (*onward)[here] : 0.0F) +
                             (last ? 0.0 : rest_of_way_s_[k + 1]);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,13 +20,22 @@ struct FixedSequence {
     PlaceIndex ends_at = kNoPlace;  // in the graph; kNoPlace: it ends at a resting place of its own
 };
 
+/// What kept a vehicle from a plan or a grant.
+struct Obstacle {
+    using Cause = BlockCause;
+    Cause cause = Cause::kNoRoute;
+    VehicleIndex vehicle = 0;       // kVehicle
+    MoveNumber move = 0;            // of that vehicle: it must be passed; kForever: it stays
+    std::optional<TileIndex> tile;  // kVehicle, kClosed
+};
+
 /// A way from the end of the base through all visits to a resting place.
 struct SearchTask {
     struct Stop {
         PlaceIndex place = kNoPlace;
         double dwell_s = 0;
         VisitIndex visit = 0;
-        const std::vector<float>* times_to = nullptr;  // on an empty floor, per place
+        std::shared_ptr<const std::vector<float>> times_to;  // on an empty floor, per place
     };
     VehicleIndex vehicle = 0;
     const CompiledGraph* graph = nullptr;  // may be null when sequences lead to the end
@@ -35,19 +45,11 @@ struct SearchTask {
     double now_s = 0;
     std::vector<Stop> stops;
     std::vector<PlaceIndex> resting;                    // empty: all resting places of the graph
-    const std::vector<float>* times_to_rest = nullptr;  // to the nearest of them
+    std::shared_ptr<const std::vector<float>> times_to_rest;  // to the nearest of them
+    std::optional<Obstacle> hopeless;  // known beforehand: no resting place can be free
     std::vector<FixedSequence> sequences;
     bool only_lasting = false;  // heed only stays without an end, as if all others would give way
     std::size_t most_labels = 200'000;  // bound of the work
-};
-
-/// What kept a vehicle from a plan or a grant.
-struct Obstacle {
-    using Cause = BlockCause;
-    Cause cause = Cause::kNoRoute;
-    VehicleIndex vehicle = 0;       // kVehicle
-    MoveNumber move = 0;            // of that vehicle: it must be passed; kForever: it stays
-    std::optional<TileIndex> tile;  // kVehicle, kClosed
 };
 
 struct SearchResult {
