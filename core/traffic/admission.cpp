@@ -8,8 +8,8 @@ namespace {
 
 constexpr std::size_t kTimesKept = 32'000'000;  // floats of distance tables, 128 MB
 constexpr std::size_t kFewRests = 8;
-constexpr double kFresh_s = 0.5;  // predictions serve as long: they steer quality, not order
-constexpr std::size_t kMostMakeWay = 3;         // idle vehicles sent off for one task
+constexpr double kFresh_s = 0.5;         // predictions serve as long: they steer quality, not order
+constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
 
@@ -105,7 +105,8 @@ void Traffic::choose_rests(VehicleIndex vehicle, const Task& task, SearchTask& s
             free.push_back(place);
             if (free.size() > kFewRests) break;
         } else if (!taken) {
-            taken = Obstacle{BlockCause::kVehicle, joint_.queue(*tile).back().vehicle, kForever, *tile};
+            taken =
+                Obstacle{BlockCause::kVehicle, joint_.queue(*tile).back().vehicle, kForever, *tile};
         }
     }
     if (free.size() > kFewRests) {

@@ -373,6 +373,12 @@ std::optional<TileIndex> JointPlan::obstacle(VehicleIndex vehicle, MoveNumber n)
     return closed_tile(plan.stand_after(n - 1), shape);
 }
 
+void JointPlan::set_released(VehicleIndex vehicle, MoveNumber n, double now_s) {
+    VehiclePlan& plan = vehicles_[vehicle];
+    if (plan.released == plan.passed) plan.since_s = now_s;  // it stood and waited until now
+    plan.released = n;
+}
+
 void JointPlan::pass(VehicleIndex vehicle, MoveNumber n, double now_s) {
     VehiclePlan& plan = vehicles_[vehicle];
     while (plan.passed < n) {

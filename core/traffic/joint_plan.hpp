@@ -103,7 +103,7 @@ public:
 
     /// First tile that keeps move `n` from its grant now; none: it may be granted.
     std::optional<TileIndex> obstacle(VehicleIndex vehicle, MoveNumber n) const;
-    void set_released(VehicleIndex vehicle, MoveNumber n) { vehicles_[vehicle].released = n; }
+    void set_released(VehicleIndex vehicle, MoveNumber n, double now_s);
     /// Moves up to n are behind the vehicle, tail included. REQUIRES: n <= released.
     void pass(VehicleIndex vehicle, MoveNumber n, double now_s);
     void set_halted(VehicleIndex vehicle, bool halted, double now_s);

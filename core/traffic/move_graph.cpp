@@ -22,6 +22,11 @@ TileIndexes TileTable::indexes_of(const TileSet& tiles) {
     return result;
 }
 
+std::optional<TileIndex> TileTable::find(TileId tile) const {
+    const auto it = indexes_.find(tile);
+    return it == indexes_.end() ? std::nullopt : std::optional(it->second);
+}
+
 TileSet TileTable::ids_of(const TileIndexes& tiles) const {
     TileSet result;
     result.reserve(tiles.size());

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -41,6 +42,7 @@ class TileTable {
 public:
     TileIndex index_of(TileId tile);  // makes a handle for a tile not seen before
     TileIndexes indexes_of(const TileSet& tiles);
+    std::optional<TileIndex> find(TileId tile) const;
     TileId id_of(TileIndex index) const { return ids_[index]; }
     TileSet ids_of(const TileIndexes& tiles) const;
     std::size_t size() const { return ids_.size(); }

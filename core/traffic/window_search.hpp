@@ -44,7 +44,7 @@ struct SearchTask {
     double start_s = 0;
     double now_s = 0;
     std::vector<Stop> stops;
-    std::vector<PlaceIndex> resting;                    // empty: all resting places of the graph
+    std::vector<PlaceIndex> resting;  // empty: all resting places of the graph
     std::shared_ptr<const std::vector<float>> times_to_rest;  // to the nearest of them
     std::optional<Obstacle> hopeless;  // known beforehand: no resting place can be free
     std::vector<FixedSequence> sequences;
@@ -61,10 +61,10 @@ struct SearchResult {
 
 /// Safe-interval path planning (Phillips, Likhachev, ICRA 2011) over sets of tiles. Input: the
 /// predicted stays of all others. Output: a plan that delays none of them and takes at most 1.25
-/// times as long as the soonest one. A state is a place, a number of visits done and one interval
-/// in which the place's tiles are free of others; weighted A* with the exact times on an empty
-/// floor as bound. Keeps its working
-/// memory between searches; holds no state that matters.
+/// times as long as the soonest one, more only when the search gets long. A state is a place, a
+/// number of visits done and one interval in which the place's tiles are free of others; weighted
+/// A* with the exact times on an empty floor as bound. Keeps its working memory between searches;
+/// holds no state that matters.
 class WindowSearch {
 public:
     /// REQUIRES: joint.predict(task.now_s) was called after the last change.
@@ -92,8 +92,8 @@ private:
         bool closed;
     };
     struct OpenEntry {
-        double bound_s;
-        double arrive_s;
+        double end_s;   // no plan through the label ends sooner (but for the greed)
+        double left_s;  // way that is left on an empty floor
         std::uint32_t label;
     };
     struct Step {  // of the sequences, as arcs between places behind the graph's
@@ -109,6 +109,8 @@ private:
              double leave_s, double arrive_s, double until_s);
     bool is_end(const Label& label) const;
     double bound(PlaceIndex place, std::size_t stage) const;
+    OpenEntry entry_of(std::uint32_t index) const;
+    void find_earliest();
     Range free_windows(const TileIndexes& tiles);
     const Range& place_windows(PlaceIndex place);
     const Range& arc_windows(std::uint32_t arc);
@@ -125,6 +127,7 @@ private:
     std::vector<const TileIndexes*> own_stands_;  // of those places
     std::vector<bool> own_ends_;                  // where a sequence ends for good
     std::vector<double> rest_of_way_s_;           // from stop k to the end, on an empty floor
+    std::vector<double> earliest_s_;  // by stage: before it nobody can be at its stop (last: rest)
     std::vector<Label> labels_;
     std::vector<std::uint32_t> heads_;  // first label per stage and place
     std::vector<std::uint32_t> head_stamps_;
@@ -135,6 +138,7 @@ private:
     std::vector<Range> place_ranges_;
     std::vector<Range> floor_ranges_;
     std::uint32_t stamp_ = 0;
+    double greed_ = 1;
     double obstacle_bound_s_ = 0;
     Obstacle obstacle_;
 };
