@@ -232,7 +232,7 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
 }
 
 bool Traffic::make_way(const Block& block, double now_s, std::vector<VehicleIndex>& made_way) {
-    if (block.cause != Obstacle::Cause::kVehicle || made_way.size() >= kMostMakeWay) return false;
+    if (block.cause != Obstacle::Cause::kVehicle) return false;
     const VehiclePlan& other = joint_.plan(block.vehicle);
     const Vehicle& v = vehicles_[block.vehicle];
     const bool idle = other.last() == other.passed && !other.halted && !v.gone;
@@ -250,13 +250,15 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
     const VehiclePlan& plan = joint_.plan(vehicle);
     std::vector<VehicleIndex> made_way;
     auto admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-    while (!admission && make_way(admission.error(), now_s, made_way)) {
+    while (!admission && made_way.size() < kMostMakeWay &&
+           make_way(admission.error(), now_s, made_way)) {
         admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
     }
     if (!admission && in_the_way(vehicle) && untangle(now_s)) {
         do {
             admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-        } while (!admission && make_way(admission.error(), now_s, made_way));
+        } while (!admission && made_way.size() < kMostMakeWay &&
+                 make_way(admission.error(), now_s, made_way));
     }
     const bool has_incumbent = plan.last() > plan.released;
     if (!admission && has_incumbent && task.sequences.empty()) {

@@ -225,6 +225,10 @@ Improvement Traffic::improve(Time now, int steps) {
                 result.changed.push_back(*before);
             }
         }
+        if (!changed && candidate.urgency > 0 && vehicles_[v].blocked_by) {
+            // An idle one that was left in a lane; the next call finds the way free.
+            make_way(*vehicles_[v].blocked_by, now_s, result.changed);
+        }
         if (changed) {
             result.changed.push_back(v);
         } else if (candidate.urgency > 0) {

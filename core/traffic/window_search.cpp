@@ -12,7 +12,7 @@ constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 // Weighted A* (Pohl 1970): the plan takes at most this times the soonest one's time from here on.
 // Without it every short wait for somebody makes all ways of nearly equal length worth a look.
 constexpr double kGreed = 1.25;
-constexpr std::size_t kPatience = 2'000;  // labels; then twice as greedy, at twice as many again
+constexpr std::size_t kPatience = 1'000;  // labels; then twice as greedy, at twice as many again
 constexpr std::ptrdiff_t kRecent = 12;    // stays looked back at; more costs more than it saves
 constexpr double kEver_s = std::numeric_limits<double>::infinity();
 
