@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kTimesKept = 32'000'000;  // floats of distance tables, 128 MB
 constexpr std::size_t kFewRests = 8;
-constexpr double kFresh_s = 0.5;         // predictions serve as long: they steer quality, not order
+constexpr double kFresh_s = 5;           // predictions serve as long: they steer quality, not order
 constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
 
 bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }

@@ -159,6 +159,7 @@ bool Traffic::improve_pair(VehicleIndex vehicle, VehicleIndex before, double now
 
 Improvement Traffic::improve(Time now, int steps) {
     const double now_s = s(now);
+    if (now_s > predicted_s_) predicted_ = false;
     predict(now_s);
     struct Candidate {
         VehicleIndex vehicle;

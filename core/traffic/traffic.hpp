@@ -151,12 +151,13 @@ public:
     void reopen(ClosureIndex closure, Time now);
 
     // --- quality
-    /// Up to `steps` searches: blocked vehicles first (a way round, else out of the way to a
-    /// resting place with the visits postponed), then those that lose most time, alone and in pairs
-    /// with the one they wait for. Accepted only when acyclic, sooner, and the oldest task's
-    /// finish does not move back. When a vehicle without a plan stands in the way and cannot leave,
-    /// all that are blocked give up their horizons; those without a graph then need sequences
-    /// again.
+    /// Call it about once a second: it also brings the predicted times up to date, which admission
+    /// then need not do. Up to `steps` searches: blocked vehicles first (a way round, else out of
+    /// the way to a resting place with the visits postponed), then those that lose most time, alone
+    /// and in pairs with the one they wait for. Accepted only when acyclic, sooner, and the oldest
+    /// task's finish does not move back. When a vehicle without a plan stands in the way and cannot
+    /// leave, all that are blocked give up their horizons; those without a graph then need
+    /// sequences again.
     Improvement improve(Time now, int steps);
 
     /// Vehicles whose horizon changed since the last call, by whatever call: send it to them.

@@ -48,6 +48,8 @@ std::string measure(const World& world, double hours, std::uint64_t releases) {
         quantile(ours.release_us, 0.5), quantile(ours.release_us, 0.99), ours.release_us.size(),
         static_cast<unsigned long long>(ours.releases),
         static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024);
+    std::printf("  improvement step p50 %.0f us, p99 %.0f us\n", quantile(ours.improve_us, 0.5),
+                quantile(ours.improve_us, 0.99));
     std::fflush(stdout);
     char text[512];
     std::snprintf(
@@ -61,7 +63,8 @@ std::string measure(const World& world, double hours, std::uint64_t releases) {
     return "  \"" + world.name + "\": {\"vehicles\": " + std::to_string(world.starts.size()) +
            ", \"well_formed\": " + (world.well_formed ? "true" : "false") + ",\n    " +
            quantiles("admission", ours.admission_us) + ",\n    " +
-           quantiles("release_decision", ours.release_us) + ",\n    " + text + "}";
+           quantiles("release_decision", ours.release_us) + ",\n    " +
+           quantiles("improvement_step", ours.improve_us) + ",\n    " + text + "}";
 }
 
 }  // namespace

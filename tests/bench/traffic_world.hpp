@@ -31,6 +31,7 @@ World warehouse_world();
 struct Run {
     std::vector<double> admission_us;
     std::vector<double> release_us;
+    std::vector<double> improve_us;
     std::uint64_t orders = 0;
     std::uint64_t refused = 0;
     std::uint64_t releases = 0;
