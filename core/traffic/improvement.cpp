@@ -236,6 +236,7 @@ Improvement Traffic::improve(Time now, int steps) {
             result.blocked.push_back(v);
         }
     }
+    predict(now_s);  // a pair that gained nothing left times of its trial behind
     return result;
 }
 
