@@ -57,6 +57,7 @@ void OrderRow::set(const fleet::JobOrder& order) {
     created_ns = to_ns(order.created);
     started_ns = to_ns(order.started);
     ended_ns = to_ns(order.ended);
+    expected_ns = order.expected ? to_ns(*order.expected) : 0;
     revision = order.revision;
 }
 
@@ -77,6 +78,7 @@ fleet::JobOrder OrderRow::get() const {
     order.created = time_from_ns(created_ns);
     order.started = time_from_ns(started_ns);
     order.ended = time_from_ns(ended_ns);
+    if (expected_ns != 0) order.expected = time_from_ns(expected_ns);
     order.revision = revision;
     return order;
 }
@@ -90,6 +92,7 @@ void StepRow::set(const std::string& order, std::size_t index, const fleet::Step
     leg = stored_id(step.leg);
     stop = stored_id(step.stop);
     attempts = step.attempts;
+    planned_s = finite(step.planned_s, "planned_s");
 }
 
 fleet::Step StepRow::get() const {
@@ -100,6 +103,7 @@ fleet::Step StepRow::get() const {
     read_id(leg, step.leg);
     read_id(stop, step.stop);
     step.attempts = static_cast<int>(attempts);
+    step.planned_s = planned_s;
     return step;
 }
 

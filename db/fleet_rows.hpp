@@ -14,17 +14,18 @@ struct OrderRow {
     static constexpr const char* kColumns =
         "id, number, client_order_id, wanted_vehicle, assigned_vehicle, priority, current_step, "
         "state, cancel_requested, pause_requested, reason_code, reason_params, created_by, "
-        "created_ns, started_ns, ended_ns, revision";
+        "created_ns, started_ns, ended_ns, expected_ns, revision";
     std::string id, client_order_id, wanted_vehicle, assigned_vehicle, state, reason_code,
         reason_params, created_by;
     std::int64_t number = 0, priority = 0, current_step = 0, created_ns = 0, started_ns = 0,
-                 ended_ns = 0, revision = 0;
+                 ended_ns = 0, expected_ns = 0, revision = 0;
     int cancel_requested = 0, pause_requested = 0;
 
     auto fields() {
         return std::tie(id, number, client_order_id, wanted_vehicle, assigned_vehicle, priority,
                         current_step, state, cancel_requested, pause_requested, reason_code,
-                        reason_params, created_by, created_ns, started_ns, ended_ns, revision);
+                        reason_params, created_by, created_ns, started_ns, ended_ns, expected_ns,
+                        revision);
     }
     void set(const fleet::JobOrder& order);
     fleet::JobOrder get() const;  // without steps
@@ -32,12 +33,13 @@ struct OrderRow {
 
 struct StepRow {
     static constexpr const char* kColumns =
-        "order_id, position, station, mode, state, leg, stop, attempts";
+        "order_id, position, station, mode, state, leg, stop, attempts, planned_s";
     std::string order_id, station, mode, state, leg, stop;
     std::int64_t position = 0, attempts = 0;
+    double planned_s = 0;
 
     auto fields() {
-        return std::tie(order_id, position, station, mode, state, leg, stop, attempts);
+        return std::tie(order_id, position, station, mode, state, leg, stop, attempts, planned_s);
     }
     void set(const std::string& order, std::size_t index, const fleet::Step& step);
     fleet::Step get() const;

@@ -206,6 +206,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             note(context, request, "/vehicles/{manufacturer}/{serialNumber}",
                  admitted ? 101 : admitted.error().status, start);
             if (admitted) {
+                buffer = beast::flat_buffer{};  // a vehicle stays for days
                 co_await vehicle_session(context, std::move(stream), std::move(message), *admitted);
                 co_return;
             }

@@ -6,6 +6,9 @@
 #include <exception>
 
 #include "server/cli/access_commands.hpp"
+#include "server/cli/locate_command.hpp"
+#include "server/cli/markers_commands.hpp"
+#include "server/cli/plan_command.hpp"
 #include "server/cli/plant_commands.hpp"
 #include "server/cli/serve_command.hpp"
 #include "server/server.hpp"
@@ -21,8 +24,11 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     int exit_code = 0;
     cli::add_serve_command(app, exit_code);
+    cli::add_plan_command(app, exit_code);
     cli::add_plant_commands(app, exit_code);
     cli::add_access_commands(app, exit_code);
+    cli::add_locate_command(app, exit_code);
+    cli::add_markers_commands(app, exit_code);
     app.add_subcommand("version", "Print the version")->callback([] {
         fmt::print("pulseline {}\n", kVersion);
     });

@@ -103,6 +103,7 @@ net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
             context.gateway.text(session->id, session.get(), frame);
         }
         buffer.clear();
+        buffer.shrink_to_fit();  // between two messages a silent vehicle needs none
     }
     session->signal.set();  // the writer closes
 }

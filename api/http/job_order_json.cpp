@@ -42,6 +42,7 @@ Json job_order_json(const plant::Plant& plant, const fleet::JobOrder& order) {
     if (!order.reason.code.empty()) json["reason"] = reason_json(order.reason);
     if (order.started != Time{}) json["started_at"] = rfc3339(order.started);
     if (order.ended != Time{}) json["ended_at"] = rfc3339(order.ended);
+    if (order.expected) json["expected_at"] = rfc3339(*order.expected);
     return json;
 }
 

@@ -15,6 +15,8 @@ using json::ObjectReader;
 
 constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kMaxResumed = 1000;
+constexpr std::size_t kMaxClosed = 1000;
+constexpr std::int64_t kMaxRoutes = 10;
 constexpr std::int64_t kMaxStation = 1'000'000'000;
 constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
 constexpr double kMaxHeading_rad = 6.2832;
@@ -170,6 +172,22 @@ Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request) 
             vehicles.emplace_back(json::read_text(item, pointer, in.errors(), kVehicleName));
         });
         return vehicles;
+    });
+}
+
+Result<planning::WhatIf> read_what_if(const Request& request) {
+    return read_object<planning::WhatIf>(request, [](ObjectReader& in) {
+        planning::WhatIf read;
+        read.vehicle_type = plant::VehicleTypeId(in.text("vehicle_type", kVehicleName));
+        read.from = static_cast<int>(in.integer("from", {0, kMaxStation}));
+        read.to = static_cast<int>(in.integer("to", {0, kMaxStation}));
+        read.loaded = in.boolean_or("loaded", false);
+        read.alternatives = static_cast<int>(in.integer_or("alternatives", 2, {0, kMaxRoutes}));
+        in.items_if_any(
+            "closed_edges", {0, kMaxClosed}, [&](const Json& item, const std::string& pointer) {
+                read.closed.emplace_back(json::read_text(item, pointer, in.errors(), kVehicleName));
+            });
+        return read;
     });
 }
 

@@ -8,6 +8,7 @@
 #include "api/http/message.hpp"
 #include "core/base/result.hpp"
 #include "core/fleet/fleet.hpp"
+#include "core/planning/what_if.hpp"
 
 /// Decoders of everything a client may send. Each error names the field: a JSON pointer into the
 /// body,
@@ -24,6 +25,8 @@ Result<SignIn> read_sign_in(const Request& request);
 Result<fleet::NewOrder> read_new_order(const Request& request);
 Result<geometry::Pose2> read_pose(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
+
+Result<planning::WhatIf> read_what_if(const Request& request);
 
 Result<bool> read_dry_run(const Request& request);
 Result<fleet::OrderQuery> read_order_query(const Request& request);

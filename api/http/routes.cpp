@@ -1,4 +1,5 @@
 #include "api/http/job_order_handlers.hpp"
+#include "api/http/route_handlers.hpp"
 #include "api/http/router.hpp"
 #include "api/http/service_handlers.hpp"
 #include "api/http/session_handlers.hpp"
@@ -68,6 +69,8 @@ std::span<const Route> routes() {
          kOperator,
          {},
          cancel_job_order},
+
+        {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes},
 
         {"GET",
          "/api/v1/stop-records",

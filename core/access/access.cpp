@@ -4,10 +4,14 @@ namespace pulseline::access {
 
 const char* to_string(Role role) {
     switch (role) {
-        case Role::kViewer: return "viewer";
-        case Role::kOperator: return "operator";
-        case Role::kEngineer: return "engineer";
-        case Role::kAdmin: return "admin";
+        case Role::kViewer:
+            return "viewer";
+        case Role::kOperator:
+            return "operator";
+        case Role::kEngineer:
+            return "engineer";
+        case Role::kAdmin:
+            return "admin";
     }
     return "viewer";
 }

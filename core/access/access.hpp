@@ -10,7 +10,7 @@
 namespace pulseline::access {
 
 enum class Role { kViewer, kOperator, kEngineer, kAdmin };  // each may all that the ones before may
-const char* to_string(Role role);  // "viewer"
+const char* to_string(Role role);                           // "viewer"
 std::optional<Role> parse_role(const std::string& text);
 
 struct User {
@@ -32,7 +32,7 @@ struct Session {
 
 /// A bearer token of a program (role) or of one vehicle.
 struct Token {
-    std::string id;            // short, public: shown in lists and logs
+    std::string id;  // short, public: shown in lists and logs
     std::string token_sha256;
     std::string note;
     std::optional<Role> role;          // API token

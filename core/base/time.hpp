@@ -5,8 +5,8 @@
 
 namespace pulseline {
 
-/// The time of the core: nanoseconds of the server's steady clock, offset at start to UTC so that it
-/// never precedes the last stored value. It never jumps back; the API shows it as UTC.
+/// The time of the core: nanoseconds of the server's steady clock, offset at start to UTC so that
+/// it never precedes the last stored value. It never jumps back; the API shows it as UTC.
 struct CoreClock {
     using duration = std::chrono::nanoseconds;
     using rep = duration::rep;

@@ -10,13 +10,14 @@ namespace {
 constexpr Duration kPoseTooOld = std::chrono::seconds(2);
 
 bool is_free(FleetState& fleet, const VehicleRun& run) {
-    return !run.has_leg() && order_of(fleet, run.record.id) == nullptr;
+    return !run.has_leg() && fleet.orders.of(run.record.id) == nullptr;
 }
 
 std::vector<JobOrder*> by_urgency(FleetState& fleet, JobState state) {
     std::vector<JobOrder*> orders;
-    for (auto& [id, order] : fleet.orders) {
-        if (order.state == state) orders.push_back(&order);
+    for (const JobOrderId& id : fleet.orders.open()) {
+        JobOrder* order = fleet.find(id);
+        if (order->state == state) orders.push_back(order);
     }
     std::stable_sort(orders.begin(), orders.end(), [](const JobOrder* a, const JobOrder* b) {
         return a->priority != b->priority ? a->priority > b->priority : a->number < b->number;
@@ -62,9 +63,10 @@ void assign_waiting(FleetState& fleet, Time now) {
         if (!order->wanted_vehicle.empty()) {
             run = fleet.find(order->wanted_vehicle);
             if (!is_free(fleet, *run)) {
-                const JobOrder* other = order_of(fleet, run->record.id);
+                const JobOrder* other = fleet.orders.of(run->record.id);
                 why_not = {"vehicle_busy", {{"vehicle", run->record.id.str()}}};
-                if (other) why_not.params.push_back({"order", "JO-" + std::to_string(other->number)});
+                if (other)
+                    why_not.params.push_back({"order", "JO-" + std::to_string(other->number)});
                 run = nullptr;
             } else if (const auto reason = not_ready(fleet, *run, now)) {
                 why_not = *reason;
@@ -77,7 +79,7 @@ void assign_waiting(FleetState& fleet, Time now) {
             set_order_reason(fleet, *order, std::move(why_not), now);
             continue;
         }
-        order->assigned_vehicle = run->record.id;
+        fleet.orders.assign(*order, run->record.id);
         set_order_state(fleet, *order, JobState::kRunning, {}, {}, now);
     }
 }
@@ -98,7 +100,11 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     } else {
         // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
         const auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
-        const auto plan = fleet.planner.plan_leg(request, standing_bodies(fleet, run.record.id));
+        const auto& newest = fleet.newest_plan;
+        const bool planned =
+            newest && newest->vehicle == run.record.id && newest->request == request;
+        const auto plan =
+            planned ? Result<planning::LegPlan>(newest->plan) : fleet.planner.plan_leg(request);
         if (!plan) {
             set_order_state(fleet, order, JobState::kInterrupted, plan.error().reason, {}, now);
             return;
@@ -151,14 +157,17 @@ void start_steps(FleetState& fleet, Time now) {
     }
 }
 
+bool may_extend_base(const VehicleRun& run, Time now) {
+    if (!run.has_leg() || !run.leg_seen || run.update_sent) return false;
+    if (run.record.needs_resume || run.record.paused) return false;
+    if (!run.connected || !run.reconciled || !run.state_at) return false;
+    if (run.state.driving && now - *run.state_at > kPoseTooOld) return false;
+    return run.state.operating_mode == "AUTOMATIC" && run.link == Link::kLive;
+}
+
 void extend_bases(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
-        if (!run.has_leg() || !run.leg_seen || run.update_sent) continue;
-        if (run.record.needs_resume || run.record.paused) continue;
-        if (!run.connected || !run.reconciled || !run.state_at) continue;
-        if (run.state.driving && now - *run.state_at > kPoseTooOld) continue;
-        if (run.state.operating_mode != "AUTOMATIC" || run.link != Link::kLive) continue;
-        extend_base(fleet, run, now);
+        if (may_extend_base(run, now)) extend_base(fleet, run, now);
     }
 }
 
@@ -197,6 +206,14 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     if (run.state.paused) return because("vehicle_paused");
     if (run.cancelling || run.state.driving) return because("vehicle_busy");
     return std::nullopt;
+}
+
+void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
+    if (may_extend_base(run, now)) extend_base(fleet, run, now);
+    JobOrder* order = fleet.orders.of(run.record.id);
+    if (run.has_leg() || !order || order->state != JobState::kRunning) return;
+    if (order->current_step >= order->steps.size()) return;
+    if (!not_ready(fleet, run, now)) start_step(fleet, *order, run, now);
 }
 
 void dispatch(FleetState& fleet, Time now) {

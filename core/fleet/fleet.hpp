@@ -28,7 +28,7 @@ struct NewOrder {
     plant::VehicleId vehicle;     // empty: any
     int priority = 0;
     std::vector<NewStep> steps;
-    std::string actor;            // who asks
+    std::string actor;  // who asks
     // Idempotency-Key of the request; empty: none.
     std::string idempotency_client;
     std::string idempotency_key;
@@ -51,6 +51,8 @@ struct Outputs {
     bool fleet_changed = false;
 };
 
+struct FleetState;  // state.hpp, for the phases of core/fleet only
+
 /// The fleet core: one deterministic state machine. Commands and vehicle messages go in with the
 /// time they came at; records, messages and views come out through take_outputs().
 /// No clock, thread, socket, random source or database inside.
@@ -68,7 +70,8 @@ public:
                                   const std::string& actor, Time now);
     Result<JobOrder> cancel_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                   const std::string& actor, Time now);
-    Result<VehicleView> pause_vehicle(const plant::VehicleId& id, const std::string& actor, Time now);
+    Result<VehicleView> pause_vehicle(const plant::VehicleId& id, const std::string& actor,
+                                      Time now);
     Result<VehicleView> init_position(const plant::VehicleId& id, const Pose2& pose,
                                       const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
@@ -104,8 +107,7 @@ public:
     FleetView view(Time now) const;
 
 private:
-    class Impl;
-    std::unique_ptr<Impl> impl_;
+    std::unique_ptr<FleetState> state_;
 };
 
 }  // namespace pulseline::fleet

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,29 +37,31 @@ struct Step {
     plant::StationId station;
     plant::MotionMode mode = plant::MotionMode::kAuto;
     StepState state = StepState::kPending;
-    LegId leg;           // the drive under way or done
-    StopRecordId stop;   // set when the stop was measured
-    int attempts = 0;    // approaches made so far
+    LegId leg;             // the drive under way or done
+    StopRecordId stop;     // set when the stop was measured
+    int attempts = 0;      // approaches made so far
+    double planned_s = 0;  // drive as planned when the order came
 };
 
 struct JobOrder {
     JobOrderId id;
-    std::int64_t number = 0;        // people say JO-<number>; gapless, ours
-    std::string client_order_id;    // the MES's own name, unique when given
-    plant::VehicleId wanted_vehicle;   // empty: any that can
+    std::int64_t number = 0;          // people say JO-<number>; gapless, ours
+    std::string client_order_id;      // the MES's own name, unique when given
+    plant::VehicleId wanted_vehicle;  // empty: any that can
     plant::VehicleId assigned_vehicle;
-    int priority = 0;               // higher first
+    int priority = 0;  // higher first
     std::vector<Step> steps;
     std::size_t current_step = 0;
     JobState state = JobState::kAllowedToStart;
     bool cancel_requested = false;
     bool pause_requested = false;
-    Reason reason;                  // why it waits, is interrupted or aborted; empty code: nothing
+    Reason reason;  // why it waits, is interrupted or aborted; empty code: nothing
     std::string created_by;
     Time created;
     Time started;
     Time ended;
-    std::int64_t revision = 1;      // ETag
+    std::optional<Time> expected;  // end of the last drive, while the order runs
+    std::int64_t revision = 1;     // ETag
 };
 
 /// One measured arrival. Deviation = measured - theoretical in the hall frame.
@@ -128,10 +131,10 @@ struct VehicleRecord {
     LegId leg;                    // the drive it was last told, until finished or given up
     bool has_leg = false;
     Leg leg_data;
-    bool needs_resume = false;    // a person must allow it to move again
+    bool needs_resume = false;  // a person must allow it to move again
     Reason needs_resume_reason;
-    bool paused = false;          // by a person, through the server
-    StopRecordId last_stop;       // newest measured stop, empty before the first
+    bool paused = false;     // by a person, through the server
+    StopRecordId last_stop;  // newest measured stop, empty before the first
     plant::StationId last_stop_station;
     bool last_stop_inside = false;
 };

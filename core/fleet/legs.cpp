@@ -19,9 +19,10 @@ constexpr double kExtendLatency_s = 0.5;
 
 std::vector<Segment> split(const plant::VehicleType& type, const Segment& segment) {
     const double length = std::abs(segment.length_m);
-    const int pieces = segment.kind == Segment::Kind::kRotate
-                           ? 1
-                           : std::max(1, static_cast<int>(std::ceil(length / kNodeSpacing_m - 1e-9)));
+    const int pieces =
+        segment.kind == Segment::Kind::kRotate
+            ? 1
+            : std::max(1, static_cast<int>(std::ceil(length / kNodeSpacing_m - 1e-9)));
     if (pieces == 1) return {segment};
     std::vector<Segment> parts;
     for (int i = 0; i < pieces; ++i) {
@@ -158,8 +159,8 @@ std::vector<traffic::TileSet> tiles_of(const FleetState& fleet, const VehicleRun
     const std::size_t hall = hall_index(fleet, leg.hall);
     std::vector<traffic::TileSet> tiles;
     for (const auto& edge : leg.edges) {
-        tiles.push_back(traffic::tiles_under(hall, kinematics::sweep(body, {edge.segment}),
-                                             kFloorMargin_m));
+        tiles.push_back(
+            traffic::tiles_under(hall, kinematics::sweep(body, {edge.segment}), kFloorMargin_m));
     }
     if (leg.edges.empty()) {
         tiles.push_back(

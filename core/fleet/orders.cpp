@@ -25,8 +25,8 @@ bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) 
 std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run) {
     std::optional<Pose2> pose;
     if (run.record.pose_known) pose = run.record.pose;
-    for (const auto& [id, order] : fleet.orders) {
-        if (is_final(order.state)) continue;
+    for (const JobOrderId& id : fleet.orders.open()) {
+        const JobOrder& order = *fleet.find(id);
         if (order.assigned_vehicle != run.record.id && order.wanted_vehicle != run.record.id) {
             continue;
         }
@@ -41,22 +41,21 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
     OrderPlan plan;
     plan.vehicle = run.record.id;
     std::optional<Pose2> pose = future_pose(fleet, run);
-    const auto standing = standing_bodies(fleet, run.record.id);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!may_stop_at(*station, *run.type)) {
-            return fail(Errc::kUnreachable, "station_not_for_type",
-                        "Station " + std::to_string(station->number) + " is not for vehicles of type " +
-                            run.type->name + ". Choose another station or vehicle.",
-                        step_field(i, "station"),
-                        {{"station", std::int64_t{station->number}},
-                         {"vehicle_type", run.type->name}});
+            return fail(
+                Errc::kUnreachable, "station_not_for_type",
+                "Station " + std::to_string(station->number) + " is not for vehicles of type " +
+                    run.type->name + ". Choose another station or vehicle.",
+                step_field(i, "station"),
+                {{"station", std::int64_t{station->number}}, {"vehicle_type", run.type->name}});
         }
         plan.starts.push_back(pose.value_or(Pose2{}));
         plan.plans.emplace_back();
         if (pose && !nearly_there(run, *pose, *station)) {
             auto leg = fleet.planner.plan_leg(
-                leg_request(fleet, run, *pose, station->id, order.steps[i].mode), standing);
+                leg_request(fleet, run, *pose, station->id, order.steps[i].mode));
             if (!leg) {
                 Error error = leg.error();
                 if (error.field.empty()) {
@@ -145,7 +144,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     if (best) return std::move(*best);
     if (why_not) return fail(*why_not);
     return fail(Errc::kConflict, "no_vehicle",
-                "No vehicle has been heard in the last 60 s. Connect one, then repeat.", "/vehicle");
+                "No vehicle has been heard in the last 60 s. Connect one, then repeat.",
+                "/vehicle");
 }
 
 Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
@@ -161,16 +161,24 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
         }
     }
     if (!request.client_order_id.empty()) {
-        for (const auto& [id, order] : fleet.orders) {
-            if (order.client_order_id == request.client_order_id) {
-                return fail(Errc::kConflict, "duplicate_client_order_id",
-                            "Order " + request.client_order_id +
-                                " exists already. Use another client_order_id.",
-                            "/client_order_id", {{"order", id.str()}});
-            }
+        if (const auto* known = fleet.orders.with_client_id(request.client_order_id)) {
+            return fail(Errc::kConflict, "duplicate_client_order_id",
+                        "Order " + request.client_order_id +
+                            " exists already. Use another client_order_id.",
+                        "/client_order_id", {{"order", known->id.str()}});
         }
     }
-    if (auto plan = plan_order(fleet, request, now); !plan) return fail(plan.error());
+    const auto plan = plan_order(fleet, request, now);
+    if (!plan) return fail(plan.error());
+    if (plan->plans.front()) {
+        const VehicleRun& run = *fleet.find(plan->vehicle);
+        const auto* station =
+            plant::find_station(fleet.plant, request.steps.front().station_number);
+        fleet.newest_plan = PlannedLeg{
+            plan->vehicle,
+            leg_request(fleet, run, plan->starts.front(), station->id, request.steps.front().mode),
+            *plan->plans.front()};
+    }
 
     JobOrder order;
     order.id = JobOrderId(fleet.ids.next(now));
@@ -178,18 +186,20 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.client_order_id = request.client_order_id;
     order.wanted_vehicle = request.vehicle;
     order.priority = request.priority;
-    for (const auto& step : request.steps) {
+    for (std::size_t i = 0; i < request.steps.size(); ++i) {
         Step made;
-        made.station = plant::find_station(fleet.plant, step.station_number)->id;
-        made.mode = step.mode;
+        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
+        made.mode = request.steps[i].mode;
+        if (plan->plans[i]) made.planned_s = plan->plans[i]->duration_s;
         order.steps.push_back(std::move(made));
     }
     order.created_by = request.actor;
     order.created = now;
-    const JobOrder& stored = fleet.orders.emplace(order.id, std::move(order)).first->second;
+    const JobOrder& stored = fleet.orders.add(std::move(order));
     fleet.stored_orders.insert(stored.id);
-    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
-              {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
+    add_event(
+        fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
+        {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
     if (!request.idempotency_key.empty()) {
         const IdempotencyRecord record{request.idempotency_client, request.idempotency_key,
                                        request.body_sha256, stored.id, now};

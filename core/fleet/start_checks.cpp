@@ -7,7 +7,7 @@
 namespace pulseline::fleet {
 namespace {
 
-constexpr double kBalance = 0.05;       // share a bracket may differ from the mean of its row
+constexpr double kBalance = 0.05;         // share a bracket may differ from the mean of its row
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 constexpr double kWarmWheel_c = 65;
 constexpr double kLowBattery = 20;
@@ -19,8 +19,8 @@ Check check(std::string code, Check::Result result, Params params) {
 }
 
 Check link_check(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const auto result = run.link == Link::kLive && run.connected ? Check::Result::kPass
-                                                                 : Check::Result::kFail;
+    const auto result =
+        run.link == Link::kLive && run.connected ? Check::Result::kPass : Check::Result::kFail;
     return check("link", result,
                  {{"link", to_string(run.link)}, {"silent_s", seconds(silence(fleet, run, now))}});
 }
@@ -53,7 +53,7 @@ std::optional<Check> load_check(const VehicleRun& run) {
     const bool too_heavy = total_n > run.type->max_load_kg * kGravity;
     const bool empty = total_n < 0.01 * run.type->max_load_kg * kGravity;
     // Interlocks that hold a move back come with the platform's workflow; until then a note.
-    const auto result = too_heavy                           ? Check::Result::kFail
+    const auto result = too_heavy                        ? Check::Result::kFail
                         : !empty && worst > 2 * kBalance ? Check::Result::kNote
                                                          : Check::Result::kPass;
     return check("load", result,

@@ -26,8 +26,8 @@ bool same_wait(const Reason& a, const Reason& b) {
 
 void add_event(FleetState& fleet, Time now, std::string type, JobOrderId order, LegId leg,
                const plant::VehicleId& vehicle, const std::string& actor, Params params) {
-    fleet.out.records.events.push_back({++fleet.event_seq, now, std::move(type), order, leg, vehicle,
-                                        actor, std::move(params)});
+    fleet.out.records.events.push_back(
+        {++fleet.event_seq, now, std::move(type), order, leg, vehicle, actor, std::move(params)});
 }
 
 void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason reason,
@@ -36,7 +36,11 @@ void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason rea
     order.state = to;
     order.reason = std::move(reason);
     if (to == JobState::kRunning && order.started == Time{}) order.started = now;
-    if (is_final(to)) order.ended = now;
+    if (to != JobState::kRunning) order.expected.reset();
+    if (is_final(to)) {
+        order.ended = now;
+        fleet.orders.close(order);
+    }
     Params params{{"from", to_string(from)}, {"to", to_string(to)}};
     if (!order.reason.code.empty()) params.push_back({"reason", order.reason.code});
     for (const auto& param : order.reason.params) params.push_back(param);
@@ -57,15 +61,14 @@ void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time no
     fleet.store(order);
 }
 
-JobOrder* order_of(FleetState& fleet, const plant::VehicleId& vehicle) {
-    for (auto& [id, order] : fleet.orders) {
-        if (!is_final(order.state) && order.assigned_vehicle == vehicle) return &order;
-    }
-    return nullptr;
-}
-
 Duration silence(const FleetState& fleet, const VehicleRun& run, Time now) {
     return now - run.last_heard.value_or(fleet.started);
+}
+
+double speed_share(const VehicleRun& run) {
+    return run.factsheet && run.factsheet->speed_max_mps > 0
+               ? run.factsheet->speed_max_mps / run.type->max_speed_mps
+               : 1.0;
 }
 
 bool is_loaded(const VehicleRun& run) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/order_book.hpp"
 #include "core/planning/leg_planner.hpp"
 
 /// The fleet's own state, shared by the phases of fleet.cpp. Not for use outside core/fleet.
@@ -29,7 +30,8 @@ struct VehicleRun {
     VehicleRecord record;
 
     bool connected = false;
-    bool reconciled = false;  // a state has come since it connected; before that no command goes out
+    bool reconciled =
+        false;  // a state has come since it connected; before that no command goes out
     bool connection_refused = false;
     Link link = Link::kNever;
     std::optional<Time> last_heard;
@@ -42,7 +44,7 @@ struct VehicleRun {
     std::size_t update_from = 0;      // first node of the last update
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
-    bool cancelling = false;          // cancelOrder is not final: nothing but instant actions
+    bool cancelling = false;  // cancelOrder is not final: nothing but instant actions
     std::vector<traffic::TileSet> edge_tiles;  // floor of each edge of the leg
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
@@ -62,6 +64,13 @@ struct VehicleRun {
     const Leg& leg() const { return record.leg_data; }
 };
 
+/// The newest plan of a leg: an order is planned when it comes and, mostly, starts at once.
+struct PlannedLeg {
+    plant::VehicleId vehicle;
+    planning::LegRequest request;
+    planning::LegPlan plan;
+};
+
 struct FleetState {
     FleetState(const plant::Plant& p, std::uint64_t id_seed, Time now)
         : plant(p), planner(p), ids(id_seed), started(now) {}
@@ -71,15 +80,16 @@ struct FleetState {
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, VehicleRun> vehicles;
-    std::map<JobOrderId, JobOrder> orders;  // UUIDv7: sorted by age
+    OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     traffic::TileMap tiles;
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
+    std::optional<PlannedLeg> newest_plan;
 
     // Put out by this step.
     Outputs out;
-    std::set<plant::VehicleId> stored_vehicles;   // records to write
+    std::set<plant::VehicleId> stored_vehicles;  // records to write
     std::set<JobOrderId> stored_orders;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
     std::set<plant::StationId> changed_stations;
@@ -91,11 +101,8 @@ struct FleetState {
     const VehicleRun* find(const plant::VehicleId& id) const {
         return const_cast<FleetState*>(this)->find(id);
     }
-    JobOrder* find(JobOrderId id) {
-        const auto it = orders.find(id);
-        return it == orders.end() ? nullptr : &it->second;
-    }
-    const JobOrder* find(JobOrderId id) const { return const_cast<FleetState*>(this)->find(id); }
+    JobOrder* find(JobOrderId id) { return orders.find(id); }
+    const JobOrder* find(JobOrderId id) const { return orders.find(id); }
 
     void store(JobOrder& order) {
         ++order.revision;
@@ -117,12 +124,12 @@ void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason rea
 /// Says why an order waits; an event and a row only when the reason's code or vehicle changed.
 void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time now);
 
-/// The open order the vehicle works for, or null.
-JobOrder* order_of(FleetState& fleet, const plant::VehicleId& vehicle);
 Duration silence(const FleetState& fleet, const VehicleRun& run, Time now);
 /// Vehicle's outline (with its load) at a pose, convex pieces in the hall frame.
 std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose);
 bool is_loaded(const VehicleRun& run);
+/// Speed of the vehicle by its own factsheet over that of its type in the plant.
+double speed_share(const VehicleRun& run);
 std::string hall_of(const FleetState& fleet, const VehicleRun& run);
 std::size_t hall_index(const FleetState& fleet, const std::string& hall);
 /// Station whose theoretical pose the vehicle stands on (within 0.25 m and 3 deg); empty: none.
@@ -158,6 +165,8 @@ void hear(FleetState& fleet, VehicleRun& run, Time now);
 void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
 /// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
+/// Sends startPause or stopPause; the newest wish counts.
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
 void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
@@ -171,8 +180,8 @@ void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why
 /// The vehicle that would serve the order and the plan of each step from where it will stand.
 struct OrderPlan {
     plant::VehicleId vehicle;
-    std::vector<Pose2> starts;                                // one per step
-    std::vector<std::optional<planning::LegPlan>> plans;      // absent: start unknown or in place
+    std::vector<Pose2> starts;                            // one per step
+    std::vector<std::optional<planning::LegPlan>> plans;  // absent: start unknown or in place
 };
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now);
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
@@ -183,6 +192,9 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
 
 // --- dispatch (dispatch.cpp) ---
 void dispatch(FleetState& fleet, Time now);
+/// What a report of one vehicle can set in motion at once: its base, its next step. The rest waits
+/// for the next tick, so that a report costs the same in a fleet of a thousand.
+void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
 /// Why this vehicle may not start a move now; nullopt: it may.
 std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
 
@@ -190,7 +202,12 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
                                      const std::vector<CameraReading>& readings);
 
+// --- restart (restore.cpp) ---
+/// Fills an empty fleet from plant and store. Open orders wait for a person's act.
+void restore(FleetState& fleet, StoredFleet stored, Time now);
+
 // --- views (views.cpp) ---
+StationView station_view(const FleetState& fleet, const plant::Station& station);
 VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now);
 std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
                                 const plant::Station* target,

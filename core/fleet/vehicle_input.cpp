@@ -37,7 +37,7 @@ const ActionState* find_action(const StateMessage& state, const std::string& id)
 }
 
 void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
-    JobOrder* order = order_of(fleet, run.record.id);
+    JobOrder* order = fleet.orders.of(run.record.id);
     drop_leg(fleet, run);
     if (!order) return;
     if (order->current_step < order->steps.size()) {
@@ -102,13 +102,13 @@ void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by it.
+/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
+/// it.
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     if (state.position_initialized || state.driving) return;
-    const bool pending = std::any_of(run.actions.begin(), run.actions.end(), [](const auto& p) {
-        return p.action.type == "initPosition";
-    });
+    const bool pending = std::any_of(run.actions.begin(), run.actions.end(),
+                                     [](const auto& p) { return p.action.type == "initPosition"; });
     if (pending) return;
     const auto pose = pose_from_codes(fleet, run, state.cameras);
     if (!pose) return;
@@ -128,6 +128,17 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
     return nullptr;
 }
 
+/// When the order's last drive should end, now that this leg begins.
+void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now) {
+    double left_s = run.leg().duration_s;
+    for (std::size_t i = static_cast<std::size_t>(run.leg().step) + 1; i < order.steps.size();
+         ++i) {
+        left_s += order.steps[i].planned_s;
+    }
+    order.expected = now + from_seconds(left_s / speed_share(run));
+    fleet.store(order);
+}
+
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     Leg& leg = run.leg();
@@ -137,15 +148,15 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             require_person(fleet, run, {"vehicle_lost_order", {}}, now);
             run.leg_seen = false;
             drop_leg(fleet, run);
-            if (JobOrder* order = order_of(fleet, run.record.id);
+            if (JobOrder* order = fleet.orders.of(run.record.id);
                 order && order->current_step < order->steps.size()) {
                 order->steps[order->current_step].state = StepState::kPending;
                 fleet.store(*order);
             }
         } else if (const auto* error = rejection_of(state, leg.id.str())) {
-            require_person(fleet, run,
-                           {"order_rejected", {{"type", error->type}, {"text", error->description}}},
-                           now);
+            require_person(
+                fleet, run,
+                {"order_rejected", {{"type", error->type}, {"text", error->description}}}, now);
             drop_leg(fleet, run);
         }
         return;
@@ -154,15 +165,15 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         run.leg_seen = true;
         if (!run.leg_started) run.leg_started = now;
         add_event(fleet, now, "leg.accepted", leg.order, leg.id, leg.vehicle, {});
+        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
     }
     if (state.order_update_id >= leg.update_id) {
         run.update_sent.reset();
         run.update_sends = 0;
     }
     if (!state.last_node_id.empty()) {
-        const auto passed = static_cast<std::size_t>(
-            std::clamp<std::int64_t>(state.last_node_sequence_id / 2 + 1, 1,
-                                     static_cast<std::int64_t>(leg.nodes.size())));
+        const auto passed = static_cast<std::size_t>(std::clamp<std::int64_t>(
+            state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
         if (passed > leg.passed_nodes) {
             leg.passed_nodes = passed;
             free_floor_behind(fleet, run);
@@ -247,7 +258,7 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
                   std::move(params));
         fleet.store(run);
     }
-    JobOrder* order = order_of(fleet, run.record.id);
+    JobOrder* order = fleet.orders.of(run.record.id);
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted, std::move(reason), {}, now);
     }
@@ -277,6 +288,16 @@ void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now) {
         pending.sends = 1;
     }
     run.actions.push_back(std::move(pending));
+}
+
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now) {
+    // The newest wish counts: an older pause or unpause still on its way is not sent again.
+    std::erase_if(run.actions, [](const PendingAction& pending) {
+        return pending.action.type == "startPause" || pending.action.type == "stopPause";
+    });
+    Action action;
+    action.type = action_type;
+    send_action(fleet, run, std::move(action), now);
 }
 
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {

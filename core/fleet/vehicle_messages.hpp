@@ -92,7 +92,7 @@ struct StopMeasurement {
     Pose2 pose;
     double sigma_xy_m = 0;
     double sigma_heading_rad = 0;
-    std::string method;  // "dual_camera", "single_camera", "analytic"
+    std::string method;                // "dual_camera", "single_camera", "analytic"
     std::vector<std::string> markers;  // payloads used
 };
 
@@ -128,8 +128,8 @@ struct CameraReading {
     std::string camera;  // "front"
     bool found = false;
     std::string payload;
-    geometry::Point2 code;         // centre of the code in the body frame
-    double angle_rad = 0;          // direction of the code's up edge in the body frame, ccw
+    geometry::Point2 code;  // centre of the code in the body frame
+    double angle_rad = 0;   // direction of the code's up edge in the body frame, ccw
     double sigma_m = 0;
     double rms_px = 0;
     std::string why_not;  // when not found

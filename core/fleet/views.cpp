@@ -25,17 +25,15 @@ void update_areas(const VehicleRun& run) {
         (i + 1 < leg.released_nodes ? granted : horizon).push_back(leg.edges[i].segment);
     }
     const auto body = plant::outline_with_load(*run.type, is_loaded(run));
-    areas.granted = geometry::union_outline(kinematics::sweep(body, granted));
-    areas.horizon = geometry::union_outline(kinematics::sweep(body, horizon));
+    const auto outline = [&](const std::vector<kinematics::Segment>& segments) {
+        return geometry::union_outline(
+            kinematics::sweep(body, segments, kinematics::kOutlineDetail));
+    };
+    areas.granted = outline(granted);
+    areas.horizon = outline(horizon);
     areas.leg = leg.id;
     areas.passed = leg.passed_nodes;
     areas.released = leg.released_nodes;
-}
-
-double real_speed_share(const VehicleRun& run) {
-    return run.factsheet && run.factsheet->speed_max_mps > 0
-               ? run.factsheet->speed_max_mps / run.type->max_speed_mps
-               : 1.0;
 }
 
 LegView leg_view(const VehicleRun& run) {
@@ -45,7 +43,7 @@ LegView leg_view(const VehicleRun& run) {
     view.id = leg.id;
     view.station = leg.station;
     view.mode = leg.mode;
-    view.duration_s = leg.duration_s / real_speed_share(run);
+    view.duration_s = leg.duration_s / speed_share(run);
     view.granted_area = run.areas.granted;
     view.horizon_area = run.areas.horizon;
     view.path.push_back(leg.nodes.front().pose.position());
@@ -55,11 +53,10 @@ LegView leg_view(const VehicleRun& run) {
         const auto& segment = leg.edges[i].segment;
         if (i + 1 == leg.released_nodes) view.granted_points = view.path.size();
         if (segment.kind != kinematics::Segment::Kind::kRotate) {
-            const int samples =
-                segment.kind == kinematics::Segment::Kind::kArc
-                    ? std::max(1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) /
-                                                             kArcSample_rad)))
-                    : 1;
+            const int samples = segment.kind == kinematics::Segment::Kind::kArc
+                                    ? std::max(1, static_cast<int>(std::ceil(
+                                                      std::abs(segment.turn_rad) / kArcSample_rad)))
+                                    : 1;
             for (int k = 1; k <= samples; ++k) {
                 view.path.push_back(
                     kinematics::pose_at(segment, static_cast<double>(k) / samples).position());
@@ -81,7 +78,7 @@ struct Doing {
 };
 
 Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const JobOrder* order = order_of(const_cast<FleetState&>(fleet), run.record.id);
+    const JobOrder* order = fleet.orders.of(run.record.id);
     if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
     if (run.link == Link::kLost || run.link == Link::kGone) {
         return {Activity::kUnknown,
@@ -99,9 +96,8 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
         return {activity, reason};
     }
     if (run.has_leg()) {
-        const bool measuring =
-            order && order->current_step < order->steps.size() &&
-            order->steps[order->current_step].state == StepState::kMeasuring;
+        const bool measuring = order && order->current_step < order->steps.size() &&
+                               order->steps[order->current_step].state == StepState::kMeasuring;
         if (measuring) return {Activity::kMeasuring, std::nullopt};
         if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
@@ -117,48 +113,72 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
 
 const char* to_string(Link link) {
     switch (link) {
-        case Link::kNever: return "never";
-        case Link::kLive: return "live";
-        case Link::kLate: return "late";
-        case Link::kLost: return "lost";
-        case Link::kGone: return "gone";
+        case Link::kNever:
+            return "never";
+        case Link::kLive:
+            return "live";
+        case Link::kLate:
+            return "late";
+        case Link::kLost:
+            return "lost";
+        case Link::kGone:
+            return "gone";
     }
     return "never";
 }
 
 const char* to_string(Activity activity) {
     switch (activity) {
-        case Activity::kStanding: return "standing";
-        case Activity::kMoving: return "moving";
-        case Activity::kMeasuring: return "measuring";
-        case Activity::kWaiting: return "waiting";
-        case Activity::kPaused: return "paused";
-        case Activity::kBlocked: return "blocked";
-        case Activity::kCharging: return "charging";
-        case Activity::kUnknown: return "unknown";
+        case Activity::kStanding:
+            return "standing";
+        case Activity::kMoving:
+            return "moving";
+        case Activity::kMeasuring:
+            return "measuring";
+        case Activity::kWaiting:
+            return "waiting";
+        case Activity::kPaused:
+            return "paused";
+        case Activity::kBlocked:
+            return "blocked";
+        case Activity::kCharging:
+            return "charging";
+        case Activity::kUnknown:
+            return "unknown";
     }
     return "unknown";
 }
 
 const char* to_string(JobState state) {
     switch (state) {
-        case JobState::kNotAllowedToStart: return "NotAllowedToStart";
-        case JobState::kAllowedToStart: return "AllowedToStart";
-        case JobState::kRunning: return "Running";
-        case JobState::kInterrupted: return "Interrupted";
-        case JobState::kEnded: return "Ended";
-        case JobState::kAborted: return "Aborted";
+        case JobState::kNotAllowedToStart:
+            return "NotAllowedToStart";
+        case JobState::kAllowedToStart:
+            return "AllowedToStart";
+        case JobState::kRunning:
+            return "Running";
+        case JobState::kInterrupted:
+            return "Interrupted";
+        case JobState::kEnded:
+            return "Ended";
+        case JobState::kAborted:
+            return "Aborted";
     }
     return "Aborted";
 }
 
 const char* to_string(StepState state) {
     switch (state) {
-        case StepState::kPending: return "pending";
-        case StepState::kDriving: return "driving";
-        case StepState::kMeasuring: return "measuring";
-        case StepState::kDone: return "done";
-        case StepState::kSkipped: return "skipped";
+        case StepState::kPending:
+            return "pending";
+        case StepState::kDriving:
+            return "driving";
+        case StepState::kMeasuring:
+            return "measuring";
+        case StepState::kDone:
+            return "done";
+        case StepState::kSkipped:
+            return "skipped";
     }
     return "skipped";
 }
@@ -180,7 +200,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     view.pose_at = run.state_at;
     view.hall = hall_of(fleet, run);
     view.at_station = run.record.at_station;
-    if (const auto* order = order_of(const_cast<FleetState&>(fleet), run.record.id)) {
+    if (const auto* order = fleet.orders.of(run.record.id)) {
         view.order = order->id;
     }
     if (run.has_leg()) view.leg = leg_view(run);
@@ -188,6 +208,21 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     view.needs_resume = run.record.needs_resume;
     view.needs_resume_reason = run.record.needs_resume_reason;
     view.state = run.state;
+    return view;
+}
+
+StationView station_view(const FleetState& fleet, const plant::Station& station) {
+    StationView view{station.id, station.number, {}, {}, false, {}};
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (run.record.at_station == station.id && !run.record.at_station.empty()) {
+            view.occupied_by = id;
+            // Ready: it stands there and its last stop, measured here, was inside tolerance.
+            view.ready = run.record.last_stop_inside &&
+                         run.record.last_stop_station == station.id && !run.has_leg();
+            if (run.record.last_stop_station == station.id) view.last_stop = run.record.last_stop;
+        }
+        if (run.has_leg() && run.leg().station == station.id) view.reserved_by = id;
+    }
     return view;
 }
 

@@ -82,7 +82,8 @@ struct FleetView {
 
 struct Check {
     enum class Result { kPass, kNote, kFail };
-    std::string code;  // link pose load parking_feet codes_in_view station clearance wheels battery safety mode
+    std::string code;  // link pose load parking_feet codes_in_view station clearance wheels battery
+                       // safety mode
     Result result = Result::kPass;
     Params params;
     std::optional<double> age_s;

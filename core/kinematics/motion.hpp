@@ -63,6 +63,8 @@ struct SweepDetail {
     double step_rad = radians(3.0);
     double excess_m = 0.005;  // how far a piece may stand out
 };
+/// Coarse enough to join and draw for people; where a vehicle fits is decided with the default.
+constexpr SweepDetail kOutlineDetail{.step_rad = radians(10.0), .excess_m = 0.05};
 /// Swept area of body pieces (convex, body frame) along segments: overlapping convex pieces.
 std::vector<geometry::Polygon> sweep(const std::vector<geometry::Polygon>& body,
                                      const std::vector<Segment>& segments,

@@ -1,207 +1,102 @@
 #include "core/planning/grid_search.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <queue>
 #include <string>
 
-#include "core/planning/road_search.hpp"
+#include "core/planning/bucket_search.hpp"
+#include "core/planning/plain_search.hpp"
+#include "core/planning/turn_jump_search.hpp"
 
 namespace pulseline::planning {
-namespace {
 
-constexpr std::array<Cell, kDirections> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-constexpr std::int64_t kUnreached = std::numeric_limits<std::int64_t>::max();
-// Costs of a cell beyond this could overflow on the largest grid.
-constexpr double kLargestCost = 1e9;
-
-Result<GridCost> rounded(double step, double turn) {
-    for (const double value : {step, turn}) {
-        if (!std::isfinite(value) || std::abs(value) > kLargestCost) {
-            return fail(Errc::kInvalid, "routing_cost_invalid",
-                        "The routing costs k_same and k_diff must be between 0 and 1e9.");
-        }
+std::string_view to_string(Algorithm algorithm) {
+    switch (algorithm) {
+        case Algorithm::kDijkstra:
+            return "dijkstra";
+        case Algorithm::kAstar:
+            return "astar";
+        case Algorithm::kBucket:
+            return "bucket";
+        case Algorithm::kTurnJump:
+            return "turn-jump";
     }
-    GridCost cost;
-    cost.step = std::llround(step * kCostUnit);
-    cost.turn = std::max(-cost.step, std::int64_t{std::llround(turn * kCostUnit)});
-    return cost;
+    return "";
 }
 
-/// Least changes of direction on an empty grid for a vehicle that heads `d` and has (dx, dy) to go.
-int least_turns(int d, int dx, int dy) {
-    const Cell step = kStep[static_cast<std::size_t>(d)];
-    const int ahead = dx * step.col + dy * step.row;
-    const int beside = std::abs(dx * step.row) + std::abs(dy * step.col);
-    if (beside == 0) return ahead >= 0 ? 0 : 1;
-    return ahead >= 0 ? 1 : 2;
+std::vector<Cell> GridRoute::cells() const {
+    std::vector<Cell> all;
+    all.reserve(static_cast<std::size_t>(length) + 1);
+    if (corners.empty()) return all;
+    all.push_back(corners.front());
+    for (const Cell corner : corners) {
+        while (!(all.back() == corner)) {
+            const Cell at = all.back();
+            const auto towards = [](int from, int to) { return (to > from) - (to < from); };
+            all.push_back(
+                {at.col + towards(at.col, corner.col), at.row + towards(at.row, corner.row)});
+        }
+    }
+    return all;
 }
 
-class GridSearch {
-public:
-    GridSearch(const GridLayers& layers, const GridRequest& request)
-        : layers_(layers), request_(request) {
-        const std::size_t states = layers.blocked[0].size() * kDirections;
-        cost_.assign(states, kUnreached);
-        before_.assign(states, kNone);
-    }
-
-    Result<GridRoute> run() {
-        if (request_.start == request_.goal) return arrived_at_once();
-        begin();
-        while (!open_.empty()) {
-            const Open top = open_.top();
-            open_.pop();
-            if (top.cost != cost_[top.state]) continue;
-            const Cell cell = cell_of(top.state);
-            if (cell == request_.goal) return route_to(top.state);
-            ++expanded_;
-            expand(cell, static_cast<int>(top.state % kDirections), top.state, top.cost);
-        }
-        return no_route();
-    }
-
-private:
-    static constexpr std::uint8_t kNone = 255;   // stands at the start
-    static constexpr std::uint8_t kFirst = 254;  // first step with free heading: no turn
-
-    struct Open {
-        std::int64_t estimate;
-        std::int64_t cost;
-        std::size_t state;
-        bool operator<(const Open& other) const {  // greatest first; of equals the farthest on
-            if (estimate != other.estimate) return estimate > other.estimate;
-            return cost < other.cost;
-        }
-    };
-
-    bool blocked(int d, Cell cell) const {
-        return !layers_.inside(cell) ||
-               layers_.blocked[static_cast<std::size_t>(d)][layers_.index(cell)] != 0;
-    }
-    Cell cell_of(std::size_t state) const {
-        const auto width = static_cast<std::size_t>(layers_.width);
-        const std::size_t index = state / kDirections;
-        return {static_cast<int>(index % width), static_cast<int>(index / width)};
-    }
-
-    void begin() {
-        if (request_.start_heading) {
-            const int d = static_cast<int>(*request_.start_heading);
-            if (!blocked(d, request_.start)) reach(request_.start, d, 0, kNone);
-            return;
-        }
-        for (int d = 0; d < kDirections; ++d) {
-            const Cell step = kStep[static_cast<std::size_t>(d)];
-            const Cell next{request_.start.col + step.col, request_.start.row + step.row};
-            if (blocked(d, request_.start) || blocked(d, next)) continue;
-            reach(next, d, request_.cost.step, kFirst);
-        }
-    }
-
-    std::int64_t bound(Cell cell, int d) const {
-        const int dx = request_.goal.col - cell.col;
-        const int dy = request_.goal.row - cell.row;
-        const std::int64_t steps = std::abs(dx) + std::abs(dy);
-        const GridCost& cost = request_.cost;
-        if (cost.turn < 0) return (cost.step + cost.turn) * steps;
-        return cost.step * steps + cost.turn * least_turns(d, dx, dy);
-    }
-
-    void reach(Cell cell, int d, std::int64_t cost, std::uint8_t before) {
-        const std::size_t state = layers_.index(cell) * kDirections + static_cast<std::size_t>(d);
-        if (cost >= cost_[state]) return;
-        cost_[state] = cost;
-        before_[state] = before;
-        open_.push({cost + bound(cell, d), cost, state});
-    }
-
-    void expand(Cell cell, int heading, std::size_t state, std::int64_t cost) {
-        const bool may_turn = layers_.no_turn[state / kDirections] == 0;
-        for (int d = 0; d < kDirections; ++d) {
-            if (d != heading && (!may_turn || blocked(d, cell))) continue;
-            const Cell step = kStep[static_cast<std::size_t>(d)];
-            const Cell next{cell.col + step.col, cell.row + step.row};
-            if (blocked(d, next)) continue;
-            const std::int64_t turn = d == heading ? 0 : request_.cost.turn;
-            reach(next, d, cost + request_.cost.step + turn, static_cast<std::uint8_t>(heading));
-        }
-    }
-
-    GridRoute route_to(std::size_t state) const {
-        GridRoute route;
-        route.cost = static_cast<double>(cost_[state]) / kCostUnit;
-        route.expanded = expanded_;
-        Cell cell = cell_of(state);
-        int d = static_cast<int>(state % kDirections);
-        route.cells.push_back(cell);
-        while (true) {
-            const int before =
-                before_[layers_.index(cell) * kDirections + static_cast<std::size_t>(d)];
-            if (before == kNone) break;
-            const Cell step = kStep[static_cast<std::size_t>(d)];
-            cell = {cell.col - step.col, cell.row - step.row};
-            ++route.length;
-            route.cells.push_back(cell);
-            if (before == kFirst) break;
-            route.turns += before != d ? 1 : 0;
-            d = before;
-        }
-        std::reverse(route.cells.begin(), route.cells.end());
-        return route;
-    }
-
-    bool nowhere(Cell cell) const {
-        for (int d = 0; d < kDirections; ++d) {
-            if (!blocked(d, cell)) return false;
-        }
-        return true;
-    }
-
-    Result<GridRoute> arrived_at_once() const {
-        if (nowhere(request_.start)) return no_route();
-        GridRoute route;
-        route.cells = {request_.start};
-        return route;
-    }
-
-    tl::unexpected<Error> no_route() const {
-        const char* by = nowhere(request_.start)  ? "start"
-                         : nowhere(request_.goal) ? "goal"
-                                                  : "obstacles";
-        return fail(Errc::kUnreachable, "no_route",
-                    "No free way leads there for this vehicle. Choose another target or clear the "
-                    "floor.",
-                    {}, {{"blocked_by", std::string(by)}});
-    }
-
-    const GridLayers& layers_;
-    const GridRequest& request_;
-    std::vector<std::int64_t> cost_;
-    std::vector<std::uint8_t> before_;  // direction before the step that led here
-    std::priority_queue<Open> open_;
-    std::int64_t expanded_ = 0;
+struct GridSearch::Searches {
+    TurnJumpSearch turn_jump;
+    BucketSearch<std::uint32_t> bucket;
+    BucketSearch<std::uint64_t> wide_bucket;
+    PlainSearch plain;
 };
 
-}  // namespace
+GridSearch::GridSearch() : searches_(std::make_unique<Searches>()) {}
+GridSearch::~GridSearch() = default;
+GridSearch::GridSearch(GridSearch&&) noexcept = default;
+GridSearch& GridSearch::operator=(GridSearch&&) noexcept = default;
 
-Result<GridCost> unit_cell_cost(double k_same, double k_diff) {
-    return check({k_same, k_diff, 1, 0}).and_then([&] { return rounded(k_same, k_diff - k_same); });
+SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algorithm wanted,
+                          GridRoute& route) {
+    route.cost = 0;
+    route.length = 0;
+    route.turns = 0;
+    route.expanded = 0;
+    route.algorithm = wanted;
+    route.corners.clear();
+    if (request.start == request.goal) {
+        if (map.nowhere(request.start)) return SearchEnd::kNoRoute;
+        route.corners.push_back(request.start);
+        return SearchEnd::kFound;
+    }
+    SearchEnd end = SearchEnd::kUnfit;
+    if (wanted == Algorithm::kTurnJump) end = searches_->turn_jump.run(map, request, route);
+    if (end == SearchEnd::kUnfit && wanted >= Algorithm::kBucket) {
+        route.algorithm = Algorithm::kBucket;
+        end = searches_->bucket.run(map, request, route);
+        if (end == SearchEnd::kUnfit) end = searches_->wide_bucket.run(map, request, route);
+    }
+    if (end == SearchEnd::kUnfit) {
+        route.algorithm = wanted == Algorithm::kDijkstra ? wanted : Algorithm::kAstar;
+        end = searches_->plain.run(map, request, wanted != Algorithm::kDijkstra, route);
+    }
+    return end;
 }
 
-Result<GridCost> hall_cost(const plant::RoutingCost& cost, double resolution_m) {
-    return check(cost).and_then([&] {
-        return rounded(cost.k_same * resolution_m,
-                       (cost.k_diff - cost.k_same) * cost.reference_step_m);
-    });
+void GridSearch::prepare(const GridMap& map, Algorithm wanted) {
+    if (wanted == Algorithm::kTurnJump && map.uniform()) {
+        searches_->turn_jump.prepare(map);
+    } else if (wanted >= Algorithm::kBucket) {
+        searches_->bucket.prepare(map);
+    } else {
+        searches_->plain.prepare(map);
+    }
 }
 
-Result<GridRoute> plan_grid(const GridLayers& layers, const GridRequest& request) {
+std::size_t GridSearch::bytes() const {
+    return searches_->turn_jump.bytes() + searches_->bucket.bytes() +
+           searches_->wide_bucket.bytes() + searches_->plain.bytes();
+}
+
+Status check(const GridMap& map, const GridRequest& request) {
     const std::pair<const char*, Cell> ends[] = {{"/start", request.start},
                                                  {"/goal", request.goal}};
     for (const auto& [field, cell] : ends) {
-        if (layers.inside(cell)) continue;
+        if (map.inside(cell)) continue;
         return fail(Errc::kInvalid, "outside_grid",
                     "The cell lies outside the grid. Choose one inside.", field,
                     {{"col", std::int64_t{cell.col}}, {"row", std::int64_t{cell.row}}});
@@ -210,7 +105,24 @@ Result<GridRoute> plan_grid(const GridLayers& layers, const GridRequest& request
         return fail(Errc::kInvalid, "routing_cost_invalid",
                     "The cost of a step must be at least 0, with and without a turn.");
     }
-    return GridSearch(layers, request).run();
+    return {};
+}
+
+Result<GridRoute> plan_grid(const GridMap& map, const GridRequest& request, Algorithm wanted) {
+    if (const auto ok = check(map, request); !ok) return fail(ok.error());
+    GridRoute route;
+    const SearchEnd end = GridSearch().run(map, request, wanted, route);
+    if (end == SearchEnd::kFound) return route;
+    if (end == SearchEnd::kCancelled) {
+        return fail(Errc::kTimeout, "cancelled", "The search was stopped before it found a route.");
+    }
+    const char* by = map.nowhere(request.start)  ? "start"
+                     : map.nowhere(request.goal) ? "goal"
+                                                 : "obstacles";
+    return fail(Errc::kUnreachable, "no_route",
+                "No free way leads there for this vehicle. Choose another target or clear the "
+                "floor.",
+                {}, {{"blocked_by", std::string(by)}});
 }
 
 }  // namespace pulseline::planning

@@ -1,76 +1,84 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
+#include <atomic>
+#include <memory>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "core/base/result.hpp"
-#include "core/plant/plant.hpp"
+#include "core/planning/grid_cost.hpp"
+#include "core/planning/grid_map.hpp"
 
-/// Direction-penalised A* on an occupancy grid, 4-connected; state = (cell, direction), exact.
+/// Direction-penalised search on an occupancy grid, 4-connected (Li 2022 eq. 10, corrected):
+/// the state is (cell, direction of arrival), so every change of direction is seen and the result
+/// is exact. Four ways to the same cost, from the simplest to the fastest.
 namespace pulseline::planning {
 
-enum class Direction { kEast, kNorth, kWest, kSouth };
-constexpr int kDirections = 4;
-
-struct Cell {
-    int col = 0;
-    int row = 0;
-    friend bool operator==(const Cell&, const Cell&) = default;
+enum class Algorithm : std::uint8_t {
+    kDijkstra,  // plain search without a bound
+    kAstar,     // plain A*: binary heap, 64-bit costs; takes every map and every cost
+    kBucket,    // A* with a bucket queue; small integer costs
+    kTurnJump,  // expands turning points only; uniform maps, no cheap turns
 };
-
-/// Where one vehicle may be: by heading when it drives, and where it may turn on the spot.
-struct GridLayers {
-    int width = 0;
-    int height = 0;
-    std::array<std::vector<std::uint8_t>, kDirections> blocked;  // 1: not there with that heading
-    std::vector<std::uint8_t> no_turn;
-
-    bool inside(Cell cell) const {
-        return cell.col >= 0 && cell.row >= 0 && cell.col < width && cell.row < height;
-    }
-    std::size_t index(Cell cell) const {
-        return static_cast<std::size_t>(cell.row) * static_cast<std::size_t>(width) +
-               static_cast<std::size_t>(cell.col);
-    }
-};
-
-/// A vehicle of one cell that turns anywhere.
-GridLayers point_layers(const plant::OccupancyGrid& grid);
-/// A vehicle with a body (convex pieces, body frame) that keeps `clearance_m` from occupied cells;
-/// its centre stands in cell centres. Conservative by less than a cell.
-GridLayers footprint_layers(const plant::OccupancyGrid& grid,
-                            const std::vector<geometry::Polygon>& body, double clearance_m);
-
-/// Costs as integers of a thousandth, so that sums are exact.
-struct GridCost {
-    std::int64_t step = 10'000;  // straight into the next cell
-    std::int64_t turn = 10'000;  // on top, after a change of direction; step + turn >= 0
-};
-constexpr double kCostUnit = 1000;
-/// Cells of length 1 and k_diff for a cell entered after a change of direction.
-Result<GridCost> unit_cell_cost(double k_same, double k_diff);
-/// Cells of a hall's grid: k_same x length + the fixed charge of a plant's routing cost.
-Result<GridCost> hall_cost(const plant::RoutingCost& cost, double resolution_m);
+std::string_view to_string(Algorithm algorithm);
 
 struct GridRequest {
     Cell start;
     Cell goal;
-    std::optional<Direction> start_heading;  // none: free
-    GridCost cost;
+    std::optional<Direction> start_heading = std::nullopt;  // none: free
+    GridCost cost = {};
+    const std::atomic<bool>* cancel = nullptr;  // set by anyone, looked at every 1,000 expansions
 };
 
 struct GridRoute {
-    double cost = 0;  // in the units of k
-    int length = 0;   // steps
-    int turns = 0;
+    std::int64_t cost = 0;  // thousandths of k
+    int length = 0;         // steps
+    int turns = 0;          // changes of direction, one from the start heading included
     std::int64_t expanded = 0;
-    std::vector<Cell> cells;  // start to goal
+    Algorithm algorithm = Algorithm::kTurnJump;  // that answered
+    std::vector<Cell> corners;                   // start, every cell with a turn, goal
+
+    std::vector<Cell> cells() const;  // every cell from start to goal
+    double cost_in_k() const { return static_cast<double>(cost) / kCostUnit; }
 };
 
-/// Errors: outside_grid (kInvalid, field /start or /goal), no_route {blocked_by: start | goal |
-/// obstacles}.
-Result<GridRoute> plan_grid(const GridLayers& layers, const GridRequest& request);
+enum class SearchEnd : std::uint8_t {
+    kFound,
+    kNoRoute,
+    kCancelled,
+    kUnfit,  // not for this search: another one must answer
+};
+
+/// Searches with all their memory, for one thread. After a first query on maps of a size (or
+/// prepare()) no query allocates, as long as `route` is used again too.
+class GridSearch {
+public:
+    GridSearch();
+    ~GridSearch();
+    GridSearch(GridSearch&&) noexcept;
+    GridSearch& operator=(GridSearch&&) noexcept;
+
+    /// Answers with `wanted`, or with the next simpler search where its conditions do not hold.
+    /// REQUIRES: check(map, request) passed.
+    SearchEnd run(const GridMap& map, const GridRequest& request, Algorithm wanted,
+                  GridRoute& route);
+
+    /// Takes the memory that queries with `wanted` on maps of this size need.
+    void prepare(const GridMap& map, Algorithm wanted);
+    std::size_t bytes() const;
+
+private:
+    struct Searches;
+    std::unique_ptr<Searches> searches_;
+};
+
+/// Errors: outside_grid (kInvalid, field /start or /goal), routing_cost_invalid.
+Status check(const GridMap& map, const GridRequest& request);
+
+/// One query with an explained failure: those of check(), no_route {blocked_by: start | goal |
+/// obstacles}, cancelled.
+Result<GridRoute> plan_grid(const GridMap& map, const GridRequest& request,
+                            Algorithm wanted = Algorithm::kTurnJump);
 
 }  // namespace pulseline::planning

@@ -19,8 +19,6 @@ using plant::MotionMode;
 constexpr std::array kOrder{MotionMode::kLinear, MotionMode::kFixedAxisRotation,
                             MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kFree};
 
-constexpr kinematics::SweepDetail kOutlineDetail{.step_rad = radians(10.0), .excess_m = 0.05};
-
 double clearance_to(const StandingBody& body, const std::vector<Polygon>& pieces, double stop_m) {
     double least = stop_m;
     for (const Polygon& outline : body.outline) {
@@ -71,8 +69,7 @@ LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion)
 }
 
 /// The finished plan of a draft whose swept area keeps clear, or what blocks it.
-Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft,
-                       const std::vector<StandingBody>& standing) {
+Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
     const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
     if (const auto by = task.obstacles.violation(pieces, task.limits)) {
         return blocked(*by, task.passage.body.clearance_m);
@@ -86,39 +83,40 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft,
     plan.turns = draft.turns;
     plan.cost = draft.cost;
     plan.duration_s = sums.duration_s;
-    const Approach nearest = task.obstacles.nearest(pieces);
-    plan.clearance_m = nearest.distance_m;
-    plan.nearest = nearest.what;
-    for (const StandingBody& body : standing) {
-        const double distance = clearance_to(body, pieces, plan.clearance_m);
-        if (distance >= plan.clearance_m) continue;
-        plan.clearance_m = distance;
-        plan.nearest = body.vehicle.str();
-    }
     return plan;
 }
 
-/// The outline is for people and the dearest part of all: only for plans that are handed out.
-void add_outline(const Body& body, LegPlan& plan) {
-    plan.swept =
-        geometry::union_outline(kinematics::sweep(body.pieces, plan.segments, kOutlineDetail));
+/// What people want to know of a plan besides: how near it comes to what, and its outline.
+void describe(const Body& body, const Obstacles& obstacles,
+              const std::vector<StandingBody>& standing, LegPlan& plan) {
+    const auto pieces = kinematics::sweep(body.pieces, plan.segments);
+    const Approach nearest = obstacles.nearest(pieces);
+    plan.clearance_m = nearest.distance_m;
+    plan.nearest = nearest.what;
+    for (const StandingBody& other : standing) {
+        const double distance = clearance_to(other, pieces, plan.clearance_m);
+        if (distance >= plan.clearance_m) continue;
+        plan.clearance_m = distance;
+        plan.nearest = other.vehicle.str();
+    }
+    plan.swept = geometry::union_outline(
+        kinematics::sweep(body.pieces, plan.segments, kinematics::kOutlineDetail));
     for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
 }
 
-Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode,
-                            const std::vector<StandingBody>& standing) {
+Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
     const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
                                                       task.station.pose, mode);
     if (!variants) return fail(variants.error());
     std::optional<Error> refusal;
     for (const auto& motion : *variants) {
-        auto plan = finish(task, mode, draft_direct(task, motion), standing);
+        auto plan = finish(task, mode, draft_direct(task, motion));
         if (plan) return plan;
         if (!refusal) refusal = plan.error();
     }
     if (mode != MotionMode::kLinear) return fail(std::move(*refusal));
     return draft_road_leg(task).and_then(
-        [&](LegDraft draft) { return finish(task, mode, std::move(draft), standing); });
+        [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
 }
 
 void suggest_fastest(std::vector<ModeOption>& options) {
@@ -198,10 +196,9 @@ struct LegPlanner::Static {
         return fresh.emplace(roads.passage(type, loaded));
     }
 
-    /// Options of the given modes, without outlines.
+    /// Options of the given modes, without what only people want to know.
     std::vector<ModeOption> assess(const LegRequest& request, const Passage& passage,
-                                   const std::vector<MotionMode>& modes,
-                                   const std::vector<StandingBody>& standing) const {
+                                   const std::vector<MotionMode>& modes) const {
         std::vector<ModeOption> options;
         const auto station = target_of(plant, request);
         const Obstacles* obstacles = roads.obstacles(request.hall);
@@ -222,7 +219,7 @@ struct LegPlanner::Static {
                            *obstacles,
                            obstacles->limits_from(body, passage.body.clearance_m)};
         for (const MotionMode mode : modes) {
-            options.push_back({mode, assess_mode(task, mode, standing), false});
+            options.push_back({mode, assess_mode(task, mode), false});
         }
         suggest_fastest(options);
         return options;
@@ -243,15 +240,16 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
     assert(request.type);
     std::optional<Passage> fresh;
     const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
-    auto options = static_->assess(request, passage, modes_of(*request.type), standing);
+    auto options = static_->assess(request, passage, modes_of(*request.type));
     for (ModeOption& option : options) {
-        if (option.plan) add_outline(passage.body, *option.plan);
+        if (option.plan) {
+            describe(passage.body, *static_->roads.obstacles(request.hall), standing, *option.plan);
+        }
     }
     return options;
 }
 
-Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
-                                     const std::vector<StandingBody>& standing) const {
+Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     assert(request.type);
     auto modes = modes_of(*request.type);
     if (request.mode != MotionMode::kAuto) {
@@ -266,11 +264,9 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
     }
     std::optional<Passage> fresh;
     const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
-    auto options = static_->assess(request, passage, modes, standing);
+    auto options = static_->assess(request, passage, modes);
     for (ModeOption& option : options) {
-        if (!option.suggested) continue;
-        add_outline(passage.body, *option.plan);
-        return std::move(option.plan);
+        if (option.suggested) return std::move(option.plan);
     }
     // Nothing feasible: the first mode, linear, has the widest choice of ways.
     return std::move(options.front().plan);

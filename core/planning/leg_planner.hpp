@@ -25,6 +25,7 @@ struct LegRequest {
     plant::StationId from_station;  // empty when the vehicle stands at no station
     plant::StationId target;
     plant::MotionMode mode = plant::MotionMode::kAuto;
+    bool operator==(const LegRequest&) const = default;
 };
 
 /// One way to drive a leg.
@@ -36,6 +37,7 @@ struct LegPlan {
     int turns = 0;    // changes of direction up to arrival; an arc is one
     double cost = 0;  // in units of k, roadmap routes and direct motions alike
     double duration_s = 0;
+    // For people, filled in by assess_modes only: it costs more than the planning.
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
     double swept_area_m2 = 0;
@@ -73,8 +75,7 @@ public:
 
     /// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
     /// reason of the most promising mode).
-    Result<LegPlan> plan_leg(const LegRequest& request,
-                             const std::vector<StandingBody>& standing) const;
+    Result<LegPlan> plan_leg(const LegRequest& request) const;
 
 private:
     struct Static;

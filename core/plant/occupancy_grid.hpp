@@ -13,7 +13,7 @@ struct OccupancyGrid {
     int width = 0;
     int height = 0;
     double resolution_m = 0;
-    geometry::Point2 origin;  // south-west corner in the hall frame
+    geometry::Point2 origin;             // south-west corner in the hall frame
     std::vector<std::uint8_t> occupied;  // width*height, row-major, 1 = may not be touched
 
     bool empty() const { return occupied.empty(); }

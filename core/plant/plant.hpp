@@ -37,7 +37,8 @@ struct Hall {
     HallId id;
     std::string name;
     Polygon outline;             // inner side of the walls, hall frame
-    std::string occupancy_yaml;  // ROS map_server YAML beside the plant file; empty: outline + obstacles only
+    std::string occupancy_yaml;  // ROS map_server YAML beside the plant file; empty: outline +
+                                 // obstacles only
     OccupancyGrid grid;          // loaded from it; empty without one
 };
 
@@ -69,7 +70,8 @@ struct Marker {
     std::string payload;  // "ST01-F"; the number as text for AprilTag and landmark
     double size_m = 0.060;
     HallId hall;
-    Pose2 pose;  // surveyed centre; heading: direction of the code's "up" edge (design.md section 10)
+    Pose2
+        pose;  // surveyed centre; heading: direction of the code's "up" edge (design.md section 10)
     double sigma_xy_m = 0.0001;
     double sigma_heading_rad = 0.0005;
 };
@@ -102,6 +104,10 @@ struct Camera {
     double cu_px = 639.5;
     double cv_px = 511.5;
     double k1 = 0;
+    /// Of the optical axis against the plumb line, from calibration: turned first towards +u, then
+    /// towards +v. The foot is that of the optical centre, straight below it.
+    double tilt_u_rad = 0;
+    double tilt_v_rad = 0;
 };
 
 struct Bracket {
@@ -113,15 +119,15 @@ struct VehicleType {
     VehicleTypeId id;
     std::string name;
     Kinematics kinematics = Kinematics::kSteeredPlatform;
-    Polygon footprint;  // body frame, vehicle alone
+    Polygon footprint;       // body frame, vehicle alone
     Polygon load_footprint;  // body frame, outline of what it usually carries; may be empty
     double max_speed_mps = 1.0;
     double max_accel_mps2 = 0.2;
     double max_turn_rate_radps = 0.1;
     double max_turn_accel_radps2 = 0.05;
-    double min_turn_radius_m = 0;    // of arcs; 0: none
-    double max_arc_radius_m = 200;   // above it an arc is a straight line with a hidden drift
-    double clearance_m = 0.5;        // distance kept from walls and other vehicles
+    double min_turn_radius_m = 0;   // of arcs; 0: none
+    double max_arc_radius_m = 200;  // above it an arc is a straight line with a hidden drift
+    double clearance_m = 0.5;       // distance kept from walls and other vehicles
     double length_m() const;
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;
@@ -132,12 +138,12 @@ struct VehicleType {
 };
 
 struct Vehicle {
-    VehicleId id;      // "TP-01", as people say it
+    VehicleId id;  // "TP-01", as people say it
     VehicleTypeId type;
     std::string manufacturer;   // VDA 5050 identity
     std::string serial_number;  // [A-Za-z0-9_.:-]+
     std::string name;
-    StationId home;  // where the simulated one starts and where it rests
+    StationId home;         // where the simulated one starts and where it rests
     std::string load_name;  // what it carries in the demo, e.g. "A-103"; empty: nothing
     double load_kg = 0;
 };
@@ -197,9 +203,9 @@ std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded);
 
 const char* to_string(MotionMode mode);  // "self_rotation"
 std::optional<MotionMode> parse_motion_mode(const std::string& text);
-const char* to_string(Kinematics kinematics);  // "steered_platform"
-const char* to_string(MarkerKind kind);        // "qr", "apriltag", "landmark"
-const char* to_string(AreaKind kind);          // "zone", "lane", "no_go", "obstacle"
+const char* to_string(Kinematics kinematics);   // "steered_platform"
+const char* to_string(MarkerKind kind);         // "qr", "apriltag", "landmark"
+const char* to_string(AreaKind kind);           // "zone", "lane", "no_go", "obstacle"
 const char* to_string(Tolerance::Shape shape);  // "box", "ellipse"
 
 }  // namespace pulseline::plant

@@ -256,17 +256,25 @@ cv::Mat expose(const cv::Mat& scene, const ImageConditions& conditions, std::mt1
 FloorProjection::FloorProjection(const plant::Camera& camera, const ImageConditions& conditions)
     : camera_(camera), height_m_(camera.height_m + conditions.height_error_m) {
     // Rays are (u, v, F) in the camera's axes; turned first about v, then about u.
-    const double cu = std::cos(conditions.tilt_u_rad);
-    const double su = std::sin(conditions.tilt_u_rad);
-    const double cv = std::cos(conditions.tilt_v_rad);
-    const double sv = std::sin(conditions.tilt_v_rad);
+    const double tilt_u = camera.tilt_u_rad + conditions.tilt_u_rad;
+    const double tilt_v = camera.tilt_v_rad + conditions.tilt_v_rad;
+    const double cu = std::cos(tilt_u);
+    const double su = std::sin(tilt_u);
+    const double cv = std::cos(tilt_v);
+    const double sv = std::sin(tilt_v);
     floor_from_ray_ = {cu, 0, su, -sv * su, cv, sv * cu, -cv * su, -sv, cv * cu};
 }
 
 Point2 FloorProjection::floor_from_image(Pixel image) const {
-    const Pixel p = vision::undistorted(camera_, image);
+    // Newton's method on r + k1 r^3 = r_d: the simulation has its own lens.
     const auto& m = floor_from_ray_;
     const double f = camera_.f_px;
+    const Pixel d{image.u - camera_.cu_px, image.v - camera_.cv_px};
+    const double rd = std::hypot(d.u, d.v) / f;
+    double r = rd;
+    for (int i = 0; i < 4; ++i)
+        r -= (r + camera_.k1 * r * r * r - rd) / (1 + 3 * camera_.k1 * r * r);
+    const Pixel p = (rd > 0 ? r / rd : 1) * d;
     const double k = height_m_ / (m[6] * p.u + m[7] * p.v + m[8] * f);
     return {k * (m[0] * p.u + m[1] * p.v + m[2] * f), -k * (m[3] * p.u + m[4] * p.v + m[5] * f)};
 }
@@ -277,8 +285,9 @@ Pixel FloorProjection::image_from_floor(Point2 floor) const {
     const double y = -floor.y_m;
     const double z = height_m_;
     const double k = camera_.f_px / (m[2] * x + m[5] * y + m[8] * z);
-    return vision::distorted(
-        camera_, {k * (m[0] * x + m[3] * y + m[6] * z), k * (m[1] * x + m[4] * y + m[7] * z)});
+    const Pixel p{k * (m[0] * x + m[3] * y + m[6] * z), k * (m[1] * x + m[4] * y + m[7] * z)};
+    const double r = std::hypot(p.u, p.v) / camera_.f_px;
+    return Pixel{camera_.cu_px, camera_.cv_px} + (1 + camera_.k1 * r * r) * p;
 }
 
 cv::Mat render_floor(const plant::Camera& camera, const Pose2& hall_from_body,

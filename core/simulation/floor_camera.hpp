@@ -14,25 +14,18 @@ namespace pulseline::simulation {
 
 using geometry::Pose2;
 
-/// A QR code glued to the simulated floor: its true place, heading = direction of its "up" edge.
+/// A marker glued to the simulated floor: its true place, heading = direction of its "up" edge.
 struct FloorCode {
     std::string payload;
     Pose2 pose;
     double size_m = 0.060;
     bool mirrored = false;
+    plant::MarkerKind kind = plant::MarkerKind::kQr;
 };
 
-inline constexpr int kQrModules = 21;
-using QrModules =
-    std::array<std::array<bool, kQrModules>, kQrModules>;  // true: dark; [row][column]
-
-/// Version 1, level Q. REQUIRES: a payload that fits (11 bytes or 16 capital letters, digits and
-/// dashes).
-QrModules qr_modules(const std::string& payload);
-
-/// The 8-bit grey image that `camera` takes at the true body pose: codes on white sheets with a
-/// quiet zone of 4 modules, printed edges sampled by exact pixel area, on a textured floor fixed to
-/// the hall. The same input gives the same image.
+/// The 8-bit grey image that `camera` takes at the true body pose: markers on white sheets, printed
+/// edges sampled by exact pixel area, on a textured floor fixed to the hall. The same input gives
+/// the same image. REQUIRES: payloads of their markers' kinds (printing::marker_cells).
 cv::Mat render_floor(const plant::Camera& camera, const Pose2& hall_from_body,
                      std::span<const FloorCode> codes, const ImageConditions& conditions);
 

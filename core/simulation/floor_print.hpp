@@ -7,11 +7,13 @@
 
 namespace pulseline::simulation {
 
-/// Lays one code with its white sheet into a scene of reflectances (CV_32F). Each pixel is the mean
-/// over its quadrilateral on the floor, by clipping it at module borders: exact, no supersampling.
-/// `corners(v)`: floor points of the upper pixel corners of row v, one more than pixels.
+/// Floor points of the upper pixel corners of row v, one more than pixels.
+using FloorRows = std::function<const cv::Vec2f*(int)>;
+
+/// Lays one marker with its white sheet into a scene of reflectances (CV_32F). Each pixel is the
+/// mean over its quadrilateral on the floor, cut exactly at every printed border, straight or
+/// round: no supersampling. REQUIRES: a payload of the marker's kind.
 void print_code(cv::Mat& scene, const FloorCode& code, const Pose2& camera_from_code,
-                const FloorProjection& projection,
-                const std::function<const cv::Vec2f*(int)>& corners);
+                const FloorProjection& projection, const FloorRows& corners);
 
 }  // namespace pulseline::simulation

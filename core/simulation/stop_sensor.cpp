@@ -39,7 +39,7 @@ vision::QrReading reinterpreted(vision::QrReading reading, const plant::Camera& 
 
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
                                     const vision::QrReading& reading, double calibration_sigma_m) {
-    const Pose2 code = vision::body_from_code(reading, calibrated);
+    const Pose2 code = vision::body_from_marker(reading, calibrated);
     fleet::CameraReading out;
     out.camera = calibrated.name;
     out.found = true;

@@ -46,8 +46,8 @@ Result<Pose2> placed_pose(const World& world, const plant::Vehicle& vehicle, std
     }
     std::mt19937_64 random(seed_for(seed, "placed " + vehicle.id.str()));
     std::uniform_real_distribution<double> share(-1, 1);
-    return home->pose * Pose2{kPlaced_m * share(random), kPlaced_m * share(random),
-                              kPlaced_rad * share(random)};
+    return home->pose *
+           Pose2{kPlaced_m * share(random), kPlaced_m * share(random), kPlaced_rad * share(random)};
 }
 
 }  // namespace pulseline::simulation

@@ -33,8 +33,9 @@ World make_world(plant::Plant plant, std::uint64_t seed);
 /// A seed of its own for each thing of a world, from its name.
 std::uint64_t seed_for(std::uint64_t seed, const std::string& name);
 
-/// Where a vehicle's machine truly stands when the world begins: at home, placed by people to within
-/// 8 mm and 0.1 deg, so that both cameras see their codes. Error: not_found without a home station.
+/// Where a vehicle's machine truly stands when the world begins: at home, placed by people to
+/// within 8 mm and 0.1 deg, so that both cameras see their codes. Error: not_found without a home
+/// station.
 Result<Pose2> placed_pose(const World& world, const plant::Vehicle& vehicle, std::uint64_t seed);
 
 }  // namespace pulseline::simulation

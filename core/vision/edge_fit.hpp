@@ -1,70 +1,45 @@
 #pragma once
 
-#include <array>
+#include <Eigen/Core>
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <span>
 
 #include "core/plant/plant.hpp"
-#include "core/vision/optics.hpp"
+#include "core/vision/placement.hpp"
 
 namespace pulseline::vision {
 
-inline constexpr int kModules = 21;  // QR version 1
-
-/// Where a code lies, in ideal pixels about the principal point: module coordinates (a right, b
-/// down as printed, 0 at the centre, 1 = one module) are turned by angle, scaled and shifted.
-struct CodePlacement {
-    Pixel centre;
-    double angle_rad = 0;
-    double module_px = 1;
-
-    Pixel at(double a, double b) const {
-        const double c = module_px * std::cos(angle_rad);
-        const double s = module_px * std::sin(angle_rad);
-        return {centre.u + c * a - s * b, centre.v + s * a + c * b};
-    }
-};
-
-/// What the standard prints in a module whatever the payload (true: dark); nothing for data.
-std::optional<bool> fixed_module(int row, int column);
-
-/// Grey level of each module and of the ring of quiet zone around them, and what is dark.
-class ModuleGrid {
-public:
-    /// Samples the image about the centre of every module; nothing is assumed about the encoder.
-    ModuleGrid(const cv::Mat& grey, const plant::Camera& camera, const CodePlacement& placement);
-
-    static constexpr int kSide = kModules + 2;
-    bool valid(int row, int column) const { return levels_[index(row, column)] >= 0; }
-    float level(int row, int column) const { return levels_[index(row, column)]; }
-    bool dark(int row, int column) const { return dark_[index(row, column)]; }
-    float contrast() const { return contrast_; }
-    /// Share of finder, separator and timing modules that are as the standard prints them.
-    double fixed_pattern_share() const;
-
-private:
-    static std::size_t index(int row, int column) {  // -1 .. kModules
-        return static_cast<std::size_t>((row + 1) * kSide + column + 1);
-    }
-    std::array<float, kSide * kSide> levels_{};
-    std::array<bool, kSide * kSide> dark_{};
-    float contrast_ = 0;
+/// A point on a printed border, marker units: (na, nb) is the unit normal from dark to light.
+struct EdgeSite {
+    double a = 0;
+    double b = 0;
+    double na = 0;
+    double nb = 0;
 };
 
 struct EdgeFit {
-    CodePlacement placement;
-    double sigma_px = 0;
-    double sigma_angle_rad = 0;
+    Placement placement;
+    /// Of centre u, v [px] and angle [rad], ideal image frame.
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    double growth_px = 0;  // of dark over light: ink, clipped light
     double rms_px = 0;
-    double inlier_share = 0;
+    double inlier_share = 0;  // of the sites in the image
+    int inliers = 0;
     int profiles = 0;
 };
 
-/// Robust fit of the placement to every dark/light transition between neighbouring modules. Input:
-/// a placement good to about a quarter of a module. Method: sub-pixel edge position by area along
-/// short profiles, Tukey-weighted least squares in four parameters, lens distortion known
-/// (vision.md, finding 2). Nothing when too few edges are visible.
+/// kLocate: starts up to a quarter of the smallest feature away. kMeasure: the whole accuracy.
+enum class FitEffort { kLocate, kMeasure };
+
+/// Robust fit of the placement to printed borders. Input: sites of a marker whose code is known (or
+/// of the part of it that every code has), the width of its narrowest feature in marker units, a
+/// placement good to a quarter of that. Method (vision.md, finding 2): sub-pixel edge position by
+/// the area under short profiles between the levels on both sides, Tukey-weighted least squares
+/// over position, angle, scale, camera tilt (with a prior, so that it only enters as far as the
+/// edges show it) and growth of the ink; lens distortion known. Nothing when too few edges show.
 std::optional<EdgeFit> fit_edges(const cv::Mat& grey, const plant::Camera& camera,
-                                 const ModuleGrid& modules, const CodePlacement& start);
+                                 std::span<const EdgeSite> sites, double feature_units,
+                                 const Placement& start, FitEffort effort = FitEffort::kMeasure);
 
 }  // namespace pulseline::vision

@@ -4,15 +4,15 @@
 #include <vector>
 
 #include "core/plant/plant.hpp"
-#include "core/vision/edge_fit.hpp"
+#include "core/vision/placement.hpp"
 
 namespace pulseline::vision {
 
 /// Where three finder patterns of a code of known size could be, best first; never mirrored.
-/// Method: correlation of the image, shrunk to 1/`shrink`, with a finder averaged over all
-/// rotations, then triples of peaks with two equal legs of 14 modules at a right angle. It needs no
-/// intact scan line, so dirt on a finder does not hide it. REQUIRES: shrink is a power of two.
-std::vector<CodePlacement> search_finders(const cv::Mat& grey, const plant::Camera& camera,
-                                          double expected_module_px, int shrink);
+/// Method: correlation with a finder averaged over all rotations, then triples of peaks with two
+/// equal legs of 14 modules at a right angle; after them, for codes with a spoilt finder, pairs of
+/// peaks with the third corner where it must be. `small`: the image shrunk to 1/`shrink`.
+std::vector<Placement> search_finders(const cv::Mat& small, const plant::Camera& camera,
+                                      double expected_module_px, int shrink);
 
 }  // namespace pulseline::vision

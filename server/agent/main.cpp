@@ -153,6 +153,7 @@ int main(int argc, char** argv) {
     using namespace pulseline;
     spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
     spdlog::flush_on(spdlog::level::info);
+    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
     cv::setNumThreads(1);  // many agents share one machine
     int exit_code = 0;
     const auto options = agent::read_options(argc, argv, exit_code);

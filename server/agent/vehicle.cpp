@@ -229,6 +229,8 @@ void Vehicle::receive(std::string_view text) {
             error.references.emplace_back("field", order.error().field);
             return executor_.report(std::move(error));
         }
+        spdlog::info("{}: order {} update {} is here", vehicle_.id.str(), order->order_id,
+                     order->order_update_id);
         return executor_.handle(*order);
     }
     if (frame->topic == Topic::kInstantActions) {

@@ -1,10 +1,13 @@
-// Time per query of the planner on the final-assembly plant (or the plant file in
-// PULSELINE_BENCH_PLANT): mean, p50 and p99. JSON with --benchmark_format=json.
+// Planning: grid searches on benchmark maps (--maps DIR, else generated ones), the roadmap, and
+// time per query of the leg planner on the final-assembly plant (or the plant file in
+// PULSELINE_BENCH_PLANT). --only grids|roads|legs runs one part. The legs' figures go where
+// --benchmark_out says, those of grids and roads beside it with -grids and -roads in the name.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <random>
 
@@ -13,6 +16,8 @@
 #include "core/planning/leg_planner.hpp"
 #include "core/planning/roadmap_index.hpp"
 #include "core/traffic/tile_map.hpp"
+#include "tests/bench/grid_bench.hpp"
+#include "tests/bench/road_bench.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -94,7 +99,7 @@ void plan_leg(benchmark::State& state) {
     const LegPlanner planner(bench_plant());
     const auto all = requests();
     std::size_t i = 0;
-    measure(state, [&] { benchmark::DoNotOptimize(planner.plan_leg(all[i++ % all.size()], {})); });
+    measure(state, [&] { benchmark::DoNotOptimize(planner.plan_leg(all[i++ % all.size()])); });
 }
 
 void roadmap(benchmark::State& state) {
@@ -112,20 +117,24 @@ void roadmap(benchmark::State& state) {
 void grid(benchmark::State& state) {
     const auto& hall = bench_plant().halls.front();
     const auto& type = bench_plant().vehicle_types.back();
-    const auto layers =
-        footprint_layers(hall.grid, plant::outline_with_load(type, false), type.clearance_m);
+    const FootprintLayers footprint(hall.grid, plant::outline_with_load(type, false),
+                                    type.clearance_m);
+    const GridMap map(footprint.layers());
     const auto cost = *hall_cost(bench_plant().routing, hall.grid.resolution_m);
     std::vector<Cell> free;
-    for (int row = 0; row < layers.height; row += 7) {
-        for (int col = 0; col < layers.width; col += 7) {
-            if (!layers.no_turn[layers.index({col, row})]) free.push_back({col, row});
+    for (int row = 0; row < map.height(); row += 7) {
+        for (int col = 0; col < map.width(); col += 7) {
+            if (!map.layers().no_turn.test({col, row})) free.push_back({col, row});
         }
     }
     if (free.empty()) return state.SkipWithError("no free cell");
     std::mt19937 random(3);
     const auto cell = [&] { return free[random() % free.size()]; };
+    GridSearch search;
+    GridRoute route;
     measure(state, [&] {
-        benchmark::DoNotOptimize(plan_grid(layers, {cell(), cell(), std::nullopt, cost}));
+        benchmark::DoNotOptimize(
+            search.run(map, {cell(), cell(), std::nullopt, cost}, Algorithm::kTurnJump, route));
     });
 }
 
@@ -148,4 +157,45 @@ BENCHMARK(tiles_of_a_30_m_arc)->UseManualTime()->Unit(benchmark::kMicrosecond)->
 }  // namespace
 }  // namespace pulseline::planning
 
-BENCHMARK_MAIN();
+namespace {
+
+/// Takes `--name VALUE` out of the arguments.
+std::string take(std::vector<char*>& arguments, const std::string& name) {
+    for (std::size_t i = 1; i + 1 < arguments.size(); ++i) {
+        if (arguments[i] != name) continue;
+        const std::string value = arguments[i + 1];
+        arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i),
+                        arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+        return value;
+    }
+    return {};
+}
+
+void write(const std::string& out, const std::string& part, const nlohmann::json& figures) {
+    if (out.empty()) return;
+    const std::size_t end = out.rfind(".json");
+    std::ofstream(out.substr(0, end) + "-" + part + ".json") << figures.dump(2) << '\n';
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::vector<char*> arguments(argv, argv + argc);
+    const std::string maps = take(arguments, "--maps");
+    const std::string only = take(arguments, "--only");
+    std::string out;
+    for (const char* argument : arguments) {
+        const std::string_view prefix = "--benchmark_out=";
+        if (std::string_view(argument).starts_with(prefix)) out = argument + prefix.size();
+    }
+    if (only.empty() || only == "grids") {
+        write(out, "grids", pulseline::bench::bench_grids(maps));
+    }
+    if (only.empty() || only == "roads") write(out, "roads", pulseline::bench::bench_roads());
+    if (!only.empty() && only != "legs") return 0;
+    argc = static_cast<int>(arguments.size());
+    benchmark::Initialize(&argc, arguments.data());
+    if (benchmark::ReportUnrecognizedArguments(argc, arguments.data())) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    return 0;
+}

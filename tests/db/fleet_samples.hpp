@@ -46,6 +46,8 @@ public:
         o.created_by = "Jürgen \"J\" O'Neil";
         o.created = at(ms);
         o.started = at(ms + 1);
+        o.steps[1].planned_s = 12.5;
+        o.expected = at(ms + 13'000);
         o.revision = 4;
         return o;
     }

@@ -135,8 +135,9 @@ int run(const Arguments& arguments) {
         }
         std::fflush(stdout);
     }
-    std::printf("%d of %d planted bugs found\n", traffic::kMutationCount - 1 - missed,
-                traffic::kMutationCount - 1);
+    const int found = traffic::kMutationCount - 1 - missed;
+    std::printf("%d of %d planted bugs found\n", found, traffic::kMutationCount - 1);
+    std::printf("# pass %d\n# fail %d\n", found, missed);
     return missed == 0 ? 0 : 1;
 }
 
@@ -196,6 +197,9 @@ int run(const Arguments& arguments) {
                     static_cast<unsigned long long>(seeds_with[name]));
     }
     std::printf("faults in %.0f %% of the seeds; %llu seeds failed\n", share,
+                static_cast<unsigned long long>(failed));
+    std::printf("# pass %llu\n# fail %llu\n",
+                static_cast<unsigned long long>(arguments.seeds - failed),
                 static_cast<unsigned long long>(failed));
     if (arguments.seeds >= 100 && share < 80) {
         std::printf("too few seeds have faults\n");

@@ -69,7 +69,7 @@ std::string code_of(Request request) {
 const std::set<std::string> kForEverybody = {"signIn", "getOpenApi", "health", "ready"};
 const std::set<std::string> kForOperators = {"pauseVehicle",   "initPosition",   "pauseFleet",
                                              "resumeFleet",    "createJobOrder", "pauseJobOrder",
-                                             "resumeJobOrder", "cancelJobOrder"};
+                                             "resumeJobOrder", "cancelJobOrder", "findRoutes"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

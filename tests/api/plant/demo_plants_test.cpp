@@ -42,9 +42,8 @@ std::vector<planning::StandingBody> others_at_home(const Plant& plant, const Veh
     return bodies;
 }
 
-Result<planning::LegPlan> plan(const planning::LegPlanner& planner, const Plant& plant,
-                               const Vehicle& vehicle, const Station& from, const Station& to,
-                               MotionMode mode) {
+planning::LegRequest leg(const Plant& plant, const Vehicle& vehicle, const Station& from,
+                         const Station& to, MotionMode mode) {
     planning::LegRequest request;
     request.type = find_vehicle_type(plant, vehicle.type);
     request.loaded = !vehicle.load_name.empty();
@@ -53,7 +52,7 @@ Result<planning::LegPlan> plan(const planning::LegPlanner& planner, const Plant&
     request.from_station = from.id;
     request.target = to.id;
     request.mode = mode;
-    return planner.plan_leg(request, others_at_home(plant, vehicle.id));
+    return request;
 }
 
 TEST_P(DemoPlant, EveryVehicleCanDriveHomeFromEveryStationOfItsTypeAndBack) {
@@ -67,10 +66,12 @@ TEST_P(DemoPlant, EveryVehicleCanDriveHomeFromEveryStationOfItsTypeAndBack) {
                 std::find(types.begin(), types.end(), vehicle.type) == types.end()) {
                 continue;
             }
-            const auto out = plan(planner, plant, vehicle, home, station, MotionMode::kAuto);
+            const auto out =
+                planner.plan_leg(leg(plant, vehicle, home, station, MotionMode::kAuto));
             EXPECT_TRUE(out) << vehicle.id.str() << " to " << station.number << ": "
                              << out.error().what;
-            const auto back = plan(planner, plant, vehicle, station, home, MotionMode::kAuto);
+            const auto back =
+                planner.plan_leg(leg(plant, vehicle, station, home, MotionMode::kAuto));
             EXPECT_TRUE(back) << vehicle.id.str() << " from " << station.number << ": "
                               << back.error().what;
         }
@@ -100,11 +101,16 @@ TEST_P(Tour, LoadedPlatformDrivesTangsStationsClearOfEverybody) {
                                 MotionMode::kFixedAxisRotation,
                                 MotionMode::kLinear};
     for (int from = 1; from <= 6; ++from) {
-        const auto leg = plan(planner, plant, platform, *find_station(plant, from),
-                              *find_station(plant, from + 1), modes[from - 1]);
-        ASSERT_TRUE(leg) << from << ": " << leg.error().what;
-        EXPECT_GE(leg->clearance_m, 0.5) << from << " near " << leg->nearest;
-        EXPECT_TRUE(leg->route.empty()) << "drives straight there";
+        const MotionMode mode = modes[from - 1];
+        const auto options = planner.assess_modes(
+            leg(plant, platform, *find_station(plant, from), *find_station(plant, from + 1), mode),
+            others_at_home(plant, platform.id));
+        const auto option = std::ranges::find(options, mode, &planning::ModeOption::mode);
+        ASSERT_NE(option, options.end());
+        const auto& plan = option->plan;
+        ASSERT_TRUE(plan) << from << ": " << plan.error().what;
+        EXPECT_GE(plan->clearance_m, 0.5) << from << " near " << plan->nearest;
+        EXPECT_TRUE(plan->route.empty()) << "drives straight there";
     }
 }
 

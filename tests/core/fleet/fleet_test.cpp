@@ -59,6 +59,24 @@ TEST(Fleet, TheNextLegStartsFromTheMeasuredPose) {
     EXPECT_NE(world.store.stops[0].leg, leg.id) << "one VDA 5050 order per step";
 }
 
+TEST(Fleet, SaysWhenARunningOrderShouldEnd) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {2, 3}));
+    while (world.count_events("leg.accepted") == 0) world.run(0.1);
+
+    const JobOrder order = world.only_order();
+
+    const auto& leg = world.store.vehicles.at(kV1).leg_data;
+    ASSERT_TRUE(order.expected);
+    EXPECT_GT(order.steps[1].planned_s, 1);
+    EXPECT_NEAR(seconds(*order.expected - world.now), leg.duration_s + order.steps[1].planned_s,
+                0.2);
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded);
+    EXPECT_FALSE(world.only_order().expected);
+}
+
 TEST(Fleet, EventsAreGapless) {
     World world;
     world.connect_all();

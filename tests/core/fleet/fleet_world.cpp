@@ -140,7 +140,8 @@ void FakeVehicle::receive(const VehicleMessage& message) {
             const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
                                            [&](const auto& a) { return a.id == action.id; });
             if (known) continue;  // a doubled message
-            state.action_states.push_back({action.id, action.type, ActionStatus::kFinished, {}, {}});
+            state.action_states.push_back(
+                {action.id, action.type, ActionStatus::kFinished, {}, {}});
             if (action.type == "startPause") state.paused = true;
             if (action.type == "stopPause") state.paused = false;
             if (action.type == "initPosition") {
@@ -181,7 +182,8 @@ void FakeVehicle::receive(const VehicleMessage& message) {
     for (const auto& action : order_->nodes.back().actions) {
         const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
                                        [&](const auto& a) { return a.id == action.id; });
-        if (!known) state.action_states.push_back({action.id, action.type, ActionStatus::kWaiting, {}, {}});
+        if (!known)
+            state.action_states.push_back({action.id, action.type, ActionStatus::kWaiting, {}, {}});
     }
 }
 

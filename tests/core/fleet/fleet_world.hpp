@@ -8,7 +8,8 @@
 #include "core/fleet/fleet.hpp"
 #include "core/plant/plant.hpp"
 
-/// A hall, obedient vehicles and a store in memory, so that tests can crash the fleet at any record.
+/// A hall, obedient vehicles and a store in memory, so that tests can crash the fleet at any
+/// record.
 namespace pulseline::fleet::testing {
 
 /// 60 x 40 m hall; stations 1..4 on a line 12 m apart facing east, each with two codes; vehicles
@@ -40,9 +41,9 @@ public:
     void restart();
 
     StateMessage state;
-    Pose2 stop_error;               // added to the next measured stops
+    Pose2 stop_error;  // added to the next measured stops
     std::optional<std::string> measure_fails;
-    bool sees_codes = true;         // reports the codes below its cameras while standing on them
+    bool sees_codes = true;  // reports the codes below its cameras while standing on them
     int orders_received = 0;
     int node_steps = 0;
 

@@ -2,152 +2,35 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-#include <queue>
 #include <random>
+#include <thread>
+
+#include "tests/core/planning/counted_new.hpp"
+#include "tests/core/planning/grid_judge.hpp"
 
 namespace pulseline::planning {
 namespace {
 
-constexpr std::int64_t kUnreached = std::numeric_limits<std::int64_t>::max();
-constexpr Cell kStep[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-
-plant::OccupancyGrid grid_of(int width, int height, double resolution_m = 1) {
-    plant::OccupancyGrid grid;
-    grid.width = width;
-    grid.height = height;
-    grid.resolution_m = resolution_m;
-    grid.occupied.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
-    return grid;
-}
-
-/// Judge: Dijkstra over (cell, direction), nothing clever.
-std::int64_t dijkstra(const GridLayers& layers, const GridRequest& request) {
-    const auto state = [&](Cell cell, int d) {
-        return layers.index(cell) * 4 + static_cast<std::size_t>(d);
-    };
-    const auto free = [&](Cell cell, int d) {
-        return layers.inside(cell) &&
-               !layers.blocked[static_cast<std::size_t>(d)][layers.index(cell)];
-    };
-    if (request.start == request.goal) {
-        for (int d = 0; d < 4; ++d) {
-            if (free(request.start, d)) return 0;
-        }
-        return kUnreached;
-    }
-    std::vector<std::int64_t> best(layers.no_turn.size() * 4, kUnreached);
-    using Entry = std::tuple<std::int64_t, int, int, int>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const auto reach = [&](Cell cell, int d, std::int64_t cost) {
-        if (!free(cell, d) || cost >= best[state(cell, d)]) return;
-        best[state(cell, d)] = cost;
-        open.push({cost, cell.col, cell.row, d});
-    };
-    for (int d = 0; d < 4; ++d) {
-        const Cell next{request.start.col + kStep[d].col, request.start.row + kStep[d].row};
-        if (!request.start_heading) {  // the first step is no turn
-            if (free(request.start, d)) reach(next, d, request.cost.step);
-        } else if (static_cast<int>(*request.start_heading) == d) {
-            reach(request.start, d, 0);
-        }
-    }
-    while (!open.empty()) {
-        const auto [cost, col, row, d] = open.top();
-        open.pop();
-        const Cell cell{col, row};
-        if (cost > best[state(cell, d)]) continue;
-        if (cell == request.goal) return cost;
-        for (int e = 0; e < 4; ++e) {
-            if (e != d && (layers.no_turn[layers.index(cell)] || !free(cell, e))) continue;
-            reach({col + kStep[e].col, row + kStep[e].row}, e,
-                  cost + request.cost.step + (e == d ? 0 : request.cost.turn));
-        }
-    }
-    return kUnreached;
-}
-
-int direction(Cell from, Cell to) {
-    for (int d = 0; d < 4; ++d) {
-        if (from.col + kStep[d].col == to.col && from.row + kStep[d].row == to.row) return d;
-    }
-    ADD_FAILURE() << "no neighbours";
-    return 0;
-}
-
-void expect_valid(const GridLayers& layers, const GridRequest& request, const GridRoute& route) {
-    ASSERT_FALSE(route.cells.empty());
-    EXPECT_EQ(route.cells.front(), request.start);
-    EXPECT_EQ(route.cells.back(), request.goal);
-    EXPECT_EQ(route.length + 1, static_cast<int>(route.cells.size()));
-    int turns = 0;
-    int heading = request.start_heading ? static_cast<int>(*request.start_heading) : -1;
-    for (std::size_t i = 1; i < route.cells.size(); ++i) {
-        const Cell from = route.cells[i - 1];
-        const int d = direction(from, route.cells[i]);
-        const auto& layer = layers.blocked[static_cast<std::size_t>(d)];
-        EXPECT_FALSE(layer[layers.index(from)]);
-        EXPECT_FALSE(layer[layers.index(route.cells[i])]);
-        if (heading >= 0 && d != heading) {
-            EXPECT_FALSE(layers.no_turn[layers.index(from)]);
-            ++turns;
-        }
-        heading = d;
-    }
-    EXPECT_EQ(route.turns, turns);
-    const auto cost = request.cost.step * route.length + request.cost.turn * turns;
-    EXPECT_DOUBLE_EQ(route.cost, static_cast<double>(cost) / kCostUnit);
-}
-
-TEST(GridSearch, CostsWhatDijkstraSaysOnRandomGrids) {
-    const double same[] = {0, 0.3, 0.8, 1, 2.5, 10};
-    const double diff[] = {0, 0.1, 0.5, 1, 1.6, 7, 20, 100};
-    std::mt19937_64 random(4711);
-    int routes = 0;
-    for (int i = 0; i < 6'000; ++i) {
-        auto grid =
-            grid_of(1 + static_cast<int>(random() % 16), 1 + static_cast<int>(random() % 16));
-        const auto density = 2 + random() % 6;
-        for (auto& cell : grid.occupied) cell = random() % density == 0;
-        GridLayers layers = point_layers(grid);
-        if (i % 3 ==
-            0) {  // as a footprint makes them: other cells by heading, turns not everywhere
-            for (auto& layer : layers.blocked) {
-                for (auto& cell : layer) cell = cell || random() % 8 == 0;
-            }
-            for (auto& cell : layers.no_turn) cell = random() % 3 == 0;
-        }
-        const auto cell = [&] {
-            return Cell{static_cast<int>(random() % static_cast<unsigned>(grid.width)),
-                        static_cast<int>(random() % static_cast<unsigned>(grid.height))};
-        };
-        GridRequest request{cell(), cell(), std::nullopt,
-                            *unit_cell_cost(same[random() % 6], diff[random() % 8])};
-        if (random() % 2 == 0) request.start_heading = static_cast<Direction>(random() % 4);
-
-        const auto route = plan_grid(layers, request);
-
-        const std::int64_t judged = dijkstra(layers, request);
-        ASSERT_EQ(route.has_value(), judged != kUnreached) << "grid " << i;
-        if (!route) {
-            EXPECT_EQ(route.error().reason.code, "no_route");
-            continue;
-        }
-        ASSERT_DOUBLE_EQ(route->cost, static_cast<double>(judged) / kCostUnit) << "grid " << i;
-        expect_valid(layers, request, *route);
-        ++routes;
-    }
-    EXPECT_GT(routes, 2'000);
+GridMap footprint_map(const plant::OccupancyGrid& grid, const std::vector<geometry::Polygon>& body,
+                      double clearance_m) {
+    return GridMap(FootprintLayers(grid, body, clearance_m).layers());
 }
 
 TEST(GridSearch, ExpandsLittleMoreThanTheRouteOnAnEmptyFloor) {
-    const GridLayers layers = point_layers(grid_of(200, 200));
-    const auto route =
-        plan_grid(layers, {{3, 5}, {190, 120}, std::nullopt, *unit_cell_cost(10, 20)});
-    ASSERT_TRUE(route);
-    EXPECT_EQ(route->turns, 1);
-    EXPECT_DOUBLE_EQ(route->cost, 10 * (187 + 115) + 10);
-    EXPECT_LT(route->expanded, 2 * (187 + 115));
+    const GridMap map(point_layers(grid_of(200, 200)));
+    const GridRequest request{{3, 5}, {190, 120}, std::nullopt, *unit_cell_cost(10, 20)};
+
+    const auto stepwise = plan_grid(map, request, Algorithm::kBucket);
+    const auto jumping = plan_grid(map, request);
+
+    for (const auto& route : {stepwise, jumping}) {
+        ASSERT_TRUE(route);
+        EXPECT_EQ(route->turns, 1);
+        EXPECT_DOUBLE_EQ(route->cost_in_k(), 10 * (187 + 115) + 10);
+        EXPECT_EQ(route->corners.size(), 3u);
+    }
+    EXPECT_LT(stepwise->expanded, 2 * (187 + 115));
+    EXPECT_LE(jumping->expanded, 4);
 }
 
 /// Two rooms of 30 m x 40 m joined by a gap of `gap_m` in the wall between them.
@@ -163,16 +46,15 @@ plant::OccupancyGrid rooms(double gap_m) {
 
 TEST(GridSearch, ThePlatformDoesNotFitWhereASmallVehicleDoes) {
     const auto grid = rooms(3);
-    const auto small = footprint_layers(grid, {geometry::rectangle(1.2, 0.8)}, 0.3);
-    const auto large = footprint_layers(grid, {geometry::rectangle(10.5, 2.5)}, 0.5);
+    const auto small = footprint_map(grid, {geometry::rectangle(1.2, 0.8)}, 0.3);
+    const auto large = footprint_map(grid, {geometry::rectangle(10.5, 2.5)}, 0.5);
     const GridRequest request{{30, 15}, {110, 65}, std::nullopt, *unit_cell_cost(10, 20)};
 
     EXPECT_TRUE(plan_grid(small, request));
     const auto refused = plan_grid(large, request);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().reason.params.front().value, ParamValue{std::string("obstacles")});
-    EXPECT_TRUE(
-        plan_grid(footprint_layers(rooms(6), {geometry::rectangle(10.5, 2.5)}, 0.5), request));
+    EXPECT_TRUE(plan_grid(footprint_map(rooms(6), {geometry::rectangle(10.5, 2.5)}, 0.5), request));
 }
 
 TEST(GridSearch, FootprintLayersKeepTheClearanceExactly) {
@@ -181,7 +63,8 @@ TEST(GridSearch, FootprintLayersKeepTheClearanceExactly) {
     for (auto& cell : grid.occupied) cell = random() % 150 == 0;
     const geometry::Polygon body{{-1.5, -0.5}, {2.5, -0.3}, {2.5, 0.3}, {-1.5, 0.5}};
     constexpr double kClearance_m = 0.3;
-    const auto layers = footprint_layers(grid, {body}, kClearance_m);
+    const FootprintLayers footprint(grid, {body}, kClearance_m);
+    const GridLayers& layers = footprint.layers();
     int free_cells = 0;
     for (int i = 0; i < 150; ++i) {
         const Cell at{static_cast<int>(random() % 60), static_cast<int>(random() % 50)};
@@ -199,7 +82,7 @@ TEST(GridSearch, FootprintLayersKeepTheClearanceExactly) {
                 least = std::min(least, geometry::distance(placed, cell));
             }
         }
-        const bool blocked = layers.blocked[static_cast<std::size_t>(d)][layers.index(at)] != 0;
+        const bool blocked = layers.blocked[static_cast<std::size_t>(d)].test(at);
         EXPECT_TRUE(blocked || least >= kClearance_m - 1e-9) << least;
         EXPECT_TRUE(!blocked || least <= kClearance_m + 0.125 + 1e-9) << least;  // half a step
         free_cells += blocked ? 0 : 1;
@@ -217,21 +100,148 @@ TEST(GridSearch, TurnsOnlyWhereTheWholeBodyCan) {
         }
     }
     const GridRequest request{{24, 8}, {72, 55}, std::nullopt, *unit_cell_cost(1, 2)};
-    EXPECT_TRUE(plan_grid(footprint_layers(grid, {geometry::rectangle(1.2, 0.8)}, 0.2), request));
-    EXPECT_FALSE(plan_grid(footprint_layers(grid, {geometry::rectangle(8, 0.8)}, 0.2), request));
+    EXPECT_TRUE(plan_grid(footprint_map(grid, {geometry::rectangle(1.2, 0.8)}, 0.2), request));
+    EXPECT_FALSE(plan_grid(footprint_map(grid, {geometry::rectangle(8, 0.8)}, 0.2), request));
 }
 
 TEST(GridSearch, NamesWhatIsWrong) {
     auto grid = grid_of(4, 4);
     grid.occupied[5] = 1;
-    const GridLayers layers = point_layers(grid);
-    const auto outside = plan_grid(layers, {{0, 0}, {4, 0}, std::nullopt, {}});
+    const GridMap map(point_layers(grid));
+    const auto outside = plan_grid(map, {{0, 0}, {4, 0}, std::nullopt, {}});
     EXPECT_EQ(outside.error().reason.code, "outside_grid");
     EXPECT_EQ(outside.error().field, "/goal");
-    const auto start = plan_grid(layers, {{1, 1}, {3, 3}, std::nullopt, {}});
+    const auto start = plan_grid(map, {{1, 1}, {3, 3}, std::nullopt, {}});
     EXPECT_EQ(start.error().reason.params.front().value, ParamValue{std::string("start")});
     EXPECT_FALSE(unit_cell_cost(-1, 5));
     EXPECT_FALSE(unit_cell_cost(1, 1e300));
+}
+
+TEST(GridSearch, ScalesCostsToThousandths) {
+    EXPECT_EQ(*unit_cell_cost(10, 20), (GridCost{10'000, 10'000}));
+    EXPECT_EQ(*unit_cell_cost(0.8, 0.5), (GridCost{800, -300}));
+}
+
+TEST(GridSearch, JumpsOnlyWhereItsConditionsHold) {
+    GridLayers layers = point_layers(grid_of(9, 9));
+    const auto answered_by = [&](GridCost cost) {
+        const auto route = plan_grid(GridMap(layers), {{0, 0}, {8, 5}, std::nullopt, cost});
+        EXPECT_TRUE(route);
+        return route->algorithm;
+    };
+    EXPECT_EQ(answered_by({10, 10}), Algorithm::kTurnJump);
+    EXPECT_EQ(answered_by({10, -3}), Algorithm::kBucket);                       // cheap turns
+    EXPECT_EQ(answered_by({1'000'000'007, 1'000'000'009}), Algorithm::kAstar);  // 64 bits
+
+    layers.no_turn.set({4, 4}, true);
+    EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
+    layers.no_turn.set({4, 4}, false);
+    layers.make_one_way({4, 4}, Direction::kWest);
+    EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
+    for (auto& layer : layers.no_exit) layer = {};
+    layers.weight.assign(81, 1);
+    EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
+}
+
+TEST(GridSearch, StopsWhenItIsToldTo) {
+    std::mt19937_64 random(3);
+    auto grid = grid_of(300, 300);
+    for (auto& cell : grid.occupied) cell = random() % 4 == 0;
+    grid.occupied.front() = grid.occupied.back() = 0;
+    const GridMap map(point_layers(grid));
+    std::atomic<bool> cancel = true;
+    for (const auto algorithm : {Algorithm::kDijkstra, Algorithm::kAstar, Algorithm::kBucket}) {
+        const auto stopped =
+            plan_grid(map, {{0, 0}, {299, 299}, std::nullopt, {10, 10}, &cancel}, algorithm);
+        ASSERT_FALSE(stopped);
+        EXPECT_EQ(stopped.error().reason.code, "cancelled") << to_string(algorithm);
+    }
+}
+
+TEST(GridSearch, AllocatesNothingOnceWarm) {
+    std::mt19937_64 random(5);
+    auto grid = grid_of(200, 150);
+    for (auto& cell : grid.occupied) cell = random() % 4 == 0;
+    GridLayers oneway = point_layers(grid);
+    oneway.make_one_way({7, 7}, Direction::kEast);
+    const GridMap maps[] = {GridMap(point_layers(grid)), GridMap(oneway)};
+    std::vector<GridRequest> requests;
+    for (int i = 0; i < 200; ++i) {
+        const auto cell = [&] {
+            return Cell{static_cast<int>(random() % 200), static_cast<int>(random() % 150)};
+        };
+        requests.push_back({cell(), cell(), std::nullopt, *unit_cell_cost(10, 20)});
+    }
+    GridSearch search;
+    GridRoute route;
+    const auto ask_all = [&] {
+        int found = 0;
+        for (const GridMap& map : maps) {
+            for (const auto algorithm : {Algorithm::kDijkstra, Algorithm::kAstar,
+                                         Algorithm::kBucket, Algorithm::kTurnJump}) {
+                for (const GridRequest& request : requests) {
+                    found += search.run(map, request, algorithm, route) == SearchEnd::kFound;
+                }
+            }
+        }
+        return found;
+    };
+    ask_all();
+
+    const std::int64_t before = allocations();
+    const int found = ask_all();
+
+    EXPECT_EQ(allocations(), before);
+    EXPECT_GT(found, 400);
+}
+
+TEST(GridSearch, ManyThreadsReadOneMap) {
+    std::mt19937_64 random(6);
+    auto grid = grid_of(120, 120);
+    for (auto& cell : grid.occupied) cell = random() % 5 == 0;
+    const GridMap map(point_layers(grid));
+    std::vector<std::vector<std::int64_t>> costs(4);
+    std::vector<std::thread> threads;
+    for (auto& own : costs) {
+        threads.emplace_back([&map, &own] {
+            std::mt19937_64 same(7);
+            GridSearch search;
+            GridRoute route;
+            for (int i = 0; i < 300; ++i) {
+                const auto cell = [&] {
+                    return Cell{static_cast<int>(same() % 120), static_cast<int>(same() % 120)};
+                };
+                const GridRequest request{cell(), cell()};
+                const auto end = search.run(map, request, Algorithm::kTurnJump, route);
+                own.push_back(end == SearchEnd::kFound ? route.cost : -1);
+            }
+        });
+    }
+    for (auto& thread : threads) thread.join();
+    for (const auto& own : costs) EXPECT_EQ(own, costs.front());
+}
+
+TEST(FootprintLayers, FollowEditsOfTheMap) {
+    std::mt19937_64 random(12);
+    auto grid = grid_of(70, 40, 0.25);
+    for (auto& cell : grid.occupied) cell = random() % 60 == 0;
+    const std::vector<geometry::Polygon> body{geometry::rectangle(1.6, 0.7)};
+    FootprintLayers footprint(grid, body, 0.2);
+    GridMap map(footprint.layers());
+    for (int i = 0; i < 60; ++i) {
+        const Cell cell{static_cast<int>(random() % 70), static_cast<int>(random() % 40)};
+        auto& occupied = grid.occupied[static_cast<std::size_t>(cell.row * 70 + cell.col)];
+        occupied = occupied ? 0 : 1;
+
+        map.update(footprint.layers(), footprint.set_occupied(cell, occupied != 0));
+
+        const GridMap fresh(FootprintLayers(grid, body, 0.2).layers());
+        ASSERT_EQ(map.layers().blocked, fresh.layers().blocked) << i;
+        ASSERT_EQ(map.layers().no_turn, fresh.layers().no_turn) << i;
+        for (std::size_t c = 0; c < map.padded_cells(); ++c) {
+            ASSERT_EQ(map.moves(c), fresh.moves(c)) << i;
+        }
+    }
 }
 
 }  // namespace

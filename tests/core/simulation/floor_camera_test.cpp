@@ -100,20 +100,5 @@ TEST(RenderFloor, NoiseHasTheGivenVariance) {
     EXPECT_NEAR(squares / expected, 1, 0.03);
 }
 
-TEST(QrModules, HaveThreeFindersAndNoneAtTheBottomRight) {
-    const QrModules m = qr_modules("ST01-F");
-    const auto ring = [&](std::size_t top, std::size_t left) {
-        int dark = 0;
-        for (std::size_t i = 0; i < 7; ++i)
-            dark +=
-                m[top][left + i] + m[top + 6][left + i] + m[top + i][left] + m[top + i][left + 6];
-        return dark == 28;
-    };
-    EXPECT_TRUE(ring(0, 0));
-    EXPECT_TRUE(ring(0, 14));
-    EXPECT_TRUE(ring(14, 0));
-    EXPECT_FALSE(ring(14, 14));
-}
-
 }  // namespace
 }  // namespace pulseline::simulation

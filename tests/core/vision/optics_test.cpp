@@ -34,7 +34,7 @@ TEST(BodyFromCode, PlusUIsForwardAndPlusVIsToTheRight) {
     reading.y_m = 0.004;
     reading.angle_rad = radians(10);  // clockwise from upright
 
-    const geometry::Pose2 code = body_from_code(reading, camera);
+    const geometry::Pose2 code = body_from_marker(reading, camera);
 
     EXPECT_NEAR(code.x_m, 5.356, 1e-12);
     EXPECT_NEAR(code.y_m, -0.004, 1e-12);
@@ -47,7 +47,7 @@ TEST(BodyFromCode, TurnsWithTheMounting) {
     QrReading reading;
     reading.x_m = 0.010;
 
-    const geometry::Pose2 code = body_from_code(reading, camera);
+    const geometry::Pose2 code = body_from_marker(reading, camera);
 
     EXPECT_NEAR(code.x_m, -5, 1e-12);
     EXPECT_NEAR(code.y_m, 1.010, 1e-12);

@@ -1,0 +1,109 @@
+#include "api/http/route_handlers.hpp"
+
+#include "api/http/common_json.hpp"
+#include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
+#include "core/planning/grid_cost.hpp"
+#include "core/planning/what_if.hpp"
+
+namespace pulseline::api {
+namespace {
+
+using planning::Bar;
+using Difference = planning::RouteDifference;
+
+double in_k(std::int64_t thousandths) {
+    return static_cast<double>(thousandths) / planning::kCostUnit;
+}
+
+template <class Parts>
+Json parts_json(const Parts& parts) {
+    return {{"length", in_k(parts.length)},
+            {"turns", in_k(parts.turns)},
+            {"speed", in_k(parts.speed)},
+            {"accuracy", in_k(parts.accuracy)}};
+}
+
+Json leg_json(const planning::WhatIfLeg& leg) {
+    Json json = {{"edge", leg.edge.str()},      {"from", leg.from.str()},
+                 {"to", leg.to.str()},          {"length_m", leg.cost.length_m},
+                 {"turn", leg.cost.turn},       {"backwards", leg.backwards},
+                 {"cost", parts_json(leg.cost)}};
+    if (leg.max_speed_mps > 0) json["max_speed_mps"] = leg.max_speed_mps;
+    return json;
+}
+
+Json route_json(const planning::WhatIfRoute& route) {
+    return {{"cost", in_k(route.cost)},
+            {"length_m", route.length_m},
+            {"turns", route.turns},
+            {"legs", list_json(route.legs, leg_json)}};
+}
+
+const char* text(Difference::Reason reason) {
+    switch (reason) {
+        case Difference::Reason::kLength:
+            return "length";
+        case Difference::Reason::kTurns:
+            return "turns";
+        case Difference::Reason::kSpeed:
+            return "speed";
+        case Difference::Reason::kAccuracy:
+            return "accuracy";
+    }
+    return "length";
+}
+
+const char* text(Bar bar) {
+    switch (bar) {
+        case Bar::kNone:
+            break;
+        case Bar::kClosed:
+            return "closed";
+        case Bar::kClass:
+            return "not_for_type";
+        case Bar::kTooNarrow:
+            return "footprint_too_large";
+    }
+    return "closed";
+}
+
+Json bar_json(const planning::WhatIfBar& bar) {
+    return {{"edge", bar.edge.str()}, {"why", text(bar.bar)}};
+}
+
+Json answer_json(const planning::WhatIf& question, const planning::WhatIfAnswer& answer) {
+    Json json = {{"alternatives", Json::array()}};
+    if (answer.routes.empty()) {
+        json["reason"] = reason_json(
+            {"no_route",
+             {{"from", std::int64_t{question.from}}, {"to", std::int64_t{question.to}}}});
+        json["blocking"] = list_json(answer.blocking, bar_json);
+        return json;
+    }
+    json["route"] = route_json(answer.routes.front());
+    for (std::size_t i = 1; i < answer.routes.size(); ++i) {
+        Json other = route_json(answer.routes[i]);
+        other["more"] = parts_json(answer.differences[i - 1]);
+        other["main_reason"] = text(answer.differences[i - 1].main_reason());
+        json["alternatives"].push_back(std::move(other));
+    }
+    if (!answer.shortcut_bars.empty()) {
+        json["barred_shortcut"] = {{"cost", in_k(answer.shortcut_cost)},
+                                   {"blocking", list_json(answer.shortcut_bars, bar_json)}};
+    }
+    return json;
+}
+
+}  // namespace
+
+Response find_routes(const HistoryContext& context, const Request& request) {
+    const auto question = read_what_if(request);
+    if (!question) return problem(400, question.error(), request);
+    const auto answer = planning::what_if(context.plant, *question);
+    // The request is well formed; what it names is not there. That is 422, never 404.
+    if (!answer) return problem(422, answer.error(), request);
+    return json_response(200, answer_json(*question, *answer));
+}
+
+}  // namespace pulseline::api

@@ -1,0 +1,53 @@
+#include "api/vision/camera_file.hpp"
+
+#include "api/json/object_reader.hpp"
+#include "api/vision/file_bytes.hpp"
+
+namespace pulseline::vision {
+namespace {
+
+constexpr std::size_t kMostBytes = 1'000'000;
+
+}  // namespace
+
+Result<plant::Camera> decode_camera(std::string_view text) {
+    const auto parsed = json::parse_json(text);
+    if (!parsed) return fail(parsed.error());
+    json::FieldErrors errors;
+    json::ObjectReader in(*parsed, "", errors);
+    plant::Camera camera;
+    // Wider than any camera, narrow enough that nothing overflows behind them.
+    camera.width_px = static_cast<int>(in.integer("width_px", {64, 20'000}));
+    camera.height_px = static_cast<int>(in.integer("height_px", {64, 20'000}));
+    camera.f_px = in.number("f_px", {10, 1e6});
+    camera.cu_px = in.number("cu_px", {-1e5, 1e5});
+    camera.cv_px = in.number("cv_px", {-1e5, 1e5});
+    camera.k1 = in.number_or("k1", 0, {-10, 10});
+    camera.height_m = in.number("height_m", {0.01, 100});
+    camera.tilt_u_rad = in.number_or("tilt_u_rad", 0, {-0.5, 0.5});
+    camera.tilt_v_rad = in.number_or("tilt_v_rad", 0, {-0.5, 0.5});
+    if (const Status status = errors.status(); !status) return fail(status.error());
+    return camera;
+}
+
+std::string encode_camera(const plant::Camera& camera) {
+    return json::Json{{"width_px", camera.width_px},
+                      {"height_px", camera.height_px},
+                      {"f_px", camera.f_px},
+                      {"cu_px", camera.cu_px},
+                      {"cv_px", camera.cv_px},
+                      {"k1", camera.k1},
+                      {"height_m", camera.height_m},
+                      {"tilt_u_rad", camera.tilt_u_rad},
+                      {"tilt_v_rad", camera.tilt_v_rad}}
+               .dump(2) +
+           "\n";
+}
+
+Result<plant::Camera> read_camera_file(const std::string& path) {
+    const auto bytes = read_bytes(path, kMostBytes);
+    if (!bytes) return fail(bytes.error());
+    return decode_camera(*bytes);
+}
+
+}  // namespace pulseline::vision

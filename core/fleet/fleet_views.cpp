@@ -1,0 +1,85 @@
+#include "core/fleet/state.hpp"
+
+namespace pulseline::fleet {
+Preview Fleet::preview(const NewOrder& order, Time now) const {
+    Preview preview;
+    preview.vehicle = order.vehicle;
+    auto plan = plan_order(*state_, order, now);
+    preview.accepted = plan.has_value();
+    if (!plan) preview.problem = plan.error();
+    if (plan) preview.vehicle = plan->vehicle;
+    const VehicleRun* run = state_->find(preview.vehicle);
+    if (!run) return preview;
+
+    const plant::Station* first = nullptr;
+    std::optional<planning::LegPlan> first_plan;
+    std::optional<Pose2> pose;
+    if (run->record.pose_known) pose = run->record.pose;
+    const auto standing = standing_bodies(*state_, run->record.id);
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        const auto* station = plant::find_station(state_->plant, order.steps[i].station_number);
+        if (!station) break;
+        StepPreview step;
+        step.station = station->id;
+        step.number = station->number;
+        step.start = plan ? plan->starts[i] : pose.value_or(Pose2{});
+        if (plan || pose) {
+            step.options = state_->planner.assess_modes(
+                leg_request(*state_, *run, step.start, station->id, order.steps[i].mode), standing);
+        }
+        for (const auto& option : step.options) {
+            const bool wanted = order.steps[i].mode == plant::MotionMode::kAuto
+                                    ? option.suggested
+                                    : option.mode == order.steps[i].mode;
+            if (!wanted || !option.plan) continue;
+            step.chosen = option.mode;
+            if (i == 0) first_plan = *option.plan;
+        }
+        if (i == 0) first = station;
+        pose = station->pose;
+        preview.steps.push_back(std::move(step));
+    }
+    preview.checks = start_checks(*state_, *run, first, first_plan, now);
+    return preview;
+}
+
+std::optional<JobOrder> Fleet::order(JobOrderId id) const {
+    const JobOrder* order = state_->find(id);
+    return order ? std::optional<JobOrder>(*order) : std::nullopt;
+}
+
+std::vector<JobOrder> Fleet::orders() const { return state_->orders.newest_first(); }
+
+std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now) const {
+    const VehicleRun* run = state_->find(id);
+    return run ? std::optional<VehicleView>(view_of(*state_, *run, now)) : std::nullopt;
+}
+
+std::vector<VehicleView> Fleet::vehicles(Time now) const {
+    std::vector<VehicleView> views;
+    for (const auto& [id, run] : state_->vehicles) views.push_back(view_of(*state_, run, now));
+    return views;
+}
+
+std::vector<StationView> Fleet::stations() const {
+    std::vector<StationView> views;
+    for (const auto& station : state_->plant.stations)
+        views.push_back(station_view(*state_, station));
+    return views;
+}
+
+FleetView Fleet::view(Time) const {
+    FleetView view;
+    view.last_event_seq = state_->event_seq;
+    view.started = state_->started;
+    view.paused = !state_->vehicles.empty();
+    for (const auto& [id, run] : state_->vehicles) {
+        ++view.vehicles_total;
+        if (run.link == Link::kLive) ++view.vehicles_live;
+        if (run.record.needs_resume) view.needs_resume.push_back(id);
+        if (!run.record.paused) view.paused = false;
+    }
+    return view;
+}
+
+}  // namespace pulseline::fleet

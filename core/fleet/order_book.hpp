@@ -1,0 +1,46 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/fleet/job_order.hpp"
+
+namespace pulseline::fleet {
+
+/// The job orders in memory with the look-ups that every step of the fleet needs: no step may cost
+/// more because many orders have ended.
+class OrderBook {
+public:
+    /// A new order, or one from the store.
+    JobOrder& add(JobOrder order);
+    JobOrder* find(JobOrderId id);
+    const JobOrder* find(JobOrderId id) const;
+    /// The order a client gave this name, or null.
+    const JobOrder* with_client_id(const std::string& client_order_id) const;
+
+    /// Not yet final, oldest first (UUIDv7 sorts by age).
+    const std::set<JobOrderId>& open() const { return open_; }
+    /// The open order the vehicle works for, or null.
+    JobOrder* of(const plant::VehicleId& vehicle);
+    const JobOrder* of(const plant::VehicleId& vehicle) const;
+    void assign(JobOrder& order, const plant::VehicleId& vehicle);
+
+    /// To be called once when the order's state has become final.
+    void close(const JobOrder& order);
+    /// Forgets orders that ended before; the store keeps them.
+    void forget_ended_before(Time time);
+
+    std::vector<JobOrder> newest_first() const;
+
+private:
+    std::map<JobOrderId, JobOrder> orders_;
+    std::set<JobOrderId> open_;
+    std::map<plant::VehicleId, JobOrderId> of_vehicle_;
+    std::map<std::string, JobOrderId> of_client_;
+    std::deque<JobOrderId> ended_;  // in the order in which they ended
+};
+
+}  // namespace pulseline::fleet

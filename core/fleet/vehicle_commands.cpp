@@ -1,0 +1,141 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/fleet/state.hpp"
+
+// What people ask of vehicles and of the fleet as a whole.
+namespace pulseline::fleet {
+namespace {
+
+tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
+    return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},
+                {{"vehicle", id.str()}});
+}
+
+/// Interruptions that end when the vehicle may move again.
+bool is_about_vehicle(const Reason& reason) {
+    static const char* const kCodes[] = {
+        "server_restarted",   "vehicle_lost_order", "vehicle_was_lost", "vehicle_paused",
+        "order_not_accepted", "order_rejected",     "identity_conflict"};
+    return std::any_of(std::begin(kCodes), std::end(kCodes),
+                       [&](const char* code) { return reason.code == code; });
+}
+
+}  // namespace
+
+Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::string& actor,
+                                         Time now) {
+    VehicleRun* run = state_->find(id);
+    if (!run) return no_such_vehicle(id);
+    if (!run->record.paused) {
+        run->record.paused = true;
+        state_->store(*run);
+        state_->out.fleet_changed = true;
+        add_event(*state_, now, "vehicle.paused", {}, run->record.leg, id, actor);
+        pause_motion(*state_, *run, "startPause", now);
+        JobOrder* order = state_->orders.of(id);
+        if (order && order->state == JobState::kRunning) {
+            set_order_state(*state_, *order, JobState::kInterrupted,
+                            {"vehicle_paused", {{"vehicle", id.str()}, {"actor", actor}}}, actor,
+                            now);
+        }
+    }
+    return view_of(*state_, *run, now);
+}
+
+Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2& pose,
+                                         const std::string& actor, Time now) {
+    VehicleRun* run = state_->find(id);
+    if (!run) return no_such_vehicle(id);
+    if (!run->connected || !run->reconciled) {
+        return fail(
+            Errc::kConflict, "vehicle_silent",
+            "Vehicle " + id.str() + " is not connected. Its position can be set when it is.", {},
+            {{"vehicle", id.str()}});
+    }
+    if (run->state.driving || run->has_leg()) {
+        return fail(Errc::kConflict, "vehicle_busy",
+                    "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
+                    {}, {{"vehicle", id.str()}});
+    }
+    const auto* hall = plant::find_hall(state_->plant, plant::HallId(hall_of(*state_, *run)));
+    if (hall && !geometry::contains(hall->outline, pose.position())) {
+        return fail(Errc::kUnreachable, "outside_hall",
+                    "That position lies outside hall " + hall->name + ".", "/x_m",
+                    {{"x_m", pose.x_m}, {"y_m", pose.y_m}});
+    }
+    std::erase_if(run->actions,
+                  [](const PendingAction& p) { return p.action.type == "initPosition"; });
+    Action action;
+    action.type = "initPosition";
+    action.init_position = InitPosition{pose, hall_of(*state_, *run), {}};
+    add_event(*state_, now, "vehicle.init_position", {}, {}, id, actor,
+              {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
+    send_action(*state_, *run, std::move(action), now);
+    return view_of(*state_, *run, now);
+}
+
+void Fleet::pause_fleet(const std::string& actor, Time now) {
+    add_event(*state_, now, "fleet.paused", {}, {}, {}, actor);
+    state_->out.fleet_changed = true;
+    for (const auto& [id, run] : state_->vehicles) static_cast<void>(pause_vehicle(id, actor, now));
+}
+
+Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
+                           Time now) {
+    for (std::size_t i = 0; i < vehicles.size(); ++i) {
+        const VehicleRun* run = state_->find(vehicles[i]);
+        const std::string field = "/vehicles/" + std::to_string(i);
+        if (!run) {
+            return fail(Errc::kUnreachable, "unknown_vehicle",
+                        "There is no vehicle " + vehicles[i].str() + ".", field,
+                        {{"vehicle", vehicles[i].str()}});
+        }
+        const bool allowed_back = run->connection_refused;
+        if (run->record.needs_resume && !allowed_back && (!run->connected || !run->reconciled)) {
+            return fail(Errc::kConflict, "vehicle_silent",
+                        "Vehicle " + vehicles[i].str() +
+                            " is silent. It can be allowed to move when it is heard again.",
+                        field, {{"vehicle", vehicles[i].str()}});
+        }
+    }
+    for (const auto& id : vehicles) {
+        VehicleRun& run = *state_->find(id);
+        add_event(*state_, now, "vehicle.resumed", {}, run.record.leg, id, actor,
+                  {{"cause", run.record.needs_resume ? run.record.needs_resume_reason.code
+                                                     : std::string("vehicle_paused")}});
+        const bool was_paused = std::exchange(run.record.paused, false);
+        run.record.needs_resume = false;
+        run.record.needs_resume_reason = {};
+        run.connection_refused = false;
+        state_->out.fleet_changed = true;
+        state_->store(run);
+        if (was_paused || run.state.paused) pause_motion(*state_, run, "stopPause", now);
+
+        JobOrder* order = state_->orders.of(id);
+        if (run.has_leg() && run.state.order_id != run.leg().id.str()) {
+            // The vehicle never got it or gave it up; the step starts anew from where it stands.
+            drop_leg(*state_, run);
+            if (order && order->current_step < order->steps.size()) {
+                order->steps[order->current_step].state = StepState::kPending;
+                state_->store(*order);
+            }
+        } else if (run.has_leg() && run.state.order_update_id != run.leg().update_id) {
+            cancel_leg(*state_, run, now);
+        }
+        if (!order) continue;
+        if (order->cancel_requested) {
+            if (!run.has_leg()) {
+                abort_order(*state_, *order, order->reason, actor, now);
+            } else {
+                cancel_leg(*state_, run, now);
+            }
+        } else if (order->state == JobState::kInterrupted && is_about_vehicle(order->reason)) {
+            set_order_state(*state_, *order, JobState::kRunning, {}, actor, now);
+        }
+    }
+    dispatch(*state_, now);
+    return {};
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,122 @@
+#include "core/planning/road_alternatives.hpp"
+
+#include <algorithm>
+#include <queue>
+
+namespace pulseline::planning {
+namespace {
+
+/// Least cost from the start to the end of every arc, and the arc before it, up to `most`.
+struct Forwards {
+    std::vector<RoadCost> cost;
+    std::vector<std::int32_t> before;
+};
+
+Forwards search_forwards(const RoadView& view, const RoadStart& start, RoadCost most) {
+    const auto arcs = static_cast<std::size_t>(view.arcs());
+    Forwards result{std::vector<RoadCost>(arcs, kNoWay), std::vector<std::int32_t>(arcs, -1)};
+    using Open = std::pair<RoadCost, int>;
+    std::priority_queue<Open, std::vector<Open>, std::greater<>> open;
+    const auto reach = [&](int arc, RoadCost from, RoadCost way, int before) {
+        const auto i = static_cast<std::size_t>(arc);
+        if (way == kNoWay || from + way > most || from + way >= result.cost[i]) return;
+        result.cost[i] = from + way;
+        result.before[i] = before;
+        open.push({from + way, arc});
+    };
+    for (const int arc : view.graph().out[static_cast<std::size_t>(start.node)]) {
+        const double heading = view.arc(arc).heading_rad;
+        const bool turn =
+            start.heading_rad && is_turn(view.preferences().turns, *start.heading_rad, heading);
+        reach(arc, 0, view.cost(arc, turn), -1);
+    }
+    while (!open.empty()) {
+        const auto [cost, arc] = open.top();
+        open.pop();
+        if (cost != result.cost[static_cast<std::size_t>(arc)]) continue;
+        for (const RoadView::Link after : view.after(arc)) {
+            reach(after.arc(), cost, view.cost(after.arc(), after.turn()), arc);
+        }
+    }
+    return result;
+}
+
+/// The route over an arc; empty when it passes a node twice.
+RoadRoute route_over(const RoadView& view, const CostTable& table, const Forwards& forwards,
+                     const RoadStart& start, int via, std::vector<char>& visited) {
+    RoadRoute route;
+    for (int at = via; at >= 0; at = forwards.before[static_cast<std::size_t>(at)]) {
+        route.arcs.push_back(at);
+    }
+    std::reverse(route.arcs.begin(), route.arcs.end());
+    for (int at = table.next(via); at >= 0; at = table.next(at)) route.arcs.push_back(at);
+    bool simple = true;
+    std::optional<double> heading = start.heading_rad;
+    visited[static_cast<std::size_t>(start.node)] = 1;
+    for (const int index : route.arcs) {
+        const RoadArc& arc = view.arc(index);
+        char& seen = visited[static_cast<std::size_t>(arc.to)];
+        simple = simple && seen == 0;
+        seen = 1;
+        route.length_m += arc.length_m;
+        route.turns +=
+            heading && is_turn(view.preferences().turns, *heading, arc.heading_rad) ? 1 : 0;
+        heading = arc.heading_rad;
+    }
+    visited[static_cast<std::size_t>(start.node)] = 0;
+    for (const int index : route.arcs) visited[static_cast<std::size_t>(view.arc(index).to)] = 0;
+    if (!simple) route.arcs.clear();
+    return route;
+}
+
+/// Lanes are the same when they join the same nodes: forwards or backwards is no other route.
+double shared_m(const RoadView& view, const std::vector<int>& a, const std::vector<int>& b) {
+    double sum = 0;
+    for (const int index : a) {
+        const RoadArc& arc = view.arc(index);
+        const bool shared = std::any_of(b.begin(), b.end(), [&](int other) {
+            return view.arc(other).from == arc.from && view.arc(other).to == arc.to;
+        });
+        if (shared) sum += arc.length_m;
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<RoadRoute> alternatives(RoadRouter& router, int user, const RoadStart& start, int goal,
+                                    const AlternativesWanted& wanted) {
+    std::vector<RoadRoute> chosen(1);
+    if (wanted.count < 1 || !router.find(user, start, goal, chosen.front())) return {};
+    if (start.node == goal) return chosen;
+    const RoadView& view = router.view(user);
+    const CostTable& table = router.table(user, goal);
+    const double most = std::min(wanted.most_cost * chosen.front().cost, double{kMostRoadCost} - 1);
+    const Forwards forwards = search_forwards(view, start, static_cast<RoadCost>(most));
+    std::vector<std::pair<RoadCost, int>> via;  // cost of the best route over an arc
+    for (int arc = 0; arc < view.arcs(); ++arc) {
+        const RoadCost before = forwards.cost[static_cast<std::size_t>(arc)];
+        const RoadCost rest = table.left(arc);
+        if (before == kNoWay || rest >= kMostRoadCost || before + rest > most) continue;
+        via.push_back({before + rest, arc});
+    }
+    std::sort(via.begin(), via.end());
+    std::vector<char> visited(router.graph().nodes.size(), 0);
+    std::vector<RoadCost> examined(static_cast<std::size_t>(view.arcs()), kNoWay);
+    for (const auto& [cost, arc] : via) {
+        if (static_cast<int>(chosen.size()) >= wanted.count) break;
+        // On a route of the same cost already looked at: most likely that very route.
+        if (examined[static_cast<std::size_t>(arc)] == cost) continue;
+        RoadRoute route = route_over(view, table, forwards, start, arc, visited);
+        for (const int on : route.arcs) examined[static_cast<std::size_t>(on)] = cost;
+        if (route.arcs.empty()) continue;
+        route.cost = cost;
+        const bool differs = std::all_of(chosen.begin(), chosen.end(), [&](const RoadRoute& other) {
+            return shared_m(view, route.arcs, other.arcs) <= wanted.most_shared * route.length_m;
+        });
+        if (differs) chosen.push_back(std::move(route));
+    }
+    return chosen;
+}
+
+}  // namespace pulseline::planning

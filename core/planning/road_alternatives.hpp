@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "core/planning/road_router.hpp"
+
+namespace pulseline::planning {
+
+struct AlternativesWanted {
+    int count = 3;             // routes, the best included
+    double most_shared = 0.6;  // share of a route's length that it may have in common with another
+    double most_cost = 1.5;    // times the least cost
+};
+
+/// The best route and others sufficiently different from it and from each other, by cost. An
+/// alternative is the best of all routes over one arc of its own: the least cost to that arc and
+/// the table's from there ("via" routes: Abraham, Delling, Goldberg, Werneck, "Alternative Routes
+/// in Road Networks", JEA 18, 2013), and passes no node twice. Costs one search forwards: for
+/// people who choose, not for dispatch.
+std::vector<RoadRoute> alternatives(RoadRouter& router, int user, const RoadStart& start, int goal,
+                                    const AlternativesWanted& wanted);
+
+}  // namespace pulseline::planning

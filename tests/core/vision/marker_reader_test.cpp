@@ -1,0 +1,182 @@
+#include "core/vision/marker_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <random>
+
+#include "tests/core/vision/marker_view.hpp"
+
+namespace pulseline::vision {
+namespace {
+
+using plant::MarkerKind;
+using simulation::ImageConditions;
+
+class EveryKind : public testing::TestWithParam<MarkerKind> {
+protected:
+    MarkerView view() const {
+        MarkerView v;
+        v.kind = GetParam();
+        v.payload = v.kind == MarkerKind::kQr ? "ST04-F" : "17";
+        return v;
+    }
+};
+
+TEST_P(EveryKind, IsFoundOnNominalImagesToAHundredthOfAPixel) {
+    std::mt19937_64 random{5};
+    std::uniform_real_distribution<double> any(-1, 1);
+    double squares = 0;
+    double angle_squares = 0;
+    double chi2 = 0;
+    constexpr int kImages = 30;
+    for (int i = 0; i < kImages; ++i) {
+        MarkerView v = view();
+        v.camera.k1 = simulation::sample_k1(random);
+        v.conditions = ImageConditions::nominal(random);
+        v.camera_from_code = {0.04 * any(random), 0.02 * any(random), kPi * any(random)};
+        if (v.kind != MarkerKind::kQr) v.payload = std::to_string(1 + 8 * i);
+
+        const auto reading = v.read();
+
+        ASSERT_TRUE(reading) << i << ": " << reading.error().reason.code;
+        EXPECT_EQ(reading->payload, v.payload);
+        const double angle = wrap(reading->angle_rad - (kPi / 2 - v.camera_from_code.heading_rad));
+        squares += std::pow(v.error_px(*reading), 2);
+        angle_squares += angle * angle;
+        chi2 += std::pow(v.error_px(*reading) / reading->sigma_px, 2) / 2;
+    }
+    EXPECT_LT(std::sqrt(squares / kImages), 0.01);
+    EXPECT_LT(degrees(std::sqrt(angle_squares / kImages)), 0.0025);
+    // An honest sigma: neither boastful nor useless.
+    EXPECT_GT(chi2 / kImages, 0.35);
+    EXPECT_LT(chi2 / kImages, 1.8);
+}
+
+TEST_P(EveryKind, NeverLiesOnHardImages) {
+    std::mt19937_64 random{77};
+    std::uniform_real_distribution<double> any(-1, 1);
+    int found = 0;
+    constexpr int kImages = 30;
+    for (int i = 0; i < kImages; ++i) {
+        MarkerView v = view();
+        v.camera.k1 = simulation::sample_k1(random);
+        v.conditions = ImageConditions::hard(random);
+        v.camera_from_code = {0.03 * any(random), 0.02 * any(random), kPi * any(random)};
+        const auto reading = v.read();
+        if (!reading) continue;
+        ++found;
+        EXPECT_EQ(reading->payload, v.payload) << i;
+        EXPECT_LT(v.error_px(*reading), 0.3) << i;
+    }
+    EXPECT_GE(found, 24);
+}
+
+TEST_P(EveryKind, IsRefusedWhenPrintedInAnotherSize) {
+    MarkerView v = view();
+    v.size_m = 0.84 * plant::usual_size_m(v.kind);
+    const auto reading = v.read();
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().reason.code, "scale_off");
+}
+
+TEST_P(EveryKind, AMirroredPrintIsNeverReadAsItself) {
+    MarkerView v = view();
+    v.mirrored = true;
+    const auto reading = v.read();
+    if (v.kind == MarkerKind::kLandmark) {
+        // Symmetric dots, no checksum: it is another landmark, which the survey refuses.
+        ASSERT_TRUE(reading);
+        EXPECT_NE(reading->payload, v.payload);
+    } else {
+        ASSERT_FALSE(reading);
+        EXPECT_EQ(reading.error().reason.code, "mirrored");
+    }
+}
+
+TEST_P(EveryKind, KnowsItsCameraIsTiltedWhenCalibratedSo) {
+    MarkerView v = view();
+    v.camera.tilt_u_rad = radians(1.5);
+    v.camera.tilt_v_rad = radians(-0.8);
+    const auto reading = v.read();
+    ASSERT_TRUE(reading) << reading.error().reason.code;
+    EXPECT_NEAR(reading->x_m, v.camera_from_code.x_m, 2e-6);
+    EXPECT_NEAR(-reading->y_m, v.camera_from_code.y_m, 2e-6);
+    EXPECT_NEAR(wrap(reading->angle_rad - (kPi / 2 - v.camera_from_code.heading_rad)), 0, 3e-5);
+}
+
+TEST_P(EveryKind, ImagesWithoutOneAreRefused) {
+    const MarkerView v = view();
+    const plant::Camera& c = v.camera;
+    cv::Mat noise(c.height_px, c.width_px, CV_8U);
+    cv::RNG(4).fill(noise, cv::RNG::UNIFORM, 0, 256);
+    for (const cv::Mat& image : {cv::Mat(c.height_px, c.width_px, CV_8U, cv::Scalar(0)),
+                                 cv::Mat(c.height_px, c.width_px, CV_8U, cv::Scalar(255)), noise}) {
+        const auto reading = read_marker(v.kind, image, c);
+        ASSERT_FALSE(reading);
+        EXPECT_EQ(reading.error().reason.code, "no_code");
+    }
+    for (const cv::Mat& image :
+         {cv::Mat(), cv::Mat(64, 64, CV_8U), cv::Mat(c.height_px, c.width_px, CV_8UC3)}) {
+        const auto reading = read_marker(v.kind, image, c);
+        ASSERT_FALSE(reading);
+        EXPECT_EQ(reading.error().reason.code, "bad_image");
+    }
+}
+
+TEST_P(EveryKind, AMarkerOfAnotherKindIsNotTakenForIt) {
+    for (const MarkerKind other : {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark}) {
+        if (other == GetParam()) continue;
+        MarkerView v = view();
+        v.kind = other;
+        v.payload = other == MarkerKind::kQr ? "ST04-F" : "17";
+        EXPECT_FALSE(read_marker(GetParam(), v.image(), v.camera));
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
+                         testing::Values(MarkerKind::kQr, MarkerKind::kAprilTag,
+                                         MarkerKind::kLandmark),
+                         [](const auto& param) { return plant::to_string(param.param); });
+
+TEST(ReadMarkers, FindsBothTagsOfOneView) {
+    const plant::Camera camera;
+    const std::vector<simulation::FloorCode> codes{
+        {"3", {-0.045, 0.01, 0.4}, 0.050, false, MarkerKind::kAprilTag},
+        {"250", {0.045, -0.01, -1.0}, 0.050, false, MarkerKind::kAprilTag}};
+    const cv::Mat image = simulation::render_floor(camera, {}, codes, {});
+    const auto first = read_marker(MarkerKind::kAprilTag, image, camera);
+    ASSERT_TRUE(first);
+    auto found = read_others(*first, image, camera);
+    ASSERT_EQ(found.size(), 1U);
+    found.push_back(*first);
+    std::ranges::sort(found, {}, &MarkerReading::x_m);
+    EXPECT_EQ(found[0].payload, "3");
+    EXPECT_EQ(found[1].payload, "250");
+    EXPECT_NEAR(found[1].x_m, 0.045, 5e-6);
+}
+
+TEST(ReadLandmark, GlareOverASectorIsRefusedNotGuessed) {
+    MarkerView v;
+    v.kind = MarkerKind::kLandmark;
+    v.payload = "85";
+    v.camera_from_code = {0, 0, kPi / 2};
+    v.conditions.exposure = 0.7;
+    const cv::Mat image = v.image();
+    const double px = pixels_per_metre(v.camera);
+    for (int k = 0; k < 8; ++k) {
+        cv::Mat spoilt = image.clone();
+        const double t = (k + 0.5) * kPi / 4;
+        const Pixel at = v.true_centre() + 0.035 * px * Pixel{std::sin(t), -std::cos(t)};
+        cv::circle(spoilt, {static_cast<int>(at.u), static_cast<int>(at.v)}, 130, cv::Scalar(255),
+                   -1);
+        const auto reading = read_marker(v.kind, spoilt, v.camera);
+        if (reading) {
+            EXPECT_EQ(reading->payload, "85") << k;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace pulseline::vision
