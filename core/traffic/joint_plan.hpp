@@ -150,6 +150,7 @@ private:
     void note_successors(VehicleIndex vehicle, const std::vector<TileIndex>& tiles);
     void rebuild_waits(MoveRef ref);
     void compact(VehiclePlan& plan);
+    void begin_on_stands(VehiclePlan& plan);
     bool reach(MoveRef root, double now_s);
     bool work_out(MoveRef ref, double now_s, std::vector<MoveRef>& stack);
     void set_times(VehicleIndex vehicle, MoveNumber n, double now_s);
