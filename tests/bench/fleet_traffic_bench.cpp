@@ -3,7 +3,7 @@
 // (one vehicle per resource, and a joint plan after PIBT), vehicles that did not end their orders,
 // memory, time of a rebuild, and what the independent monitor found. Admissions, improvements and
 // rebuilds are measured in CPU time of the thread, release decisions by the wall clock.
-//   bench_fleet [--hours H] [--releases N] [--only halls|warehouse] [--out FILE]
+//   bench_fleet [--hours H] [--releases N] [--only halls|plant|warehouse] [--out FILE]
 // H simulated hours a setting; with N the last setting goes on until all together made N releases.
 #include <cstdio>
 #include <cstdlib>
@@ -141,6 +141,11 @@ int main(int argc, char** argv) {
         json["halls"] =
             measure(halls_world(), options, options.only == "halls" ? rest() : 0, totals);
     }
+#ifdef PULSELINE_FLEET_PLANT
+    if (wanted("plant")) {
+        json["plant"] = measure(plant_world(PULSELINE_FLEET_PLANT), options, 0, totals);
+    }
+#endif
     if (wanted("warehouse")) {
         json["warehouse"] = measure(warehouse_world(), options, rest(), totals);
     }

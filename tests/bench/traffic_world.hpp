@@ -36,6 +36,8 @@ struct World {
 World halls_world();
 /// 1,000 one-cell vehicles between shelves; they start and rest on cells in the shelves' fronts.
 World warehouse_world();
+/// The vehicles of a plant file, each class of them on its own orders.
+World plant_world(const std::string& path);
 
 /// For each vehicle an endless list of goals in its zone, the same for all runs.
 class Orders {
