@@ -16,7 +16,7 @@ World plant_world(const std::string& path) {
         std::exit(2);
     }
     World world;
-    world.name = plant->id.str();
+    world.name = plant->id;
     world.step_s = 1;
     world.dwell_s = 60;
     world.well_formed = fleet::check_layout(*plant).empty();
