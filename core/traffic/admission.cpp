@@ -7,8 +7,9 @@
 namespace pulseline::traffic {
 namespace {
 
-constexpr std::size_t kTimesKept = 16'000'000;  // floats of distance tables, 64 MB
-constexpr double kFresh_s = 0.5;         // predictions serve as long: they steer quality, not order
+constexpr std::size_t kTimesKept = 32'000'000;  // floats of distance tables, 128 MB
+constexpr std::size_t kFewRests = 8;
+constexpr double kFresh_s = 5;           // predictions serve as long: they steer quality, not order
 constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
 constexpr std::size_t kMostRestsTried = 8;  // for one of them
 
@@ -59,13 +60,8 @@ Traffic::Times Traffic::times_to_places(GraphIndex graph, const std::vector<Plac
         times_kept_ = 0;
     }
     const CompiledGraph& g = *graphs_[graph];
-    std::vector<PlaceIndex> places = goals;
-    if (places.empty()) {
-        for (PlaceIndex p = 0; p < g.places.size(); ++p) {
-            if (g.places[p].resting) places.push_back(p);
-        }
-    }
-    auto times = std::make_shared<const std::vector<float>>(times_to(g, places));
+    auto times =
+        std::make_shared<const std::vector<float>>(times_to(g, goals.empty() ? g.resting : goals));
     times_kept_ += times->size();
     times_.emplace(key, times);
     return times;
@@ -100,6 +96,51 @@ double Traffic::travel_s(VehicleIndex vehicle, PlaceIndex to) {
     return (*times_to_places(v.graph, {to}))[from];
 }
 
+/// Where the vehicle can end at all: on most resting places another one ends its plan. With few
+/// left, the bound on the way home counts to these; one to the nearest of all would be far too low,
+/// and the search would flood the floor around the last stop.
+void Traffic::choose_rests(VehicleIndex vehicle, const Task& task, SearchTask& search) {
+    const GraphIndex graph = vehicles_[vehicle].graph;
+    const CompiledGraph& g = *graphs_[graph];
+    search.resting = task.resting;
+    std::vector<PlaceIndex> free;
+    std::optional<Obstacle> taken;
+    for (const PlaceIndex place : task.resting.empty() ? g.resting : task.resting) {
+        const auto& stand = g.places[place].stand;
+        const auto tile = std::find_if(stand.begin(), stand.end(), [&](TileIndex t) {
+            const auto& uses = joint_.queue(t);
+            return !uses.empty() && uses.back().last == kForever && uses.back().vehicle != vehicle;
+        });
+        if (tile == stand.end()) {
+            free.push_back(place);
+            if (free.size() > kFewRests) break;
+        } else if (!taken) {
+            taken =
+                Obstacle{BlockCause::kVehicle, joint_.queue(*tile).back().vehicle, kForever, *tile};
+        }
+    }
+    if (free.size() > kFewRests) {
+        search.times_to_rest = times_to_places(graph, task.resting);
+        return;
+    }
+    if (free.empty()) {
+        if (task.sequences.empty() && !mutated(Mutation::kRestCrossed)) {
+            search.hopeless = taken.value_or(Obstacle{});
+        }
+        search.times_to_rest = times_to_places(graph, task.resting);
+        return;
+    }
+    if (!mutated(Mutation::kRestCrossed)) search.resting = free;
+    search.times_to_rest = times_to_places(graph, {free.front()});
+    if (free.size() == 1) return;
+    std::vector<float> least = *search.times_to_rest;
+    for (const PlaceIndex place : free) {
+        const auto times = times_to_places(graph, {place});
+        for (std::size_t i = 0; i < least.size(); ++i) least[i] = std::min(least[i], (*times)[i]);
+    }
+    search.times_to_rest = std::make_shared<const std::vector<float>>(std::move(least));
+}
+
 SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, const Task& task,
                                 VisitIndex first_visit, double now_s) {
     const VehiclePlan& plan = joint_.plan(vehicle);
@@ -112,12 +153,11 @@ SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, cons
     search.now_s = now_s;
     if (v.graph != kNoGraph) {
         search.graph = graphs_[v.graph].get();
-        search.resting = task.resting;
-        search.times_to_rest = times_to_places(v.graph, task.resting).get();
+        choose_rests(vehicle, task, search);
         for (std::size_t i = first_visit; i < task.visits.size(); ++i) {
             const Visit& visit = task.visits[i];
             search.stops.push_back({visit.place, visit.dwell_s, static_cast<VisitIndex>(i),
-                                    times_to_places(v.graph, {visit.place}).get()});
+                                    times_to_places(v.graph, {visit.place})});
         }
         if (mutated(Mutation::kVisitLost) && search.stops.size() > 1) search.stops.pop_back();
     }
@@ -235,7 +275,7 @@ bool Traffic::rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, con
 
 bool Traffic::make_way(const Block& block, VehicleIndex vehicle, const Task& task, double now_s,
                        std::vector<VehicleIndex>& made_way) {
-    if (block.cause != Obstacle::Cause::kVehicle || made_way.size() >= kMostMakeWay) return false;
+    if (block.cause != Obstacle::Cause::kVehicle) return false;
     const VehiclePlan& other = joint_.plan(block.vehicle);
     const Vehicle& v = vehicles_[block.vehicle];
     const bool idle = other.last() == other.passed && !other.halted && !v.gone;
@@ -255,13 +295,15 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
     const VehiclePlan& plan = joint_.plan(vehicle);
     std::vector<VehicleIndex> made_way;
     auto admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-    while (!admission && make_way(admission.error(), vehicle, task, now_s, made_way)) {
+    while (!admission && made_way.size() < kMostMakeWay &&
+           make_way(admission.error(), vehicle, task, now_s, made_way)) {
         admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
     }
     if (!admission && in_the_way(vehicle) && untangle(now_s)) {
         do {
             admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-        } while (!admission && make_way(admission.error(), vehicle, task, now_s, made_way));
+        } while (!admission && made_way.size() < kMostMakeWay &&
+                 make_way(admission.error(), vehicle, task, now_s, made_way));
     }
     const bool has_incumbent = plan.last() > plan.released;
     if (!admission && has_incumbent && task.sequences.empty()) {

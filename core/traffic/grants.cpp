@@ -15,10 +15,10 @@ MoveNumber Traffic::grantable(VehicleIndex vehicle, MoveNumber wanted_moves) con
     return n;
 }
 
-MoveNumber Traffic::extend(VehicleIndex vehicle, MoveNumber wanted_moves, Time) {
+MoveNumber Traffic::extend(VehicleIndex vehicle, MoveNumber wanted_moves, Time now) {
     const MoveNumber granted = grantable(vehicle, wanted_moves);
     if (granted > joint_.plan(vehicle).released) {
-        joint_.set_released(vehicle, granted);
+        joint_.set_released(vehicle, granted, s(now));
         tell({Change::Kind::kReleased, vehicle, granted, {}, {}});
     }
     return granted;
@@ -50,8 +50,9 @@ TileSet Traffic::held_tiles(VehicleIndex vehicle) const {
     return tiles_.ids_of(joint_.held_tiles(vehicle));
 }
 
-std::optional<VehicleIndex> Traffic::holder(TileId tile) {
-    return joint_.holder(tiles_.index_of(tile));
+std::optional<VehicleIndex> Traffic::holder(TileId tile) const {
+    const auto index = tiles_.find(tile);
+    return index ? joint_.holder(*index) : std::nullopt;
 }
 
 }  // namespace pulseline::traffic

@@ -159,6 +159,7 @@ bool Traffic::improve_pair(VehicleIndex vehicle, VehicleIndex before, double now
 
 Improvement Traffic::improve(Time now, int steps) {
     const double now_s = s(now);
+    if (now_s > predicted_s_) predicted_ = false;
     predict(now_s);
     struct Candidate {
         VehicleIndex vehicle;
@@ -225,12 +226,19 @@ Improvement Traffic::improve(Time now, int steps) {
                 result.changed.push_back(*before);
             }
         }
+        if (!changed && candidate.urgency > 0 && vehicles_[v].blocked_by) {
+            // An idle one that was left in a lane; the next call finds the way free.
+            Task rest = vehicles_[v].task;
+            rest.visits.erase(rest.visits.begin(), rest.visits.begin() + first_open_visit(v));
+            make_way(*vehicles_[v].blocked_by, v, rest, now_s, result.changed);
+        }
         if (changed) {
             result.changed.push_back(v);
         } else if (candidate.urgency > 0) {
             result.blocked.push_back(v);
         }
     }
+    predict(now_s);  // a pair that gained nothing left times of its trial behind
     return result;
 }
 

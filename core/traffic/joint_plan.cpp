@@ -218,6 +218,21 @@ void JointPlan::move_stand(VehicleIndex vehicle, const TileIndexes& stand, Place
     for (const MoveRef& ref : touched_moves_) rebuild_waits(ref);
 }
 
+/// Who was found at a place may stand on more floor than the graph says. Its first move has to
+/// leave all of it; a stop there stays on it.
+void JointPlan::begin_on_stands(VehiclePlan& plan) {
+    for (MoveNumber n = plan.released + 1; n <= plan.last(); ++n) {
+        const TileIndexes& before = plan.stand_after(n - 1);
+        const Shape& shape = *plan.at(n).shape;
+        if (std::includes(shape.swept.begin(), shape.swept.end(), before.begin(), before.end())) {
+            continue;
+        }
+        const bool stop = shape.swept == shape.stand;
+        plan.at(n).shape =
+            make_shape(shape.swept, before, stop ? merge(before, shape.stand) : shape.stand);
+    }
+}
+
 JointPlan::Undo JointPlan::replace(VehicleIndex vehicle, std::vector<PlannedMove> moves,
                                    Placement placement) {
     VehiclePlan& plan = vehicles_[vehicle];
@@ -231,6 +246,7 @@ JointPlan::Undo JointPlan::replace(VehicleIndex vehicle, std::vector<PlannedMove
     const auto old_tiles = tiles;
     plan.moves.erase(plan.moves.begin() + kept, plan.moves.end());
     for (PlannedMove& move : moves) plan.moves.push_back(std::move(move));
+    begin_on_stands(plan);
     const auto new_tiles = tiles_of(vehicle);
     tiles = merge(tiles, new_tiles);
     for (const TileIndex tile : tiles) undo.queues.emplace_back(tile, queue_for(tile));
@@ -374,6 +390,12 @@ std::optional<TileIndex> JointPlan::obstacle(VehicleIndex vehicle, MoveNumber n)
         if (mutated(Mutation::kGrantNotAtomic)) break;
     }
     return closed_tile(plan.stand_after(n - 1), shape);
+}
+
+void JointPlan::set_released(VehicleIndex vehicle, MoveNumber n, double now_s) {
+    VehiclePlan& plan = vehicles_[vehicle];
+    if (plan.released == plan.passed) plan.since_s = now_s;  // it stood and waited until now
+    plan.released = n;
 }
 
 void JointPlan::pass(VehicleIndex vehicle, MoveNumber n, double now_s) {

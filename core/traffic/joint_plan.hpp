@@ -103,7 +103,7 @@ public:
 
     /// First tile that keeps move `n` from its grant now; none: it may be granted.
     std::optional<TileIndex> obstacle(VehicleIndex vehicle, MoveNumber n) const;
-    void set_released(VehicleIndex vehicle, MoveNumber n) { vehicles_[vehicle].released = n; }
+    void set_released(VehicleIndex vehicle, MoveNumber n, double now_s);
     /// Moves up to n are behind the vehicle, tail included. REQUIRES: n <= released.
     void pass(VehicleIndex vehicle, MoveNumber n, double now_s);
     void set_halted(VehicleIndex vehicle, bool halted, double now_s);
@@ -150,6 +150,7 @@ private:
     void note_successors(VehicleIndex vehicle, const std::vector<TileIndex>& tiles);
     void rebuild_waits(MoveRef ref);
     void compact(VehiclePlan& plan);
+    void begin_on_stands(VehiclePlan& plan);
     bool reach(MoveRef root, double now_s);
     bool work_out(MoveRef ref, double now_s, std::vector<MoveRef>& stack);
     void set_times(VehicleIndex vehicle, MoveNumber n, double now_s);

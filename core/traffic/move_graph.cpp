@@ -22,6 +22,11 @@ TileIndexes TileTable::indexes_of(const TileSet& tiles) {
     return result;
 }
 
+std::optional<TileIndex> TileTable::find(TileId tile) const {
+    const auto it = indexes_.find(tile);
+    return it == indexes_.end() ? std::nullopt : std::optional(it->second);
+}
+
 TileSet TileTable::ids_of(const TileIndexes& tiles) const {
     TileSet result;
     result.reserve(tiles.size());
@@ -62,6 +67,7 @@ CompiledGraph compile(const MoveGraph& graph, TileTable& tiles) {
     CompiledGraph result;
     result.places.reserve(graph.places.size());
     for (const Place& place : graph.places) {
+        if (place.resting) result.resting.push_back(static_cast<PlaceIndex>(result.places.size()));
         result.places.push_back({tiles.indexes_of(place.stand), place.resting});
     }
     const std::size_t count = graph.places.size();

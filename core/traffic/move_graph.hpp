@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <unordered_map>
 #include <vector>
 
@@ -41,6 +42,7 @@ class TileTable {
 public:
     TileIndex index_of(TileId tile);  // makes a handle for a tile not seen before
     TileIndexes indexes_of(const TileSet& tiles);
+    std::optional<TileIndex> find(TileId tile) const;
     TileId id_of(TileIndex index) const { return ids_[index]; }
     TileSet ids_of(const TileIndexes& tiles) const;
     std::size_t size() const { return ids_.size(); }
@@ -75,6 +77,7 @@ struct CompiledGraph {
         bool resting = false;
     };
     std::vector<Node> places;
+    std::vector<PlaceIndex> resting;
     std::vector<std::uint32_t> first_arc;  // per place, and one past the last
     std::vector<Arc> arcs;
     std::uint32_t floors = 0;

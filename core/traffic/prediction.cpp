@@ -2,8 +2,9 @@
 
 #include "core/traffic/joint_plan.hpp"
 
-// Earliest times of all moves along the precedence graph, by depth-first search over what each move
-// waits for; a move met again while it is still open closes a cycle. The times are a quality
+// Earliest times of all moves along the precedence graph: all of them in one pass, or those before
+// one vehicle's last by depth-first search over what each move waits for; a move met again while it
+// is still open closes a cycle. The times are a quality
 // matter only: they choose gaps and show expected finishes. Safety and order never read them.
 namespace pulseline::traffic {
 namespace {
@@ -81,14 +82,47 @@ bool JointPlan::reach(MoveRef root, double now_s) {
     return true;
 }
 
+/// Every vehicle's moves in turn, as far as all they wait for is known; who has to wait is called
+/// again when the other one gets there. Nobody left to call and moves left over: a cycle.
 bool JointPlan::predict(double now_s) {
-    ++stamp_;
+    struct Waiter {
+        VehicleIndex vehicle;
+        MoveNumber move;  // that has to be known
+    };
+    std::vector<MoveNumber> known(vehicles_.size());
+    std::vector<std::vector<Waiter>> waiters(vehicles_.size());
+    std::vector<VehicleIndex> ready(vehicles_.size());
+    std::size_t left = 0;
     for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
-        for (MoveNumber n = vehicles_[v].passed + 1; n <= vehicles_[v].last(); ++n) {
-            if (vehicles_[v].at(n).stamp != stamp_ && !reach({v, n}, now_s)) return false;
-        }
+        known[v] = vehicles_[v].passed;
+        left += vehicles_[v].last() - vehicles_[v].passed;
+        ready[vehicles_.size() - 1 - v] = v;
     }
-    return true;
+    const auto unknown = [&](const MoveRef& ref) {
+        return ref.move != kForever && ref.move > known[ref.vehicle];
+    };
+    while (!ready.empty()) {
+        const VehicleIndex v = ready.back();
+        ready.pop_back();
+        const VehiclePlan& plan = vehicles_[v];
+        for (MoveNumber n = known[v] + 1; n <= plan.last(); ++n) {
+            const auto& waits = plan.at(n).waits_for;
+            const auto wait = std::find_if(waits.begin(), waits.end(), unknown);
+            if (wait != waits.end()) {
+                waiters[wait->vehicle].push_back({v, wait->move});
+                break;
+            }
+            set_times(v, n, now_s);
+            known[v] = n;
+            --left;
+        }
+        std::erase_if(waiters[v], [&](const Waiter& waiter) {
+            if (waiter.move > known[v]) return false;
+            ready.push_back(waiter.vehicle);
+            return true;
+        });
+    }
+    return left == 0;
 }
 
 bool JointPlan::predict_before(VehicleIndex vehicle, double now_s) {

@@ -162,10 +162,13 @@ public:
     void reopen(ClosureIndex closure, Time now);
 
     // --- quality
-    /// Up to `steps` searches: blocked vehicles first (a way round, else out of the way to a
-    /// resting place with the visits postponed), then those that lose most time, alone and in pairs
-    /// with the one they wait for. Accepted only when acyclic, sooner, and the oldest task's
-    /// finish does not move back.
+    /// Call it about once a second: it also brings the predicted times up to date, which admission
+    /// then need not do. Up to `steps` searches: blocked vehicles first (a way round, else out of
+    /// the way to a resting place with the visits postponed), then those that lose most time, alone
+    /// and in pairs with the one they wait for. Accepted only when acyclic, sooner, and the oldest
+    /// task's finish does not move back. When a vehicle without a plan stands in the way and cannot
+    /// leave, all that are blocked give up their horizons; those without a graph then need
+    /// sequences again.
     Improvement improve(Time now, int steps);
 
     /// Vehicles whose horizon changed since the last call, by whatever call: send it to them.
@@ -177,7 +180,7 @@ public:
     const std::string& name(VehicleIndex vehicle) const { return vehicles_[vehicle].name; }
     TileSet held_tiles(VehicleIndex vehicle) const;
     TileSet tiles_of(const TileIndexes& tiles) const { return tiles_.ids_of(tiles); }
-    std::optional<VehicleIndex> holder(TileId tile);
+    std::optional<VehicleIndex> holder(TileId tile) const;
     /// Visits of the task passed so far; equal to their number when all are done.
     VisitIndex visits_done(VehicleIndex vehicle) const { return vehicles_[vehicle].next_visit; }
     bool postponed(VehicleIndex vehicle) const { return vehicles_[vehicle].postponed; }
@@ -236,6 +239,7 @@ private:
                                              bool before_others, Undos* undos = nullptr);
     SearchTask search_task(VehicleIndex vehicle, MoveNumber from_move, const Task& task,
                            VisitIndex first_visit, double now_s);
+    void choose_rests(VehicleIndex vehicle, const Task& task, SearchTask& search);
     bool merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves, Placement placement,
                     double now_s, Undos* undos = nullptr);
     void roll_back(Undos& undos);

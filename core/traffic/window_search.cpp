@@ -9,18 +9,28 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
-constexpr std::ptrdiff_t kRecent = 12;  // stays looked back at; more costs more than it saves
+// Weighted A* (Pohl 1970): the plan takes at most this times the soonest one's time from here on.
+// Without it every short wait for somebody makes all ways of nearly equal length worth a look.
+constexpr double kGreed = 1.25;
+constexpr std::size_t kPatience = 1'000;  // labels; then twice as greedy, at twice as many again
+constexpr std::ptrdiff_t kRecent = 12;    // stays looked back at; more costs more than it saves
 constexpr double kEver_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 SearchResult WindowSearch::find(const JointPlan& joint, const SearchTask& task) {
+    if (task.hopeless) {
+        SearchResult hopeless;
+        hopeless.obstacle = *task.hopeless;
+        return hopeless;
+    }
     start(joint, task);
     const auto later = [](const OpenEntry& a, const OpenEntry& b) {
-        if (a.bound_s != b.bound_s) return a.bound_s > b.bound_s;
-        if (a.arrive_s != b.arrive_s) return a.arrive_s < b.arrive_s;  // nearer to the goal first
+        if (a.end_s != b.end_s) return a.end_s > b.end_s;
+        if (a.left_s != b.left_s) return a.left_s > b.left_s;  // nearer to the goal first
         return a.label > b.label;
     };
+    std::size_t patience = kPatience;
     while (!open_.empty()) {
         std::pop_heap(open_.begin(), open_.end(), later);
         const OpenEntry entry = open_.back();
@@ -35,12 +45,17 @@ SearchResult WindowSearch::find(const JointPlan& joint, const SearchTask& task) 
             cut.labels = labels_.size();
             return cut;
         }
+        if (labels_.size() > patience) {
+            // Dense traffic: a plan soon is worth more than the soonest plan.
+            patience *= 2;
+            greed_ *= 2;
+            for (OpenEntry& open : open_) open = entry_of(open.label);
+            std::make_heap(open_.begin(), open_.end(), later);
+        }
         const std::size_t first_new = labels_.size();
         expand(entry.label);
         for (std::size_t i = first_new; i < labels_.size(); ++i) {
-            const Label& added = labels_[i];
-            open_.push_back({added.arrive_s + bound(added.place, added.stage), added.arrive_s,
-                             static_cast<std::uint32_t>(i)});
+            open_.push_back(entry_of(static_cast<std::uint32_t>(i)));
             std::push_heap(open_.begin(), open_.end(), later);
         }
     }
@@ -98,7 +113,7 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
     for (std::size_t k = task.stops.size(); k-- > 0;) {
         const PlaceIndex here = task.stops[k].place;
         const bool last = k + 1 == task.stops.size();
-        const auto* onward = last ? task.times_to_rest : task.stops[k + 1].times_to;
+        const auto& onward = last ? task.times_to_rest : task.stops[k + 1].times_to;
         rest_of_way_s_[k] = task.stops[k].dwell_s + (onward ? (*onward)[here] : 0.0F) +
                             (last ? 0.0 : rest_of_way_s_[k + 1]);
     }
@@ -115,7 +130,9 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
         note_obstacle(stand_of(place), 0);
         return;
     }
-    open_.push_back({bound(place, 0), task.start_s, 0});
+    greed_ = kGreed;
+    find_earliest();
+    open_.push_back(entry_of(0));
 }
 
 const TileIndexes& WindowSearch::stand_of(PlaceIndex place) const {
@@ -130,6 +147,44 @@ double WindowSearch::bound(PlaceIndex place, std::size_t stage) const {
         return (stop.times_to ? (*stop.times_to)[place] : 0.0F) + rest_of_way_s_[stage];
     }
     return task_->times_to_rest ? (*task_->times_to_rest)[place] : 0.0F;
+}
+
+/// When a stop is taken by others until late, all that a plan does before is waiting; knowing the
+/// time keeps the search from looking at every way to wait.
+void WindowSearch::find_earliest() {
+    earliest_s_.assign(task_->stops.size() + 1, task_->start_s);
+    for (std::size_t k = 0; k < task_->stops.size(); ++k) {
+        const Range windows = place_windows(task_->stops[k].place);
+        for (std::uint32_t i = 0; i < windows.count; ++i) {
+            const Window window = pool_[windows.begin + i];
+            if (window.to_s - window.from_s < task_->stops[k].dwell_s) continue;
+            earliest_s_[k] = window.from_s;
+            break;
+        }
+    }
+    if (task_->resting.empty()) return;
+    double least_s = kEver_s;
+    for (const PlaceIndex place : task_->resting) {
+        const Range windows = place_windows(place);
+        if (windows.count > 0) {
+            least_s = std::min(least_s, pool_[windows.begin + windows.count - 1].from_s);
+        }
+    }
+    if (!std::isinf(least_s)) earliest_s_.back() = least_s;
+}
+
+WindowSearch::OpenEntry WindowSearch::entry_of(std::uint32_t index) const {
+    const Label& label = labels_[index];
+    const double left_s = bound(label.place, label.stage);
+    if (label.place >= graph_places_) return {label.arrive_s, left_s, index};
+    double end_s = label.arrive_s;
+    double to_go_s = left_s;
+    for (std::size_t k = label.stage; k < task_->stops.size(); ++k) {
+        end_s = std::max(end_s + greed_ * (to_go_s - rest_of_way_s_[k]), earliest_s_[k]);
+        end_s += task_->stops[k].dwell_s;
+        to_go_s = rest_of_way_s_[k] - task_->stops[k].dwell_s;
+    }
+    return {std::max(end_s + greed_ * to_go_s, earliest_s_.back()), left_s, index};
 }
 
 bool WindowSearch::is_end(const Label& label) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -20,13 +21,22 @@ struct FixedSequence {
     PlaceIndex ends_at = kNoPlace;  // in the graph; kNoPlace: it ends at a resting place of its own
 };
 
+/// What kept a vehicle from a plan or a grant.
+struct Obstacle {
+    using Cause = BlockCause;
+    Cause cause = Cause::kNoRoute;
+    VehicleIndex vehicle = 0;       // kVehicle
+    MoveNumber move = 0;            // of that vehicle: it must be passed; kForever: it stays
+    std::optional<TileIndex> tile;  // kVehicle, kClosed
+};
+
 /// A way from the end of the base through all visits to a resting place.
 struct SearchTask {
     struct Stop {
         PlaceIndex place = kNoPlace;
         double dwell_s = 0;
         VisitIndex visit = 0;
-        const std::vector<float>* times_to = nullptr;  // on an empty floor, per place
+        std::shared_ptr<const std::vector<float>> times_to;  // on an empty floor, per place
     };
     VehicleIndex vehicle = 0;
     const CompiledGraph* graph = nullptr;  // may be null when sequences lead to the end
@@ -35,20 +45,12 @@ struct SearchTask {
     double start_s = 0;
     double now_s = 0;
     std::vector<Stop> stops;
-    std::vector<PlaceIndex> resting;                    // empty: all resting places of the graph
-    const std::vector<float>* times_to_rest = nullptr;  // to the nearest of them
+    std::vector<PlaceIndex> resting;  // empty: all resting places of the graph
+    std::shared_ptr<const std::vector<float>> times_to_rest;  // to the nearest of them
+    std::optional<Obstacle> hopeless;      // known beforehand: no resting place can be free
     std::vector<FixedSequence> sequences;  // when there are any, the way begins with one of them
     bool only_lasting = false;  // heed only stays without an end, as if all others would give way
     std::size_t most_labels = 200'000;  // bound of the work
-};
-
-/// What kept a vehicle from a plan or a grant.
-struct Obstacle {
-    using Cause = BlockCause;
-    Cause cause = Cause::kNoRoute;
-    VehicleIndex vehicle = 0;       // kVehicle
-    MoveNumber move = 0;            // of that vehicle: it must be passed; kForever: it stays
-    std::optional<TileIndex> tile;  // kVehicle, kClosed
 };
 
 struct SearchResult {
@@ -59,10 +61,11 @@ struct SearchResult {
 };
 
 /// Safe-interval path planning (Phillips, Likhachev, ICRA 2011) over sets of tiles. Input: the
-/// predicted stays of all others. Output: the plan that ends soonest without delaying any of
-/// them. A state is a place, a number of visits done and one interval in which the place's tiles
-/// are free of others; A* with the exact times on an empty floor as bound. Keeps its working
-/// memory between searches; holds no state that matters.
+/// predicted stays of all others. Output: a plan that delays none of them and takes at most 1.25
+/// times as long as the soonest one, more only when the search gets long. A state is a place, a
+/// number of visits done and one interval in which the place's tiles are free of others; weighted
+/// A* with the exact times on an empty floor as bound. Keeps its working memory between searches;
+/// holds no state that matters.
 class WindowSearch {
 public:
     /// REQUIRES: joint.predict(task.now_s) was called after the last change.
@@ -90,8 +93,8 @@ private:
         bool closed;
     };
     struct OpenEntry {
-        double bound_s;
-        double arrive_s;
+        double end_s;   // no plan through the label ends sooner (but for the greed)
+        double left_s;  // way that is left on an empty floor
         std::uint32_t label;
     };
     struct Step {  // of the sequences, as arcs between places behind the graph's
@@ -107,6 +110,8 @@ private:
              double leave_s, double arrive_s, double until_s);
     bool is_end(const Label& label) const;
     double bound(PlaceIndex place, std::size_t stage) const;
+    OpenEntry entry_of(std::uint32_t index) const;
+    void find_earliest();
     Range free_windows(const TileIndexes& tiles);
     const Range& place_windows(PlaceIndex place);
     const Range& arc_windows(std::uint32_t arc);
@@ -123,6 +128,7 @@ private:
     std::vector<const TileIndexes*> own_stands_;  // of those places
     std::vector<bool> own_ends_;                  // where a sequence ends for good
     std::vector<double> rest_of_way_s_;           // from stop k to the end, on an empty floor
+    std::vector<double> earliest_s_;  // by stage: before it nobody can be at its stop (last: rest)
     std::vector<Label> labels_;
     std::vector<std::uint32_t> heads_;  // first label per stage and place
     std::vector<std::uint32_t> head_stamps_;
@@ -133,6 +139,7 @@ private:
     std::vector<Range> place_ranges_;
     std::vector<Range> floor_ranges_;
     std::uint32_t stamp_ = 0;
+    double greed_ = 1;
     double obstacle_bound_s_ = 0;
     Obstacle obstacle_;
 };

@@ -1,14 +1,15 @@
-// Traffic with 1,000 vehicles: time of an admission and of a release decision, memory, and orders
-// per simulated hour against two baselines on the same floor with the same orders: one vehicle per
-// resource (a leg holds all its tiles, as openTCS users secure theirs) and a joint plan after PIBT.
-// Admissions are measured in CPU time of the thread, release decisions by the wall clock.
-//   bench_traffic [--hours H] [--releases N] [--only halls|warehouse] [--out FILE]     JSON to
-//   build/bench/traffic.json
+// `./dev bench fleet`: traffic at its size. Per setting: time of an admission and of a release
+// decision, orders per simulated hour against two baselines on the same floor with the same orders
+// (one vehicle per resource, and a joint plan after PIBT), vehicles that did not end their orders,
+// memory, time of a rebuild, and what the independent monitor found. Admissions, improvements and
+// rebuilds are measured in CPU time of the thread, release decisions by the wall clock.
+//   bench_fleet [--hours H] [--releases N] [--only halls|plant|warehouse] [--out FILE]
+// H simulated hours a setting; with N the last setting goes on until all together made N releases.
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "tests/bench/traffic_world.hpp"
@@ -16,52 +17,110 @@
 namespace pulseline::bench {
 namespace {
 
-std::string quantiles(const char* name, std::vector<double>& times_us) {
-    char text[256];
-    std::snprintf(text, sizeof text,
-                  "\"%s\": {\"count\": %zu, \"p50_us\": %.1f, \"p99_us\": %.1f, \"max_us\": %.1f}",
-                  name, times_us.size(), quantile(times_us, 0.5), quantile(times_us, 0.99),
-                  quantile(times_us, 1.0));
-    return text;
+constexpr double kAdmissionLimit_us = 20'000;
+constexpr double kReleaseLimit_us = 1'000;
+
+struct Options {
+    double hours = 0.25;
+    std::uint64_t releases = 0;
+    std::string only;
+    std::string out = "build/bench/fleet.json";
+};
+
+Options options_from(int argc, char** argv) {
+    Options options;
+    for (int i = 1; i < argc; i += 2) {
+        const std::string name = argv[i];
+        const char* value = i + 1 < argc ? argv[i + 1] : "";
+        if (name == "--hours") {
+            options.hours = std::strtod(value, nullptr);
+        } else if (name == "--releases") {
+            options.releases = std::strtoull(value, nullptr, 10);
+        } else if (name == "--only") {
+            options.only = value;
+        } else if (name == "--out") {
+            options.out = value;
+        } else if (name != "--benchmark_out_format=json" &&
+                   name.rfind("--benchmark_out=", 0) != 0) {
+            std::fprintf(stderr, "unknown option %s\n", argv[i]);
+            std::exit(2);
+        } else {
+            --i;  // `./dev bench` names the file to all benchmarks in Google Benchmark's way
+            if (name.rfind("--benchmark_out=", 0) == 0) options.out = name.substr(16);
+        }
+    }
+    return options;
 }
 
-std::string measure(const World& world, double hours, std::uint64_t releases) {
-    std::printf("%s: %zu places, %zu vehicles, layout %s\n", world.name.c_str(),
-                world.graph.places.size(), world.starts.size(),
+nlohmann::json quantiles(std::vector<double>& times_us) {
+    return {{"count", times_us.size()},
+            {"p50_us", quantile(times_us, 0.5)},
+            {"p99_us", quantile(times_us, 0.99)},
+            {"max_us", quantile(times_us, 1.0)}};
+}
+
+void print_times(const char* name, std::vector<double>& times_us, double limit_us) {
+    const double p99_us = quantile(times_us, 0.99);
+    std::printf("  %-18s p50 %9.1f us, p99 %9.1f us, max %9.1f us  (%zu)%s\n", name,
+                quantile(times_us, 0.5), p99_us, quantile(times_us, 1.0), times_us.size(),
+                limit_us > 0 && p99_us >= limit_us ? "  OVER THE LIMIT" : "");
+}
+
+nlohmann::json print_throughput(const char* name, const Run& run) {
+    std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck)\n", name,
+                run.orders_per_hour(), static_cast<unsigned long long>(run.orders), run.stuck);
+    return {
+        {"orders_per_hour", run.orders_per_hour()}, {"orders", run.orders}, {"stuck", run.stuck}};
+}
+
+struct Totals {
+    std::uint64_t releases = 0;
+    std::uint64_t failures = 0;
+};
+
+nlohmann::json measure(const World& world, const Options& options, std::uint64_t releases,
+                       Totals& totals) {
+    std::printf("%s: %zu vehicles, layout %s\n", world.name.c_str(), world.vehicles.size(),
                 world.well_formed ? "well-formed" : "NOT well-formed");
     std::fflush(stdout);
-    Run ours = run_traffic(world, hours * 3600, releases);
-    const Run exclusive = run_exclusive_legs(world, hours * 3600);
-    const Run pibt = run_pibt(world, hours * 3600);
-    const auto line = [&](const char* name, const Run& run) {
-        std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck at the end)\n", name,
-                    run.orders_per_hour(), static_cast<unsigned long long>(run.orders), run.stuck);
-    };
-    line("joint plan (this library)", ours);
-    line("one vehicle per resource", exclusive);
-    line("PIBT", pibt);
+    Run ours = run_traffic(world, options.hours * 3600, releases);
+    nlohmann::json json{{"vehicles", world.vehicles.size()},
+                        {"well_formed", world.well_formed},
+                        {"simulated_s", ours.simulated_s},
+                        {"drained_s", ours.drained_s},
+                        {"admission", quantiles(ours.admission_us)},
+                        {"release_decision", quantiles(ours.release_us)},
+                        {"improvement_step", quantiles(ours.improve_us)},
+                        {"refused", ours.refused},
+                        {"releases", ours.releases},
+                        {"violations", ours.violations},
+                        {"bytes_per_vehicle", ours.bytes_per_vehicle},
+                        {"record_ms", ours.record_ms},
+                        {"rebuild_ms", ours.rebuild_ms},
+                        {"rebuilt_same", ours.rebuilt_same}};
+    json["joint_plan"] = print_throughput("joint plan (this library)", ours);
+    json["one_vehicle_per_resource"] =
+        print_throughput("one vehicle per resource", run_exclusive_legs(world, ours.simulated_s));
+    if (const auto pibt = run_pibt(world, ours.simulated_s)) {
+        json["pibt"] = print_throughput("PIBT", *pibt);
+    } else {
+        std::printf("  PIBT does not apply: the vehicles differ in size or their moves in time\n");
+    }
+    print_times("admission", ours.admission_us, kAdmissionLimit_us);
+    print_times("release decision", ours.release_us, kReleaseLimit_us);
+    print_times("improvement step", ours.improve_us, 0);
     std::printf(
-        "  admission p50 %.0f us, p99 %.0f us (%zu, refused %llu); release decision p50 %.2f us, "
-        "p99 %.2f us (%zu)\n  %llu releases, %llu violations; %.1f KB a vehicle\n",
-        quantile(ours.admission_us, 0.5), quantile(ours.admission_us, 0.99),
-        ours.admission_us.size(), static_cast<unsigned long long>(ours.refused),
-        quantile(ours.release_us, 0.5), quantile(ours.release_us, 0.99), ours.release_us.size(),
+        "  %llu admissions refused; all at rest %.0f s after the last order\n"
+        "  %llu releases, %llu violations; %.1f KB a vehicle; record %.1f ms, rebuild %.1f ms%s\n",
+        static_cast<unsigned long long>(ours.refused), ours.drained_s,
         static_cast<unsigned long long>(ours.releases),
-        static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024);
+        static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024,
+        ours.record_ms, ours.rebuild_ms, ours.rebuilt_same ? "" : ", NOT THE SAME STATE");
     std::fflush(stdout);
-    char text[512];
-    std::snprintf(
-        text, sizeof text,
-        "\"orders_per_hour\": {\"joint_plan\": %.0f, \"one_vehicle_per_resource\": %.0f, "
-        "\"pibt\": %.0f}, \"stuck\": {\"joint_plan\": %d, \"one_vehicle_per_resource\": %d, "
-        "\"pibt\": %d}, \"releases\": %llu, \"violations\": %llu, \"bytes_per_vehicle\": %.0f",
-        ours.orders_per_hour(), exclusive.orders_per_hour(), pibt.orders_per_hour(), ours.stuck,
-        exclusive.stuck, pibt.stuck, static_cast<unsigned long long>(ours.releases),
-        static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle);
-    return "  \"" + world.name + "\": {\"vehicles\": " + std::to_string(world.starts.size()) +
-           ", \"well_formed\": " + (world.well_formed ? "true" : "false") + ",\n    " +
-           quantiles("admission", ours.admission_us) + ",\n    " +
-           quantiles("release_decision", ours.release_us) + ",\n    " + text + "}";
+    totals.releases += ours.releases;
+    totals.failures += ours.violations + static_cast<std::uint64_t>(ours.stuck) +
+                       (ours.rebuilt_same && world.well_formed ? 0 : 1);
+    return json;
 }
 
 }  // namespace
@@ -69,26 +128,33 @@ std::string measure(const World& world, double hours, std::uint64_t releases) {
 
 int main(int argc, char** argv) {
     using namespace pulseline::bench;
-    double hours = 0.5;
-    std::uint64_t releases = 0;
-    std::string only;
-    std::string out = "build/bench/traffic.json";
-    for (int i = 1; i + 1 < argc; i += 2) {
-        if (std::strcmp(argv[i], "--hours") == 0) hours = std::strtod(argv[i + 1], nullptr);
-        if (std::strcmp(argv[i], "--releases") == 0) {
-            releases = std::strtoull(argv[i + 1], nullptr, 10);
-        }
-        if (std::strcmp(argv[i], "--only") == 0) only = argv[i + 1];
-        if (std::strcmp(argv[i], "--out") == 0) out = argv[i + 1];
+    const Options options = options_from(argc, argv);
+    nlohmann::json json;
+    Totals totals;
+    const auto wanted = [&](const char* name) {
+        return options.only.empty() || options.only == name;
+    };
+    const auto rest = [&] {
+        return options.releases > totals.releases ? options.releases - totals.releases : 0;
+    };
+    if (wanted("halls")) {
+        json["halls"] =
+            measure(halls_world(), options, options.only == "halls" ? rest() : 0, totals);
     }
-    std::string json = "{\n";
-    if (only != "warehouse") json += measure(halls_world(), hours, 0);
-    if (only.empty()) json += ",\n";
-    if (only != "halls") json += measure(warehouse_world(), hours, releases);
-    json += "\n}\n";
-    const std::filesystem::path path(out);
+#ifdef PULSELINE_FLEET_PLANT
+    if (wanted("plant")) {
+        json["plant"] = measure(plant_world(PULSELINE_FLEET_PLANT), options, 0, totals);
+    }
+#endif
+    if (wanted("warehouse")) {
+        json["warehouse"] = measure(warehouse_world(), options, rest(), totals);
+    }
+    std::printf("%llu releases in all; %llu violations, vehicles stuck or states not rebuilt\n",
+                static_cast<unsigned long long>(totals.releases),
+                static_cast<unsigned long long>(totals.failures));
+    const std::filesystem::path path(options.out);
     if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path());
-    std::ofstream(path) << json;
-    std::printf("written to %s\n", out.c_str());
-    return 0;
+    std::ofstream(path) << json.dump(2) << "\n";
+    std::printf("written to %s\n", options.out.c_str());
+    return totals.failures == 0 ? 0 : 1;
 }

@@ -1,7 +1,8 @@
 #include "tests/bench/traffic_world.hpp"
 
 #include <algorithm>
-#include <random>
+#include <cmath>
+#include <set>
 
 #include "core/traffic/layout_check.hpp"
 
@@ -18,8 +19,19 @@ void link(traffic::MoveGraph& graph, PlaceIndex a, PlaceIndex b, traffic::TileSe
 }
 
 bool is_well_formed(const World& world) {
-    return traffic::check_layout({{"vehicle", &world.graph, world.goals, world.starts.size(), {}}})
-        .empty();
+    std::vector<traffic::LayoutClass> classes;
+    for (GraphIndex g = 0; g < world.graphs.size(); ++g) {
+        traffic::LayoutClass of_graph{"class " + std::to_string(g), &world.graphs[g], {}, 0, {}};
+        std::set<PlaceIndex> goals;
+        for (const auto& vehicle : world.vehicles) {
+            if (vehicle.graph != g) continue;
+            ++of_graph.vehicles;
+            goals.insert(world.goals[vehicle.zone].begin(), world.goals[vehicle.zone].end());
+        }
+        of_graph.goals.assign(goals.begin(), goals.end());
+        classes.push_back(std::move(of_graph));
+    }
+    return traffic::check_layout(classes).empty();
 }
 
 traffic::TileSet body_between(std::size_t hall, geometry::Point2 a, geometry::Point2 b) {
@@ -37,20 +49,19 @@ traffic::TileSet body_between(std::size_t hall, geometry::Point2 a, geometry::Po
 void add_hall(World& world, std::size_t hall) {
     constexpr int kLanes = 10;
     constexpr int kColumns = 26;
+    traffic::MoveGraph& graph = world.graphs[0];
     constexpr double kLane_m = 3 * kPitch_m;  // bays of neighbouring lanes lie back to back
     std::vector<std::vector<PlaceIndex>> lane(kLanes, std::vector<PlaceIndex>(kColumns));
     std::vector<geometry::Point2> points;
-    const auto first = static_cast<PlaceIndex>(world.graph.places.size());
+    const auto first = static_cast<PlaceIndex>(graph.places.size());
     const auto add = [&](double x_m, double y_m, bool resting) {
         const geometry::Point2 p{x_m, y_m};
-        world.graph.places.push_back({body_between(hall, p, p), resting});
-        world.zone.push_back(static_cast<std::uint32_t>(hall));
+        graph.places.push_back({body_between(hall, p, p), resting});
         points.push_back(p);
-        return static_cast<PlaceIndex>(world.graph.places.size() - 1);
+        return static_cast<PlaceIndex>(graph.places.size() - 1);
     };
     const auto join = [&](PlaceIndex a, PlaceIndex b) {
-        link(world.graph, a, b, body_between(hall, points[a - first], points[b - first]),
-             world.step_s);
+        link(graph, a, b, body_between(hall, points[a - first], points[b - first]), world.step_s);
     };
     for (int l = 0; l < kLanes; ++l) {
         for (int c = 0; c < kColumns; ++c) {
@@ -81,10 +92,10 @@ void add_hall(World& world, std::size_t hall) {
                 join(lane[l][c], bay);
                 if (station) {
                     ++stations;
-                    world.goals.push_back(bay);
+                    world.goals[hall].push_back(bay);
                 } else {
                     ++rests;
-                    world.starts.push_back(bay);
+                    world.vehicles.push_back({0, bay, hall});
                 }
             }
         }
@@ -92,6 +103,10 @@ void add_hall(World& world, std::size_t hall) {
 }
 
 }  // namespace
+
+int World::steps_of(double duration_s) const {
+    return std::max(1, static_cast<int>(std::lround(duration_s / step_s)));
+}
 
 double quantile(std::vector<double>& values, double share) {
     if (values.empty()) return 0;
@@ -103,6 +118,8 @@ double quantile(std::vector<double>& values, double share) {
 World halls_world() {
     World world;
     world.name = "halls";
+    world.graphs.resize(1);
+    world.goals.resize(5);
     add_hall(world, 0);
     world.well_formed = is_well_formed(world);  // the halls are alike and not connected
     for (std::size_t hall = 1; hall < 5; ++hall) add_hall(world, hall);
@@ -112,6 +129,8 @@ World halls_world() {
 World warehouse_world() {
     World world;
     world.name = "warehouse";
+    traffic::MoveGraph& graph = world.graphs.emplace_back();
+    world.goals.resize(1);
     // Shelf blocks of 10 x 2 cells between aisles of two cells; the cells of a block that face an
     // aisle are bays, every second one to rest in, the others to pick from.
     constexpr int kBlocksX = 10;
@@ -126,15 +145,14 @@ World warehouse_world() {
             const bool rest = is_shelf(x, y) && x % 2 == 0 && rests < 1000;
             if (is_shelf(x, y) && x % 2 == 0 && !rest) continue;
             rests += rest ? 1 : 0;
-            const auto place = static_cast<PlaceIndex>(world.graph.places.size());
+            const auto place = static_cast<PlaceIndex>(graph.places.size());
             cell[y * kWidth + x] = place;
             const auto tile = static_cast<traffic::TileId>(y * kWidth + x);
-            world.graph.places.push_back({{tile}, rest});
-            world.zone.push_back(0);
+            graph.places.push_back({{tile}, rest});
             if (rest) {
-                world.starts.push_back(place);
+                world.vehicles.push_back({0, place, 0});
             } else if (is_shelf(x, y)) {
-                world.goals.push_back(place);
+                world.goals[0].push_back(place);
             }
         }
     }
@@ -148,8 +166,7 @@ World warehouse_world() {
                 // A bay opens to the aisle above or below it only.
                 if ((is_shelf(x, y) || is_shelf(bx, by)) && by == y) return;
                 if (is_shelf(x, y) && is_shelf(bx, by)) return;
-                link(world.graph, a, b,
-                     traffic::merge(world.graph.places[a].stand, world.graph.places[b].stand),
+                link(graph, a, b, traffic::merge(graph.places[a].stand, graph.places[b].stand),
                      world.step_s);
             };
             join(x + 1, y);

@@ -1,43 +1,70 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
 #include "core/traffic/traffic.hpp"
 
-/// Floors, orders and the three ways of running them for the traffic benchmark. One step of all
-/// runs is one move of the graph, so the numbers of orders compare.
+/// Floors, orders and the three ways of running them for the fleet benchmark. All runs drive the
+/// same moves in the same whole steps and get the same orders, so the numbers of orders compare.
 namespace pulseline::bench {
 
+using traffic::GraphIndex;
 using traffic::PlaceIndex;
 
 struct World {
+    struct Vehicle {
+        GraphIndex graph = 0;
+        PlaceIndex start = 0;  // a resting place of that graph
+        std::size_t zone = 0;  // whose orders it gets: its hall
+    };
     std::string name;
-    traffic::MoveGraph graph;
-    std::vector<PlaceIndex> starts;  // resting places, one a vehicle
-    std::vector<PlaceIndex> goals;
-    std::vector<std::uint32_t> zone;  // by place: vehicles get orders of their own zone (hall)
-    double step_s = 3;                // duration of every move
+    std::vector<traffic::MoveGraph> graphs;
+    std::vector<Vehicle> vehicles;
+    std::vector<std::vector<PlaceIndex>> goals;  // per zone
+    double step_s = 3;                           // moves last a whole number of steps
     double dwell_s = 9;
     bool well_formed = false;
+
+    int steps_of(double duration_s) const;
 };
 
 /// 5 halls, each with 40 stations, 200 resting places and 200 vehicles of 1.2 m x 0.8 m.
 World halls_world();
 /// 1,000 one-cell vehicles between shelves; they start and rest on cells in the shelves' fronts.
 World warehouse_world();
+/// The vehicles of a plant file, each class of them on its own orders.
+World plant_world(const std::string& path);
+
+/// For each vehicle an endless list of goals in its zone, the same for all runs.
+class Orders {
+public:
+    explicit Orders(const World& world);
+    PlaceIndex next(std::size_t vehicle);
+
+private:
+    const World& world_;
+    std::vector<std::mt19937_64> random_;
+};
 
 struct Run {
     std::vector<double> admission_us;
     std::vector<double> release_us;
+    std::vector<double> improve_us;
     std::uint64_t orders = 0;
     std::uint64_t refused = 0;
     std::uint64_t releases = 0;
-    std::uint64_t violations = 0;
+    std::uint64_t violations = 0;  // found by the independent monitor
     double simulated_s = 0;
+    double drained_s = 0;  // until the last order was done and the last vehicle at rest
     double bytes_per_vehicle = 0;
-    int stuck = 0;  // vehicles with an order that did not move in the last ten minutes
+    double record_ms = 0;
+    double rebuild_ms = 0;
+    bool rebuilt_same = false;
+    int stuck = 0;
     double orders_per_hour() const {
         return simulated_s > 0 ? static_cast<double>(orders) * 3600 / simulated_s : 0;
     }
@@ -45,9 +72,12 @@ struct Run {
 
 double quantile(std::vector<double>& values, double share);
 
-/// At least `seconds` of simulated time, longer until `releases` grants are made.
+/// At least `seconds` of simulated time, longer until `releases` grants are made. Then no new
+/// orders come; stuck are vehicles that have not ended theirs and come to rest within six hours.
 Run run_traffic(const World& world, double seconds, std::uint64_t releases);
+/// A leg gets all its tiles at once. Stuck: no move in the last ten minutes.
 Run run_exclusive_legs(const World& world, double seconds);
-Run run_pibt(const World& world, double seconds);
+/// Only for vehicles of one class on moves of one step. Stuck: no order done in ten minutes.
+std::optional<Run> run_pibt(const World& world, double seconds);
 
 }  // namespace pulseline::bench

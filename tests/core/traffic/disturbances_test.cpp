@@ -64,6 +64,29 @@ TEST(Disturbances, AVehicleFoundElsewhereHoldsThatFloorOnly) {
     EXPECT_EQ(hall.traffic.visits_done(b), 1);
 }
 
+TEST(Disturbances, AVehicleThatStoodWiderThanItsPlaceLeavesAllOfItBehind) {
+    Hall hall({"r...r", "r    "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 0, 1);
+    const auto place = hall.floor.place(1, 0);
+    ASSERT_TRUE(hall.traffic.found_at(a, {Floor::tile(1, 0), Floor::tile(0, 0)}, place, at(1)));
+    ASSERT_TRUE(hall.send(a, {{1, 0}, {3, 0}}));
+    ASSERT_TRUE(hall.send(b, {{0, 0}}));
+    hall.watch();
+
+    ASSERT_EQ(hall.traffic.extend(a, 1, at(2)), hall.traffic.plan(a).passed + 1);
+    ASSERT_TRUE(hall.traffic.passed(a, hall.traffic.plan(a).released, at(8)));
+    EXPECT_EQ(hall.traffic.holder(Floor::tile(0, 0)), a) << "it has only made a stop";
+    ASSERT_EQ(hall.traffic.extend(a, 1, at(8)), hall.traffic.plan(a).passed + 1);
+    EXPECT_EQ(hall.traffic.holder(Floor::tile(0, 0)), a);
+    ASSERT_TRUE(hall.traffic.passed(a, hall.traffic.plan(a).released, at(9)));
+    hall.watch();
+
+    EXPECT_FALSE(hall.traffic.holder(Floor::tile(0, 0)));
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(b), 1);
+}
+
 TEST(Disturbances, AVehicleFoundOnFloorOfAnotherIsHaltedAndNothingElseChanges) {
     Hall hall({"r..r"});
     const auto a = hall.add("A", 0, 0);

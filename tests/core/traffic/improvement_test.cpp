@@ -38,6 +38,7 @@ TEST(Improvement, NeverMovesTheOldestFinishBack) {
         hall.now_s += 1;
         ASSERT_TRUE(hall.send(all[i], {{static_cast<int>(6 - i), 1}}, 20));
     }
+    hall.traffic.improve(at(hall.now_s), 0);  // brings the times up to date
     const double oldest_s = hall.traffic.finish_s(all[0]);
     for (int i = 0; i < 10; ++i) {
         hall.traffic.improve(at(hall.now_s), 10);
@@ -83,6 +84,27 @@ TEST(Improvement, TellsWhoIsBlockedAndBringsThemOutOfTheWay) {
     hall.watch();
     EXPECT_TRUE(hall.drive_all());
     EXPECT_EQ(hall.traffic.visits_done(b), 1) << "the visit was only postponed";
+}
+
+TEST(Improvement, AnIdleVehicleInALaneIsSentHomeForAPostponedVisit) {
+    Hall hall({"r.....r", "r  r   "});
+    const auto a = hall.add("A", 0, 0);
+    const auto b = hall.add("B", 0, 1);
+    const auto c = hall.add("C", 6, 0);
+    ASSERT_TRUE(hall.send(a, {{5, 0}}, 5));
+    hall.traffic.extend(a, 1, at(0));
+    ASSERT_TRUE(hall.traffic.passed(a, 1, at(5)));
+    hall.traffic.halt(c, at(5));
+    // B is left at (3, 0), right where A has to pass, and has no plan.
+    ASSERT_TRUE(hall.traffic.found_at(b, {Floor::tile(3, 0)}, hall.floor.place(3, 0), at(6)));
+    hall.watch();
+    for (int i = 0; i < 6; ++i) {
+        hall.now_s += 20;
+        hall.traffic.improve(at(hall.now_s), 4);
+        hall.watch();
+        hall.drive_all();
+    }
+    EXPECT_EQ(hall.traffic.visits_done(a), 1);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST_F(TwoOnALine, AMoveIsGrantedOnlyInTheOrderOfItsTiles) {
     EXPECT_EQ(joint.obstacle(b, 1), TileIndex{1}) << "the tile is free, but a comes first";
     ASSERT_EQ(joint.plan(b).at(1).waits_for, (std::vector<MoveRef>{{a, 2}}));
 
-    joint.set_released(a, 2);
+    joint.set_released(a, 2, 0);
     joint.pass(a, 1, 5);
     EXPECT_EQ(joint.holder(0), std::nullopt) << "the tail has left";
     EXPECT_EQ(joint.holder(1), a);
@@ -76,7 +76,7 @@ TEST_F(TwoOnALine, PredictionsFollowTheOrderAndHaltedVehiclesBlock) {
 
 TEST_F(TwoOnALine, ALateMoveIsExpectedToBeAsLateAgain) {
     joint.replace(a, {move({0, 1}, {1}, 0, 5)}, Placement::kByTime);
-    joint.set_released(a, 1);
+    joint.set_released(a, 1, 0);
     ASSERT_TRUE(joint.predict(3));
     EXPECT_DOUBLE_EQ(joint.finish_s(a), 5);
     ASSERT_TRUE(joint.predict(65));
@@ -85,7 +85,7 @@ TEST_F(TwoOnALine, ALateMoveIsExpectedToBeAsLateAgain) {
 
 TEST_F(TwoOnALine, ANewPlanKeepsTheBase) {
     joint.replace(a, {move({0, 1}, {1}, 0, 5), move({1, 11}, {11}, 5, 10)}, Placement::kByTime);
-    joint.set_released(a, 1);
+    joint.set_released(a, 1, 0);
 
     joint.replace(a, {move({1, 14}, {14}, 5, 10)}, Placement::kByTime);
 
@@ -102,7 +102,7 @@ TEST_F(TwoOnALine, ClosedFloorMayBeLeftButNotEntered) {
     EXPECT_EQ(joint.obstacle(a, 1), TileIndex{1});
     joint.open({1});
     EXPECT_FALSE(joint.obstacle(a, 1));
-    joint.set_released(a, 1);
+    joint.set_released(a, 1, 0);
     joint.pass(a, 1, 5);
     joint.close({1, 11});
     EXPECT_FALSE(joint.obstacle(a, 2)) << "it stands on closed floor and may leave";

@@ -1,0 +1,326 @@
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+#include "tests/bench/traffic_world.hpp"
+
+// What the joint plan is compared with, on the same floor with the same orders. Neither looks at
+// delays, faults or closures, which favours both.
+namespace pulseline::bench {
+namespace {
+
+constexpr double kStuck_s = 600;
+
+/// Neighbours and distances in moves for the baselines.
+class Grid {
+public:
+    explicit Grid(const traffic::MoveGraph& graph) : graph_(graph), next_(graph.places.size()) {
+        for (const auto& move : graph.moves) next_[move.from].push_back(move.to);
+    }
+    const std::vector<PlaceIndex>& next(PlaceIndex place) const { return next_[place]; }
+
+    /// Moves from every place to the goal; `rests` that are crossed count as walls but for `own`.
+    std::vector<std::uint16_t> distances(PlaceIndex goal, bool cross_rests, PlaceIndex own) const {
+        std::vector<std::uint16_t> distance(next_.size(),
+                                            std::numeric_limits<std::uint16_t>::max());
+        std::vector<PlaceIndex> open{goal};
+        distance[goal] = 0;
+        for (std::size_t i = 0; i < open.size(); ++i) {
+            const PlaceIndex place = open[i];
+            if (!cross_rests && place != goal && graph_.places[place].resting) continue;
+            for (const PlaceIndex other : next_[place]) {
+                if (distance[other] != std::numeric_limits<std::uint16_t>::max()) continue;
+                const bool wall = !cross_rests && graph_.places[other].resting && other != own;
+                if (wall) continue;
+                distance[other] = static_cast<std::uint16_t>(distance[place] + 1);
+                open.push_back(other);
+            }
+        }
+        return distance;
+    }
+
+    const std::vector<std::uint16_t>& to(PlaceIndex goal) {
+        auto& table = tables_[goal];
+        if (table.empty()) table = distances(goal, true, traffic::kNoPlace);
+        return table;
+    }
+
+private:
+    const traffic::MoveGraph& graph_;
+    std::vector<std::vector<PlaceIndex>> next_;
+    std::unordered_map<PlaceIndex, std::vector<std::uint16_t>> tables_;
+};
+
+/// One vehicle per resource: a leg is driven when all its tiles are free at once, and frees them as
+/// the vehicle passes, as openTCS users secure whole routes. Routes lead around resting places and
+/// ignore other vehicles.
+class ExclusiveLegs {
+public:
+    explicit ExclusiveLegs(const World& world) : world_(world), orders_(world) {
+        for (const auto& graph : world.graphs) {
+            grids_.emplace_back(graph);
+            auto& moves = moves_.emplace_back();
+            for (const auto& move : graph.moves) moves[key(move.from, move.to)] = &move;
+        }
+        ways_.resize(world.graphs.size());
+        vehicles_.resize(world.vehicles.size());
+        for (std::size_t v = 0; v < vehicles_.size(); ++v) {
+            const auto& [graph, start, zone] = world.vehicles[v];
+            vehicles_[v].place = start;
+            for (const auto tile : world.graphs[graph].places[start].stand) holder_[tile] = v;
+        }
+    }
+
+    void step(double now_s) {
+        for (std::size_t v = 0; v < vehicles_.size(); ++v) {
+            Vehicle& vehicle = vehicles_[v];
+            if (vehicle.busy_steps > 0 && --vehicle.busy_steps > 0) continue;
+            if (!vehicle.leg.empty()) {
+                arrive(v, now_s);
+                continue;
+            }
+            if (vehicle.dwelling) {
+                vehicle.dwelling = vehicle.to_goal = false;
+                vehicle.wanted = traffic::kNoPlace;
+                ++done;
+            }
+            choose_leg(v);
+        }
+    }
+
+    int stuck(double now_s) const {
+        return static_cast<int>(
+            std::count_if(vehicles_.begin(), vehicles_.end(),
+                          [&](const Vehicle& v) { return now_s - v.moved_s > kStuck_s; }));
+    }
+
+    std::uint64_t done = 0;
+
+private:
+    struct Vehicle {
+        PlaceIndex place = 0;
+        std::vector<PlaceIndex> leg;  // to come, the next one last
+        int busy_steps = 0;           // left of the move or stop
+        bool dwelling = false;
+        bool to_goal = false;
+        PlaceIndex wanted = traffic::kNoPlace;
+        double moved_s = 0;
+    };
+
+    static std::uint64_t key(PlaceIndex from, PlaceIndex to) {
+        return std::uint64_t{from} << 32 | to;
+    }
+    const traffic::Move& move(std::size_t v, PlaceIndex from, PlaceIndex to) const {
+        return *moves_[world_.vehicles[v].graph].at(key(from, to));
+    }
+
+    const std::vector<PlaceIndex>& way(GraphIndex graph, PlaceIndex from, PlaceIndex to) {
+        auto& leg = ways_[graph][key(from, to)];
+        if (!leg.empty() || from == to) return leg;
+        const auto distance = grids_[graph].distances(to, false, from);
+        for (PlaceIndex place = from; place != to;) {
+            PlaceIndex best = traffic::kNoPlace;
+            for (const PlaceIndex other : grids_[graph].next(place)) {
+                if (distance[other] < distance[place]) best = other;
+            }
+            if (best == traffic::kNoPlace) break;
+            leg.push_back(place = best);
+        }
+        std::reverse(leg.begin(), leg.end());
+        return leg;
+    }
+
+    bool try_leg(std::size_t v, PlaceIndex to) {
+        Vehicle& vehicle = vehicles_[v];
+        const auto& leg = way(world_.vehicles[v].graph, vehicle.place, to);
+        if (leg.empty()) return false;
+        traffic::TileSet needed;
+        PlaceIndex from = vehicle.place;
+        for (auto it = leg.rbegin(); it != leg.rend(); from = *it++) {
+            for (const auto tile : move(v, from, *it).swept) {
+                const auto held = holder_.find(tile);
+                if (held != holder_.end() && held->second != v) return false;
+                needed.push_back(tile);
+            }
+        }
+        for (const auto tile : needed) holder_[tile] = v;
+        vehicle.leg = leg;
+        vehicle.busy_steps = steps_to_next(v);
+        return true;
+    }
+
+    int steps_to_next(std::size_t v) const {
+        const Vehicle& vehicle = vehicles_[v];
+        return world_.steps_of(move(v, vehicle.place, vehicle.leg.back()).duration_s);
+    }
+
+    void arrive(std::size_t v, double now_s) {
+        Vehicle& vehicle = vehicles_[v];
+        const PlaceIndex to = vehicle.leg.back();
+        vehicle.leg.pop_back();
+        traffic::TileSet kept = world_.graphs[world_.vehicles[v].graph].places[to].stand;
+        PlaceIndex from = to;
+        for (auto it = vehicle.leg.rbegin(); it != vehicle.leg.rend(); from = *it++) {
+            kept = traffic::merge(kept, move(v, from, *it).swept);
+        }
+        for (const auto tile : move(v, vehicle.place, to).swept) {
+            if (!std::binary_search(kept.begin(), kept.end(), tile)) holder_.erase(tile);
+        }
+        vehicle.place = to;
+        vehicle.moved_s = now_s;
+        if (!vehicle.leg.empty()) {
+            vehicle.busy_steps = steps_to_next(v);
+        } else if (vehicle.to_goal) {
+            dwell(vehicle);
+        }
+    }
+
+    void dwell(Vehicle& vehicle) {
+        vehicle.dwelling = true;
+        vehicle.busy_steps = world_.steps_of(world_.dwell_s);
+    }
+
+    /// From a stop straight to the next one when that leg is free, else home.
+    void choose_leg(std::size_t v) {
+        Vehicle& vehicle = vehicles_[v];
+        if (vehicle.wanted == traffic::kNoPlace) vehicle.wanted = orders_.next(v);
+        if (vehicle.wanted == vehicle.place) {
+            dwell(vehicle);
+        } else if (try_leg(v, vehicle.wanted)) {
+            vehicle.to_goal = true;
+        } else if (vehicle.place != world_.vehicles[v].start) {
+            try_leg(v, world_.vehicles[v].start);
+        }
+    }
+
+    const World& world_;
+    Orders orders_;
+    std::vector<Grid> grids_;
+    std::vector<std::unordered_map<std::uint64_t, const traffic::Move*>> moves_;
+    std::vector<std::unordered_map<std::uint64_t, std::vector<PlaceIndex>>> ways_;
+    std::unordered_map<traffic::TileId, std::size_t> holder_;
+    std::vector<Vehicle> vehicles_;
+};
+
+}  // namespace
+
+Run run_exclusive_legs(const World& world, double seconds) {
+    ExclusiveLegs legs(world);
+    Run run;
+    for (; run.simulated_s < seconds; run.simulated_s += world.step_s) legs.step(run.simulated_s);
+    run.orders = legs.done;
+    run.stuck = legs.stuck(run.simulated_s);
+    return run;
+}
+
+namespace {
+
+/// Priority inheritance with backtracking (Okumura et al., IJCAI 2019): one step of all vehicles.
+/// Vehicles count as one place each; the sweep between places is not looked at, which favours it.
+class Pibt {
+public:
+    Pibt(const World& world, Grid& grid)
+        : grid_(grid),
+          now_(world.graphs[0].places.size(), kNobody),
+          next_(world.graphs[0].places.size(), kNobody) {}
+
+    static constexpr std::uint32_t kNobody = std::numeric_limits<std::uint32_t>::max();
+
+    std::vector<PlaceIndex> at;      // by vehicle
+    std::vector<PlaceIndex> target;  // by vehicle
+    std::vector<PlaceIndex> to;      // result
+    std::vector<double> priority;
+    std::mt19937_64 random{7};
+
+    void step() {
+        std::fill(now_.begin(), now_.end(), kNobody);
+        std::fill(next_.begin(), next_.end(), kNobody);
+        to.assign(at.size(), traffic::kNoPlace);
+        for (std::uint32_t v = 0; v < at.size(); ++v) now_[at[v]] = v;
+        std::vector<std::uint32_t> order(at.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return priority[a] != priority[b] ? priority[a] > priority[b] : a < b;
+        });
+        for (const auto v : order) {
+            if (to[v] == traffic::kNoPlace) choose(v);
+        }
+        at = to;
+    }
+
+private:
+    bool choose(std::uint32_t v) {
+        const auto& distance = grid_.to(target[v]);
+        std::vector<std::pair<std::uint32_t, PlaceIndex>> options;
+        for (const PlaceIndex p : grid_.next(at[v])) {
+            options.emplace_back(std::uint32_t{distance[p]} << 8 | (random() & 0xff), p);
+        }
+        options.emplace_back(std::uint32_t{distance[at[v]]} << 8, at[v]);
+        std::sort(options.begin(), options.end());
+        for (const auto& [cost, place] : options) {
+            if (next_[place] != kNobody) continue;
+            const std::uint32_t other = now_[place];
+            if (other != kNobody && other != v && to[other] == at[v]) continue;  // no swaps
+            next_[place] = v;
+            to[v] = place;
+            if (other != kNobody && other != v && to[other] == traffic::kNoPlace &&
+                !choose(other)) {
+                continue;
+            }
+            return true;
+        }
+        next_[at[v]] = v;
+        to[v] = at[v];
+        return false;
+    }
+
+    Grid& grid_;
+    std::vector<std::uint32_t> now_;
+    std::vector<std::uint32_t> next_;
+};
+
+}  // namespace
+
+std::optional<Run> run_pibt(const World& world, double seconds) {
+    const auto more_than_a_step = [&](const auto& m) { return world.steps_of(m.duration_s) != 1; };
+    const auto& moves = world.graphs[0].moves;
+    if (world.graphs.size() > 1 || std::any_of(moves.begin(), moves.end(), more_than_a_step)) {
+        return {};
+    }
+    Run run;
+    Grid grid(world.graphs[0]);
+    Orders orders(world);
+    Pibt pibt(world, grid);
+    const std::size_t count = world.vehicles.size();
+    std::vector<int> dwell(count, 0);
+    std::vector<double> order_s(count, 0);
+    for (std::size_t v = 0; v < count; ++v) {
+        pibt.at.push_back(world.vehicles[v].start);
+        pibt.target.push_back(orders.next(v));
+        pibt.priority.push_back(0);
+    }
+    for (; run.simulated_s < seconds; run.simulated_s += world.step_s) {
+        pibt.step();
+        for (std::size_t v = 0; v < count; ++v) {
+            const double first_come = static_cast<double>(v) * 1e-6;
+            pibt.priority[v] += 1 + first_come;
+            if (pibt.at[v] != pibt.target[v]) {
+                dwell[v] = 0;
+                continue;
+            }
+            pibt.priority[v] = first_come;
+            if (++dwell[v] <= world.steps_of(world.dwell_s)) continue;
+            dwell[v] = 0;
+            ++run.orders;
+            order_s[v] = run.simulated_s;
+            pibt.target[v] = orders.next(v);
+        }
+    }
+    for (std::size_t v = 0; v < count; ++v) {
+        run.stuck += run.simulated_s - order_s[v] > kStuck_s ? 1 : 0;
+    }
+    return run;
+}
+
+}  // namespace pulseline::bench
