@@ -1,6 +1,8 @@
 #include <algorithm>
 
+#include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
+#include "core/fleet/step_actions.hpp"
 
 // Dispatch in named phases. Optimal assignment, parking and charging become phases of their own.
 namespace pulseline::fleet {
@@ -42,7 +44,7 @@ VehicleRun* soonest_vehicle(FleetState& fleet, const JobOrder& order, Time now, 
     why_not = {"no_free_vehicle", {}};
     NewOrder rest = rest_of(fleet, order);
     for (auto& [id, run] : fleet.vehicles) {
-        if (!is_free(fleet, run)) continue;
+        if (!is_free(fleet, run) || !vehicle_fits(fleet, order, run)) continue;
         if (not_ready(fleet, run, now)) continue;
         rest.vehicle = id;
         const auto plan = plan_order(fleet, rest, now);
@@ -60,7 +62,9 @@ void assign_waiting(FleetState& fleet, Time now) {
     for (JobOrder* order : by_urgency(fleet, JobState::kAllowedToStart)) {
         VehicleRun* run = nullptr;
         Reason why_not;
-        if (!order->wanted_vehicle.empty()) {
+        if (auto waits = waits_for_condition(fleet, *order, now)) {
+            why_not = std::move(*waits);
+        } else if (!order->wanted_vehicle.empty()) {
             run = fleet.find(order->wanted_vehicle);
             if (!is_free(fleet, *run)) {
                 const JobOrder* other = fleet.orders.of(run->record.id);
@@ -95,7 +99,9 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
     const LegId id(fleet.ids.next(now));
     Leg leg;
-    if (nearly_there(run, run.record.pose, *station)) {
+    if (auto actions = next_actions_leg(fleet, order, run, id)) {
+        leg = std::move(*actions);
+    } else if (nearly_there(run, run.record.pose, *station)) {
         leg = build_adjust_leg(fleet, run, *station, run.record.pose, id);
     } else {
         // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
@@ -128,12 +134,13 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     run.update_sends = 0;
     run.leg_started.reset();
     step.leg = id;
-    step.state = StepState::kDriving;
+    if (!run.leg().actions_only) step.state = StepState::kDriving;
     order.reason = {};
     fleet.store(order);
     fleet.store(run);
     fleet.changed_stations.insert(station->id);
-    add_event(fleet, now, "step.started", order.id, id, run.record.id, {},
+    add_event(fleet, now, run.leg().actions_only ? "step.actions" : "step.started", order.id, id,
+              run.record.id, {},
               {{"step", static_cast<std::int64_t>(order.current_step)},
                {"station", std::int64_t{station->number}},
                {"mode", plant::to_string(run.leg().mode)},

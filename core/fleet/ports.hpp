@@ -6,6 +6,7 @@
 
 #include "core/base/result.hpp"
 #include "core/fleet/job_order.hpp"
+#include "core/fleet/standing_orders.hpp"
 
 /// Where the fleet core meets the outside: what it reads at start and what every step puts out.
 namespace pulseline::fleet {
@@ -26,9 +27,11 @@ struct Records {
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
+    std::vector<Schedule> schedules;  // upserts by id; deleted ones say so
+    std::vector<OrderTemplate> templates;
     bool empty() const {
         return orders.empty() && vehicles.empty() && stops.empty() && events.empty() &&
-               idempotency.empty();
+               idempotency.empty() && schedules.empty() && templates.empty();
     }
 };
 
@@ -37,6 +40,8 @@ struct StoredFleet {
     std::vector<JobOrder> orders;  // not final ones, and the final ones of the last 7 days
     std::vector<VehicleRecord> vehicles;
     std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
+    std::vector<Schedule> schedules;
+    std::vector<OrderTemplate> templates;
     std::int64_t last_event_seq = 0;
     std::int64_t last_order_number = 0;
     Time last_time;  // newest stored time; the clock may not start before it
@@ -61,6 +66,7 @@ struct StopQuery {
 struct OrderQuery {
     std::vector<JobState> states;  // empty: all
     plant::VehicleId vehicle;
+    bool removed = false;  // those taken out by Cancel or Clear instead of the others
     int limit = 50;
     JobOrderId before;
 };

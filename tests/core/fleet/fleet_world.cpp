@@ -89,6 +89,20 @@ void MemoryStore::commit(const Records& records) {
     stops.insert(stops.end(), records.stops.begin(), records.stops.end());
     events.insert(events.end(), records.events.begin(), records.events.end());
     idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());
+    for (const auto& schedule : records.schedules) {
+        if (schedule.deleted) {
+            schedules.erase(schedule.id);
+        } else {
+            schedules[schedule.id] = schedule;
+        }
+    }
+    for (const auto& one : records.templates) {
+        if (one.deleted) {
+            templates.erase(one.name);
+        } else {
+            templates[one.name] = one;
+        }
+    }
 }
 
 StoredFleet MemoryStore::load() const {
@@ -99,6 +113,8 @@ StoredFleet MemoryStore::load() const {
     }
     for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
     stored.idempotency = idempotency;
+    for (const auto& [id, schedule] : schedules) stored.schedules.push_back(schedule);
+    for (const auto& [name, one] : templates) stored.templates.push_back(one);
     if (!events.empty()) {
         stored.last_event_seq = events.back().seq;
         stored.last_time = events.back().at;
@@ -215,7 +231,13 @@ bool FakeVehicle::step() {
             action.result_description = *measure_fails;
             return true;
         }
+        if (action.type == action_fails) {
+            action.status = ActionStatus::kFailed;
+            action.result_description = "it jammed";
+            return true;
+        }
         action.status = ActionStatus::kFinished;
+        actions_done.push_back(action.type);
         if (action.type == "measureStop") {
             const Pose2 station = order_->nodes.back().actions.back().stop_target->target;
             action.measurement = StopMeasurement{};
@@ -258,6 +280,15 @@ void World::connect_all() {
     run(1);
 }
 
+void World::announce(std::vector<std::string> actions) {
+    for (const auto& [id, vehicle] : vehicles) {
+        Factsheet factsheet;
+        factsheet.actions = factsheet.node_actions = actions;
+        factsheet.actions.insert(factsheet.actions.end(), {"measureStop", "adjustToMarker"});
+        fleet->vehicle_factsheet(id, factsheet, now);
+    }
+}
+
 void World::settle() {
     for (int round = 0; round < 10; ++round) {
         Outputs out = fleet->take_outputs(now);
@@ -297,8 +328,12 @@ Result<Created> World::order(const std::string& vehicle, std::vector<int> statio
                              plant::MotionMode mode) {
     NewOrder request;
     request.vehicle = plant::VehicleId(vehicle);
-    request.actor = "tester";
     for (const int station : stations) request.steps.push_back({station, mode});
+    return order(std::move(request));
+}
+
+Result<Created> World::order(NewOrder request) {
+    if (request.actor.empty()) request.actor = "tester";
     auto created = fleet->create(request, now);
     settle();
     return created;
