@@ -69,7 +69,11 @@ std::string code_of(Request request) {
 const std::set<std::string> kForEverybody = {"signIn", "getOpenApi", "health", "ready"};
 const std::set<std::string> kForOperators = {"pauseVehicle",   "initPosition",   "pauseFleet",
                                              "resumeFleet",    "createJobOrder", "pauseJobOrder",
-                                             "resumeJobOrder", "cancelJobOrder", "findRoutes"};
+                                             "resumeJobOrder", "cancelJobOrder", "findRoutes",
+                                             "controlJobOrder", "createTemplate",
+                                             "deleteTemplate", "createJobOrderOfTemplate",
+                                             "createSchedule", "deleteSchedule",
+                                             "pauseSchedule", "resumeSchedule"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {
