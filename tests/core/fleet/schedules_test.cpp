@@ -196,17 +196,17 @@ TEST_F(Schedules, AreTheSameAfterARestart) {
 
 TEST_F(Schedules, MakeTheSameOrdersAtTheSameTimesInEveryRun) {
     const auto events = [] {
-        World world;
-        world.connect_all();
+        World own;
+        own.connect_all();
         NewSchedule wanted;
         wanted.name = "round";
         wanted.recurrence.every = std::chrono::seconds(70);
         wanted.recurrence.window = std::chrono::seconds(70);
         wanted.order.steps = {{2}, {3}};
-        EXPECT_TRUE(world.fleet->create_schedule(wanted, world.now));
-        world.run(400);
+        EXPECT_TRUE(own.fleet->create_schedule(wanted, own.now));
+        own.run(400);
         std::vector<std::string> seen;
-        for (const auto& event : world.store.events) {
+        for (const auto& event : own.store.events) {
             seen.push_back(std::to_string(to_ns(event.at)) + event.type + event.order.str());
         }
         return seen;
