@@ -214,7 +214,7 @@ TEST_F(StartConditions, ASequenceKeepsOneVehicleAndItsOrder) {
     NewOrder member = to(3);
     member.sequence = "wing";
     std::vector<JobOrderId> ids;
-    for (const int station : {3, 2, 3}) {
+    for (const int station : {3, 4, 3}) {
         member.steps = {{station}};
         ids.push_back(make(member));
     }
