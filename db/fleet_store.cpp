@@ -189,15 +189,13 @@ fleet::StoredFleet FleetStore::load() {
 
         ScheduleRow schedule;
         Statement schedules(
-            sql,
-            std::string("SELECT ") + ScheduleRow::kColumns + " FROM job_order_schedules",
+            sql, std::string("SELECT ") + ScheduleRow::kColumns + " FROM job_order_schedules",
             std::tuple<>(), schedule.fields());
         for (schedules.start(); schedules.fetch();) stored.schedules.push_back(schedule.get());
 
         TemplateRow one;
         Statement templates(
-            sql,
-            std::string("SELECT ") + TemplateRow::kColumns + " FROM job_order_templates",
+            sql, std::string("SELECT ") + TemplateRow::kColumns + " FROM job_order_templates",
             std::tuple<>(), one.fields());
         for (templates.start(); templates.fetch();) stored.templates.push_back(one.get());
         return stored;

@@ -35,9 +35,7 @@ struct TemplateRow {
     std::string name, description, parameters, body, created_by;
     std::int64_t created_ns = 0;
 
-    auto fields() {
-        return std::tie(name, description, parameters, body, created_by, created_ns);
-    }
+    auto fields() { return std::tie(name, description, parameters, body, created_by, created_ns); }
     void set(const fleet::OrderTemplate& one);
     fleet::OrderTemplate get() const;
 };

@@ -31,8 +31,8 @@ fleet::StepAction read_action(const Json& item, const std::string& pointer, Fiel
     action.type = in.text("type", kName);
     const Json* parameters = in.find("parameters");
     if (parameters != nullptr && !parameters->is_object()) {
-        errors.add(pointer + "/parameters",
-                   {"wrong_type", {{"expected", std::string("object")}}}, "Expected object here.");
+        errors.add(pointer + "/parameters", {"wrong_type", {{"expected", std::string("object")}}},
+                   "Expected object here.");
     } else if (parameters != nullptr && parameters->size() > kMaxParameters) {
         errors.add(pointer + "/parameters",
                    {"wrong_count",
@@ -90,11 +90,10 @@ fleet::NewOrder read_order_body(ObjectReader& in, OrderUse use) {
     if (use != OrderUse::kSchedule) {
         read.earliest_start = in.time_if_any("earliest_start");
         read.due = in.time_if_any("due");
-        in.items_if_any("after", {0, kMaxDependencies},
-                        [&](const Json& item, const std::string& pointer) {
-                            read.after.push_back(
-                                json::read_text(item, pointer, in.errors(), kName));
-                        });
+        in.items_if_any(
+            "after", {0, kMaxDependencies}, [&](const Json& item, const std::string& pointer) {
+                read.after.push_back(json::read_text(item, pointer, in.errors(), kName));
+            });
     }
     in.items("steps", {1, kMaxSteps}, [&](const Json& item, const std::string& pointer) {
         read.steps.push_back(read_step(item, pointer, in.errors()));

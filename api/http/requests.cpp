@@ -160,11 +160,11 @@ Result<fleet::ControlRequest> read_job_control(const Request& request) {
     using fleet::JobMethod;
     auto control = read_object<fleet::ControlRequest>(request, [](ObjectReader& in) {
         fleet::ControlRequest read;
-        read.method = in.one_of(
-            "method", {JobMethod::kStore, JobMethod::kStoreAndStart, JobMethod::kStart,
-                       JobMethod::kRevokeStart, JobMethod::kPause, JobMethod::kResume,
-                       JobMethod::kUpdate, JobMethod::kAbort, JobMethod::kStop, JobMethod::kCancel,
-                       JobMethod::kClear});
+        read.method =
+            in.one_of("method", {JobMethod::kStore, JobMethod::kStoreAndStart, JobMethod::kStart,
+                                 JobMethod::kRevokeStart, JobMethod::kPause, JobMethod::kResume,
+                                 JobMethod::kUpdate, JobMethod::kAbort, JobMethod::kStop,
+                                 JobMethod::kCancel, JobMethod::kClear});
         if (read.method == JobMethod::kUpdate) {
             ObjectReader order = in.object("order");
             if (in.has("order")) read.update = read_order_body(order, OrderUse::kUpdate);

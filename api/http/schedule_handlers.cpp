@@ -15,12 +15,11 @@ Response schedule_response(int status, const fleet::Schedule& schedule) {
 }
 
 Response unknown(const Request& request) {
-    return problem(
-        Error{Errc::kNotFound,
-              {"unknown_schedule", {{"schedule", request.param("id").substr(0, 64)}}},
-              "There is no such schedule; GET /api/v1/job-order-schedules lists them.",
-              {}},
-        request);
+    return problem(Error{Errc::kNotFound,
+                         {"unknown_schedule", {{"schedule", request.param("id").substr(0, 64)}}},
+                         "There is no such schedule; GET /api/v1/job-order-schedules lists them.",
+                         {}},
+                   request);
 }
 
 std::optional<fleet::Schedule> named(const FleetContext& context, const Request& request) {
@@ -54,8 +53,7 @@ FleetAnswer set_paused(FleetContext& context, const Request& request, bool pause
 }  // namespace
 
 FleetAnswer list_schedules(FleetContext& context, const Request&) {
-    return {
-        json_response(200, {{"items", list_json(context.fleet.schedules(), schedule_json)}})};
+    return {json_response(200, {{"items", list_json(context.fleet.schedules(), schedule_json)}})};
 }
 
 FleetAnswer create_schedule(FleetContext& context, const Request& request) {

@@ -60,8 +60,8 @@ fleet::Recurrence read_recurrence(ObjectReader& in) {
     when.daily_at_s.erase(same, when.daily_at_s.end());
     const std::int64_t usual_s =
         every ? std::max<std::int64_t>(1, when.every / std::chrono::seconds(1)) : kDailyWindow_s;
-    when.window = std::chrono::seconds(
-        in.integer_or("window_s", std::min(usual_s, kDay_s), {1, kDay_s}));
+    when.window =
+        std::chrono::seconds(in.integer_or("window_s", std::min(usual_s, kDay_s), {1, kDay_s}));
     when.from = in.time_if_any("from").value_or(Time{});
     when.until = in.time_if_any("until");
     return when;

@@ -118,8 +118,7 @@ void match_names(const Json& parameters, const Places& places, FieldErrors& erro
 }
 
 /// Reads the body with sample values; faults where a parameter stands are those of the samples.
-void try_body(const Json& body, const Json& parameters, const Places& places,
-              FieldErrors& errors) {
+void try_body(const Json& body, const Json& parameters, const Places& places, FieldErrors& errors) {
     Json values = Json::object();
     for (const Json& parameter : parameters) {
         values[parameter["name"].get<std::string>()] = sample(parameter);
@@ -141,7 +140,8 @@ Json read_values(const Json& parameters, const Json* given, FieldErrors& errors)
     for (const Json& parameter : parameters) {
         const auto name = parameter["name"].get<std::string>();
         const Json* value = nullptr;
-        if (given != nullptr && given->is_object() && given->contains(name)) value = &(*given)[name];
+        if (given != nullptr && given->is_object() && given->contains(name))
+            value = &(*given)[name];
         const std::string at = json::child_pointer("/parameters", std::string_view(name));
         if (value != nullptr) {
             check_type(*value, parameter["type"].get<std::string>(), at, errors);
@@ -156,8 +156,9 @@ Json read_values(const Json& parameters, const Json* given, FieldErrors& errors)
     if (given == nullptr || !given->is_object()) return values;
     for (const auto& [name, value] : given->items()) {
         if (values.contains(name)) continue;
-        const bool declared = std::any_of(parameters.begin(), parameters.end(),
-                                          [&name = name](const Json& p) { return p["name"] == name; });
+        const bool declared =
+            std::any_of(parameters.begin(), parameters.end(),
+                        [&name = name](const Json& p) { return p["name"] == name; });
         if (declared) continue;
         errors.add(json::child_pointer("/parameters", std::string_view(name)),
                    {"unknown_parameter", {{"parameter", name}}},

@@ -10,19 +10,18 @@ namespace pulseline::api {
 namespace {
 
 Response unknown(const Request& request) {
-    return problem(
-        Error{Errc::kNotFound,
-              {"unknown_template", {{"template", request.param("name").substr(0, 64)}}},
-              "There is no such template; GET /api/v1/job-order-templates lists them.",
-              {}},
-        request);
+    return problem(Error{Errc::kNotFound,
+                         {"unknown_template", {{"template", request.param("name").substr(0, 64)}}},
+                         "There is no such template; GET /api/v1/job-order-templates lists them.",
+                         {}},
+                   request);
 }
 
 }  // namespace
 
 FleetAnswer list_templates(FleetContext& context, const Request&) {
-    return {json_response(
-        200, {{"items", list_json(context.fleet.order_templates(), template_json)}})};
+    return {
+        json_response(200, {{"items", list_json(context.fleet.order_templates(), template_json)}})};
 }
 
 FleetAnswer create_template(FleetContext& context, const Request& request) {

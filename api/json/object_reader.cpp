@@ -82,7 +82,8 @@ std::optional<Time> parse_time(const std::string& text) {
     int offset_min = 0;
     if (text[at] == '+' || text[at] == '-') {
         const int oh = digits(text, at + 1, 2), om = digits(text, at + 4, 2);
-        if (text.size() != at + 6 || text[at + 3] != ':' || oh < 0 || oh > 23 || om < 0 || om > 59) {
+        if (text.size() != at + 6 || text[at + 3] != ':' || oh < 0 || oh > 23 || om < 0 ||
+            om > 59) {
             return std::nullopt;
         }
         offset_min = (text[at] == '-' ? -1 : 1) * (60 * oh + om);

@@ -70,9 +70,9 @@ struct Dependency {
 
 struct JobOrder {
     JobOrderId id;
-    std::int64_t number = 0;          // people say JO-<number>; gapless, ours
-    std::string client_order_id;      // the MES's own name, unique when given
-    plant::VehicleId wanted_vehicle;  // empty: any that can
+    std::int64_t number = 0;           // people say JO-<number>; gapless, ours
+    std::string client_order_id;       // the MES's own name, unique when given
+    plant::VehicleId wanted_vehicle;   // empty: any that can
     plant::VehicleTypeId wanted_type;  // empty: any that can
     plant::VehicleId assigned_vehicle;
     int priority = 0;                    // higher first
@@ -90,7 +90,7 @@ struct JobOrder {
     bool stop_requested = false;  // as cancel_requested, but it shall be Ended
     bool pause_requested = false;
     bool removed = false;  // taken out by Cancel or Clear: history only
-    Reason reason;  // why it waits, is interrupted or aborted; empty code: nothing
+    Reason reason;         // why it waits, is interrupted or aborted; empty code: nothing
     std::string created_by;
     Time created;
     Time started;

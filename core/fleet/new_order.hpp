@@ -20,9 +20,9 @@ struct NewStep {
 
 /// What somebody asks for; create_order() makes a job order of it.
 struct NewOrder {
-    std::string client_order_id;         // empty: none
-    plant::VehicleId vehicle;            // empty: any
-    plant::VehicleTypeId vehicle_type;   // empty: any
+    std::string client_order_id;        // empty: none
+    plant::VehicleId vehicle;           // empty: any
+    plant::VehicleTypeId vehicle_type;  // empty: any
     int priority = 0;
     bool start = true;  // StoreAndStart; false: Store, it waits for Start
     std::optional<Time> earliest_start;

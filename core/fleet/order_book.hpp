@@ -29,8 +29,8 @@ public:
     /// Also binds what is open of the order's sequence to the vehicle.
     void assign(JobOrder& order, const plant::VehicleId& vehicle);
 
-    /// Open orders of a sequence, oldest first; empty when there is none of that name. A sequence is
-    /// over, and its name free, when all of its orders are final.
+    /// Open orders of a sequence, oldest first; empty when there is none of that name. A sequence
+    /// is over, and its name free, when all of its orders are final.
     const std::set<JobOrderId>& sequence(const std::string& name) const;
     /// The vehicle a sequence has; empty: none yet.
     plant::VehicleId vehicle_of_sequence(const std::string& name) const;

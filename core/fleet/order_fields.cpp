@@ -13,10 +13,9 @@ namespace {
 constexpr std::size_t kMaxDependencies = 100;
 
 // The server sends these itself; as a step's action they would defeat its own bookkeeping.
-constexpr std::array kOwnActions = {"measureStop",  "adjustToMarker", "observeMarkers",
-                                    "cancelOrder",  "startPause",     "stopPause",
-                                    "initPosition", "stateRequest",   "factsheetRequest",
-                                    "logReport"};
+constexpr std::array kOwnActions = {
+    "measureStop", "adjustToMarker", "observeMarkers", "cancelOrder",      "startPause",
+    "stopPause",   "initPosition",   "stateRequest",   "factsheetRequest", "logReport"};
 
 /// One action of a request and where it stands.
 struct PlacedAction {
@@ -70,8 +69,8 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
         if (missing) continue;
         missing = &*lacks;
         for (const auto& name : run.factsheet->node_actions) {
-            const bool own = std::find(kOwnActions.begin(), kOwnActions.end(), name) !=
-                             kOwnActions.end();
+            const bool own =
+                std::find(kOwnActions.begin(), kOwnActions.end(), name) != kOwnActions.end();
             if (!own) announced += (announced.empty() ? "" : ", ") + name;
         }
     }
@@ -131,9 +130,8 @@ Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order) {
 bool may_have(const FleetState& fleet, const NewOrder& order, const VehicleRun& run) {
     if (!is_candidate(fleet, order, run)) return false;
     const auto placed = actions_of(order);
-    return std::all_of(placed.begin(), placed.end(), [&](const PlacedAction& p) {
-        return announces_at_node(run, *p.action);
-    });
+    return std::all_of(placed.begin(), placed.end(),
+                       [&](const PlacedAction& p) { return announces_at_node(run, *p.action); });
 }
 
 Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const NewOrder& order,

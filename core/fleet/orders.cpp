@@ -164,7 +164,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     if (best) return std::move(*best);
     if (why_not) return fail(*why_not);
     return fail(Errc::kConflict, "no_vehicle",
-                "No vehicle that this order may have has been heard in the last 60 s. Connect one, then repeat.",
+                "No vehicle that this order may have has been heard in the last 60 s. Connect one, "
+                "then repeat.",
                 "/vehicle");
 }
 

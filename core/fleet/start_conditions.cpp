@@ -32,9 +32,9 @@ std::optional<Reason> waits_for_sequence(const FleetState& fleet, const JobOrder
     if (order.sequence.empty()) return std::nullopt;
     const JobOrderId first = *fleet.orders.sequence(order.sequence).begin();
     if (first != order.id) {
-        return Reason{"sequence_earlier",
-                      {{"order", name_of(fleet.find(first)->number)},
-                       {"sequence", order.sequence}}};
+        return Reason{
+            "sequence_earlier",
+            {{"order", name_of(fleet.find(first)->number)}, {"sequence", order.sequence}}};
     }
     const auto vehicle = fleet.orders.vehicle_of_sequence(order.sequence);
     const JobOrder* other = vehicle.empty() ? nullptr : fleet.orders.of(vehicle);
@@ -84,8 +84,8 @@ std::optional<Reason> waits_for_condition(const FleetState& fleet, const JobOrde
     }
     if (auto reason = waits_for_dependency(fleet, order)) return reason;
     if (auto reason = waits_for_sequence(fleet, order)) return reason;
-    const plant::VehicleId vehicle = !order.wanted_vehicle.empty() ? order.wanted_vehicle
-                                                                   : order.sequence_vehicle;
+    const plant::VehicleId vehicle =
+        !order.wanted_vehicle.empty() ? order.wanted_vehicle : order.sequence_vehicle;
     const VehicleRun* run = fleet.find(vehicle);
     if (!run) return std::nullopt;
     if (const std::string name = keeper(fleet, order, vehicle); !name.empty()) {

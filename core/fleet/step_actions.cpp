@@ -45,8 +45,8 @@ const char* to_string(StepPhase phase) {
     return "drive";
 }
 
-std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
-                                    const VehicleRun& run, LegId id) {
+std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, const VehicleRun& run,
+                                    LegId id) {
     Step& step = order.steps[order.current_step];
     // Moved away before its actions were done: it has to arrive and measure again.
     if (step.phase == StepPhase::kAfter && run.record.at_station != step.station) {

@@ -99,16 +99,19 @@ TEST(FleetStore, SchedulesAndTemplatesComeBackAndGo) {
     Samples samples(3);
     fleet::Records records;
     records.schedules = {samples.schedule("round", 0), samples.schedule("night", 10)};
-    records.templates = {{"to station", "why", "[]", "{\"steps\":[]}", "mes", samples.at(1), false}};
+    records.templates = {
+        {"to station", "why", "[]", "{\"steps\":[]}", "mes", samples.at(1), false}};
     store.commit(records);
 
     fleet::StoredFleet stored = store.load();
     ASSERT_EQ(stored.schedules.size(), 2u);
-    EXPECT_EQ(columns<ScheduleRow>(stored.schedules[0]), columns<ScheduleRow>(records.schedules[0]));
+    EXPECT_EQ(columns<ScheduleRow>(stored.schedules[0]),
+              columns<ScheduleRow>(records.schedules[0]));
     EXPECT_EQ(stored.schedules[0].order, records.schedules[0].order);
     EXPECT_EQ(stored.schedules[0].recurrence, records.schedules[0].recurrence);
     ASSERT_EQ(stored.templates.size(), 1u);
-    EXPECT_EQ(columns<TemplateRow>(stored.templates[0]), columns<TemplateRow>(records.templates[0]));
+    EXPECT_EQ(columns<TemplateRow>(stored.templates[0]),
+              columns<TemplateRow>(records.templates[0]));
 
     // A deleted one goes before another of its name comes, in one transaction.
     records.schedules[0].deleted = true;

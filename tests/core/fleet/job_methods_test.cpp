@@ -147,9 +147,7 @@ TEST_P(EveryPair, DoesWhatTheTableSays) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OpcTable, EveryPair, ::testing::ValuesIn(table()),
-                         [](const auto& one) {
-                             return one.param.state + "_" + one.param.method;
-                         });
+                         [](const auto& one) { return one.param.state + "_" + one.param.method; });
 
 TEST(JobMethods, TheTableHas66PairsOfWhich16Succeed) {
     int allowed = 0;
@@ -284,10 +282,9 @@ TEST_P(EndsADrivingOrder, IsAskedConfirmedAndStandingBeforeItIsFinal) {
     EXPECT_EQ(world.stored(id).state, JobState::kRunning) << "not before the vehicle confirmed";
     EXPECT_TRUE(world.stored(id).cancel_requested);
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its floor stays held";
-    EXPECT_EQ(world.fleet->control_order(id, asks(JobMethod::kPause), world.now)
-                  .error()
-                  .reason.code,
-              "end_under_way");
+    EXPECT_EQ(
+        world.fleet->control_order(id, asks(JobMethod::kPause), world.now).error().reason.code,
+        "end_under_way");
 
     world.connected[kV1] = true;
     world.run(5);
