@@ -4,6 +4,7 @@
 
 #include "db/leg_json.hpp"
 #include "db/names.hpp"
+#include "db/order_json.hpp"
 
 namespace pulseline::db {
 namespace {
@@ -59,6 +60,16 @@ void OrderRow::set(const fleet::JobOrder& order) {
     ended_ns = to_ns(order.ended);
     expected_ns = order.expected ? to_ns(*order.expected) : 0;
     revision = order.revision;
+    wanted_type = order.wanted_type.str();
+    earliest_start_ns = order.earliest_start ? to_ns(*order.earliest_start) : 0;
+    due_ns = order.due ? to_ns(*order.due) : 0;
+    dependencies = dependencies_to_json(order.after);
+    sequence = order.sequence;
+    sequence_vehicle = order.sequence_vehicle.str();
+    from_template = order.from_template;
+    from_schedule = stored_id(order.from_schedule);
+    stop_requested = order.stop_requested;
+    removed = order.removed;
 }
 
 fleet::JobOrder OrderRow::get() const {
@@ -80,6 +91,16 @@ fleet::JobOrder OrderRow::get() const {
     order.ended = time_from_ns(ended_ns);
     if (expected_ns != 0) order.expected = time_from_ns(expected_ns);
     order.revision = revision;
+    order.wanted_type = plant::VehicleTypeId(wanted_type);
+    if (earliest_start_ns != 0) order.earliest_start = time_from_ns(earliest_start_ns);
+    if (due_ns != 0) order.due = time_from_ns(due_ns);
+    order.after = dependencies_from_json(dependencies);
+    order.sequence = sequence;
+    order.sequence_vehicle = plant::VehicleId(sequence_vehicle);
+    order.from_template = from_template;
+    read_id(from_schedule, order.from_schedule);
+    order.stop_requested = stop_requested != 0;
+    order.removed = removed != 0;
     return order;
 }
 
@@ -93,6 +114,10 @@ void StepRow::set(const std::string& order, std::size_t index, const fleet::Step
     stop = stored_id(step.stop);
     attempts = step.attempts;
     planned_s = finite(step.planned_s, "planned_s");
+    actions_before = actions_to_json(step.before);
+    actions_after = actions_to_json(step.after);
+    phase = stored(step.phase);
+    actions_done = static_cast<std::int64_t>(step.actions_done);
 }
 
 fleet::Step StepRow::get() const {
@@ -104,6 +129,10 @@ fleet::Step StepRow::get() const {
     read_id(stop, step.stop);
     step.attempts = static_cast<int>(attempts);
     step.planned_s = planned_s;
+    step.before = actions_from_json(actions_before);
+    step.after = actions_from_json(actions_after);
+    read(phase, step.phase);
+    step.actions_done = static_cast<std::size_t>(actions_done);
     return step;
 }
 

@@ -14,18 +14,22 @@ struct OrderRow {
     static constexpr const char* kColumns =
         "id, number, client_order_id, wanted_vehicle, assigned_vehicle, priority, current_step, "
         "state, cancel_requested, pause_requested, reason_code, reason_params, created_by, "
-        "created_ns, started_ns, ended_ns, expected_ns, revision";
+        "created_ns, started_ns, ended_ns, expected_ns, revision, wanted_type, earliest_start_ns, "
+        "due_ns, dependencies, sequence, sequence_vehicle, from_template, from_schedule, "
+        "stop_requested, removed";
     std::string id, client_order_id, wanted_vehicle, assigned_vehicle, state, reason_code,
-        reason_params, created_by;
+        reason_params, created_by, wanted_type, dependencies, sequence, sequence_vehicle,
+        from_template, from_schedule;
     std::int64_t number = 0, priority = 0, current_step = 0, created_ns = 0, started_ns = 0,
-                 ended_ns = 0, expected_ns = 0, revision = 0;
-    int cancel_requested = 0, pause_requested = 0;
+                 ended_ns = 0, expected_ns = 0, revision = 0, earliest_start_ns = 0, due_ns = 0;
+    int cancel_requested = 0, pause_requested = 0, stop_requested = 0, removed = 0;
 
     auto fields() {
         return std::tie(id, number, client_order_id, wanted_vehicle, assigned_vehicle, priority,
                         current_step, state, cancel_requested, pause_requested, reason_code,
                         reason_params, created_by, created_ns, started_ns, ended_ns, expected_ns,
-                        revision);
+                        revision, wanted_type, earliest_start_ns, due_ns, dependencies, sequence,
+                        sequence_vehicle, from_template, from_schedule, stop_requested, removed);
     }
     void set(const fleet::JobOrder& order);
     fleet::JobOrder get() const;  // without steps
@@ -33,13 +37,15 @@ struct OrderRow {
 
 struct StepRow {
     static constexpr const char* kColumns =
-        "order_id, position, station, mode, state, leg, stop, attempts, planned_s";
-    std::string order_id, station, mode, state, leg, stop;
-    std::int64_t position = 0, attempts = 0;
+        "order_id, position, station, mode, state, leg, stop, attempts, planned_s, "
+        "actions_before, actions_after, phase, actions_done";
+    std::string order_id, station, mode, state, leg, stop, actions_before, actions_after, phase;
+    std::int64_t position = 0, attempts = 0, actions_done = 0;
     double planned_s = 0;
 
     auto fields() {
-        return std::tie(order_id, position, station, mode, state, leg, stop, attempts, planned_s);
+        return std::tie(order_id, position, station, mode, state, leg, stop, attempts, planned_s,
+                        actions_before, actions_after, phase, actions_done);
     }
     void set(const std::string& order, std::size_t index, const fleet::Step& step);
     fleet::Step get() const;

@@ -6,6 +6,7 @@
 #include "db/names.hpp"
 #include "db/order_reader.hpp"
 #include "db/plant_json.hpp"
+#include "db/standing_rows.hpp"
 #include "db/statement.hpp"
 
 namespace pulseline::db {
@@ -77,7 +78,15 @@ struct FleetStore::Statements {
                   key.fields()),
           drop_keys(sql, kDropKeys, std::tie(keys_before)),
           put_closure(sql, upsert_into("closures", ClosureRow::kColumns, "id"), closure.fields()),
-          drop_closure(sql, kDropClosure, std::tie(closure.id)) {}
+          drop_closure(sql, kDropClosure, std::tie(closure.id)),
+          put_schedule(sql, upsert_into("job_order_schedules", ScheduleRow::kColumns, "id"),
+                       schedule.fields()),
+          drop_schedule(sql, "DELETE FROM job_order_schedules WHERE id = :id",
+                        std::tie(schedule.id)),
+          put_template(sql, upsert_into("job_order_templates", TemplateRow::kColumns, "name"),
+                       order_template.fields()),
+          drop_template(sql, "DELETE FROM job_order_templates WHERE name = :name",
+                        std::tie(order_template.name)) {}
 
     OrderRow order;
     StepRow step;
@@ -86,10 +95,12 @@ struct FleetStore::Statements {
     VehicleRow vehicle;
     KeyRow key;
     ClosureRow closure;
+    ScheduleRow schedule;
+    TemplateRow order_template;
     std::int64_t step_count = 0;
     std::int64_t keys_before = 0;
     Statement put_order, put_step, drop_steps, put_stop, put_event, put_vehicle, put_key, drop_keys,
-        put_closure, drop_closure;
+        put_closure, drop_closure, put_schedule, drop_schedule, put_template, drop_template;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -112,6 +123,18 @@ void FleetStore::put(const fleet::JobOrder& order) {
     }
     s.step_count = static_cast<std::int64_t>(order.steps.size());
     s.drop_steps.run();
+}
+
+void FleetStore::put_standing(const fleet::Records& records) {
+    Statements& s = *statements_;
+    for (const auto& schedule : records.schedules) {
+        s.schedule.set(schedule);
+        (schedule.deleted ? s.drop_schedule : s.put_schedule).run();
+    }
+    for (const auto& one : records.templates) {
+        s.order_template.set(one);
+        (one.deleted ? s.drop_template : s.put_template).run();
+    }
 }
 
 void FleetStore::commit(const fleet::Records& records) {
@@ -156,6 +179,7 @@ void FleetStore::commit(const fleet::Records& records) {
             s.closure.id = stored_id(id);
             s.drop_closure.run();
         }
+        put_standing(records);
     });
     last_seq_ = seq;
 }
@@ -210,6 +234,17 @@ fleet::StoredFleet FleetStore::load() {
             sql, std::string("SELECT ") + ClosureRow::kColumns + " FROM closures ORDER BY id",
             std::tuple<>(), closure.fields());
         for (closures.start(); closures.fetch();) stored.closures.push_back(closure.get());
+        ScheduleRow schedule;
+        Statement schedules(
+            sql, std::string("SELECT ") + ScheduleRow::kColumns + " FROM job_order_schedules",
+            std::tuple<>(), schedule.fields());
+        for (schedules.start(); schedules.fetch();) stored.schedules.push_back(schedule.get());
+
+        TemplateRow one;
+        Statement templates(
+            sql, std::string("SELECT ") + TemplateRow::kColumns + " FROM job_order_templates",
+            std::tuple<>(), one.fields());
+        for (templates.start(); templates.fetch();) stored.templates.push_back(one.get());
         return stored;
     });
 }

@@ -23,6 +23,7 @@ private:
     struct Statements;
 
     void put(const fleet::JobOrder& order);
+    void put_standing(const fleet::Records& records);
 
     Database& database_;
     std::unique_ptr<Statements> statements_;

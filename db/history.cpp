@@ -107,6 +107,7 @@ std::vector<fleet::JobOrder> History::orders(const fleet::OrderQuery& query) {
             select.where("(assigned_vehicle = ? OR wanted_vehicle = ?)",
                          {query.vehicle.str(), query.vehicle.str()});
         }
+        select.where_number("removed = ?", query.removed ? 1 : 0);
         if (!query.before.empty()) select.where("id < ?", {query.before.str()});
         OrderRow row;
         StepReader steps(connection_.sql());

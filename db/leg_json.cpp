@@ -191,6 +191,7 @@ Leg decode_leg(const Json& j) {
     leg.passed_nodes = j.at("passed_nodes");
     leg.duration_s = j.at("duration");
     leg.attempt = j.at("attempt");
+    leg.actions_only = j.value("actions_only", false);  // older rows do not say
     return leg;
 }
 
@@ -245,7 +246,8 @@ std::string leg_to_json(const Leg& leg) {
                     {"released_nodes", leg.released_nodes},
                     {"passed_nodes", leg.passed_nodes},
                     {"duration", number(leg.duration_s)},
-                    {"attempt", leg.attempt}});
+                    {"attempt", leg.attempt},
+                    {"actions_only", leg.actions_only}});
 }
 
 Leg leg_from_json(const std::string& text) {

@@ -21,6 +21,9 @@ constexpr std::array kStepStates = {
     std::pair{StepState::kPending, "pending"}, std::pair{StepState::kDriving, "driving"},
     std::pair{StepState::kMeasuring, "measuring"}, std::pair{StepState::kDone, "done"},
     std::pair{StepState::kSkipped, "skipped"}};
+constexpr std::array kStepPhases = {std::pair{fleet::StepPhase::kBefore, "before"},
+                                    std::pair{fleet::StepPhase::kDrive, "drive"},
+                                    std::pair{fleet::StepPhase::kAfter, "after"}};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw Error(Error::Kind::kBadValue,
@@ -61,10 +64,12 @@ void find_plain(std::initializer_list<T> values, const std::string& name, T& to)
 
 const char* stored(JobState state) { return name_of(kJobStates, state); }
 const char* stored(StepState state) { return name_of(kStepStates, state); }
+const char* stored(fleet::StepPhase phase) { return name_of(kStepPhases, phase); }
 const char* stored(plant::Tolerance::Shape shape) { return plant::to_string(shape); }
 
 void read(const std::string& name, JobState& to) { find(kJobStates, name, to); }
 void read(const std::string& name, StepState& to) { find(kStepStates, name, to); }
+void read(const std::string& name, fleet::StepPhase& to) { find(kStepPhases, name, to); }
 void read(const std::string& name, plant::Tolerance::Shape& to) {
     find_plain({plant::Tolerance::Shape::kBox, plant::Tolerance::Shape::kEllipse}, name, to);
 }

@@ -51,6 +51,8 @@ void append(fleet::Records& to, const fleet::Records& from) {
     append(to.stops, from.stops);
     append(to.events, from.events);
     append(to.idempotency, from.idempotency);
+    append(to.schedules, from.schedules);
+    append(to.templates, from.templates);
 }
 
 }  // namespace

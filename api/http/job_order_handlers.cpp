@@ -54,19 +54,22 @@ using Change = Result<fleet::JobOrder> (fleet::Fleet::*)(fleet::JobOrderId,
                                                          std::optional<std::int64_t>,
                                                          const std::string&, Time);
 
+Response stale(const Request& request, std::int64_t revision) {
+    Response refusal = problem(Error{Errc::kConflict,
+                                     {"stale_revision", {{"revision", revision}}},
+                                     "The order has changed meanwhile; read it again, then decide.",
+                                     "If-Match"},
+                               request);
+    refusal.headers.emplace_back("ETag", etag_of(revision));
+    return refusal;
+}
+
 FleetAnswer change_job_order(FleetContext& context, const Request& request, Change change) {
     const auto id = fleet::JobOrderId::parse(request.param("id"));
     const auto present = id ? context.fleet.order(*id) : std::nullopt;
     if (!present) return {problem(unknown_job_order(request.param("id")), request)};
     if (!if_match_allows(request, etag_of(present->revision))) {
-        Response refusal =
-            problem(Error{Errc::kConflict,
-                          {"stale_revision", {{"revision", present->revision}}},
-                          "The order has changed meanwhile; read it again, then decide.",
-                          "If-Match"},
-                    request);
-        refusal.headers.emplace_back("ETag", etag_of(present->revision));
-        return {std::move(refusal)};
+        return {stale(request, present->revision)};
     }
     const auto changed =
         (context.fleet.*change)(*id, present->revision, request.identity.name, context.now);
@@ -75,6 +78,19 @@ FleetAnswer change_job_order(FleetContext& context, const Request& request, Chan
 }
 
 }  // namespace
+
+Response created_answer(const FleetContext& context, const Request& request,
+                        const Result<fleet::Created>& created) {
+    if (!created) {
+        // The order itself is there; what it names is not. That is 422, never 404.
+        const Error& error = created.error();
+        return error.code == Errc::kNotFound ? problem(422, error, request)
+                                             : problem(error, request);
+    }
+    Response response = job_order_response(201, context.plant, created->order);
+    response.headers.emplace_back("Location", "/api/v1/job-orders/" + created->order.id.str());
+    return response;
+}
 
 FleetAnswer create_job_order(FleetContext& context, const Request& request) {
     const auto dry_run = read_dry_run(request);
@@ -87,16 +103,25 @@ FleetAnswer create_job_order(FleetContext& context, const Request& request) {
                     return render_preview(history, preview);
                 }};
     }
-    const auto created = context.fleet.create(*order, context.now);
-    if (!created) {
-        // The order itself is there; what it names is not. That is 422, never 404.
-        const Error& error = created.error();
-        return {error.code == Errc::kNotFound ? problem(422, error, request)
-                                              : problem(error, request)};
+    return {created_answer(context, request, context.fleet.create(*order, context.now))};
+}
+
+FleetAnswer control_job_order(FleetContext& context, const Request& request) {
+    auto control = read_job_control(request);
+    if (!control) return {problem(400, control.error(), request)};
+    const auto id = fleet::JobOrderId::parse(request.param("id"));
+    const auto present = id ? context.fleet.order(*id) : std::nullopt;
+    if (!present) return {problem(unknown_job_order(request.param("id")), request)};
+    // A repeated request carries the revision of its first time.
+    const auto earlier = context.fleet.earlier_answer(
+        control->idempotency_client, control->idempotency_key, control->body_sha256);
+    if (!earlier) return {problem(earlier.error(), request)};
+    if (!*earlier && !if_match_allows(request, etag_of(present->revision))) {
+        return {stale(request, present->revision)};
     }
-    Response response = job_order_response(201, context.plant, created->order);
-    response.headers.emplace_back("Location", "/api/v1/job-orders/" + created->order.id.str());
-    return {std::move(response)};
+    const auto changed = context.fleet.control_order(*id, *control, context.now);
+    if (!changed) return {problem(changed.error(), request)};
+    return {job_order_response(202, context.plant, changed->order)};
 }
 
 FleetAnswer pause_job_order(FleetContext& context, const Request& request) {

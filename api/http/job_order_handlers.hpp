@@ -4,7 +4,12 @@
 
 namespace pulseline::api {
 
+/// 201 with the order and where it is, or why there is none.
+Response created_answer(const FleetContext& context, const Request& request,
+                        const Result<fleet::Created>& created);
+
 FleetAnswer create_job_order(FleetContext& context, const Request& request);
+FleetAnswer control_job_order(FleetContext& context, const Request& request);
 FleetAnswer pause_job_order(FleetContext& context, const Request& request);
 FleetAnswer resume_job_order(FleetContext& context, const Request& request);
 FleetAnswer cancel_job_order(FleetContext& context, const Request& request);

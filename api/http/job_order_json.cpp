@@ -1,5 +1,7 @@
 #include "api/http/job_order_json.hpp"
 
+#include "api/http/order_body.hpp"
+
 namespace pulseline::api {
 namespace {
 
@@ -14,9 +16,34 @@ Json step_json(const plant::Plant& plant, const fleet::Step& step) {
                  {"number", station != nullptr ? station->number : 0},
                  {"motion_mode", plant::to_string(step.mode)},
                  {"state", fleet::to_string(step.state)}};
+    if (!step.before.empty()) json["before"] = actions_json(step.before);
+    if (!step.after.empty()) json["after"] = actions_json(step.after);
+    if (!step.before.empty() || !step.after.empty()) {
+        json["phase"] = fleet::to_string(step.phase);
+        json["actions_done"] = step.actions_done;
+    }
     put_id(json, "leg", step.leg);
     put_id(json, "stop", step.stop);
     return json;
+}
+
+Json dependency_json(const fleet::Dependency& dependency) {
+    Json json = {{"order", dependency.order.str()},
+                 {"name", "JO-" + std::to_string(dependency.number)}};
+    if (dependency.outcome) json["outcome"] = fleet::to_string(*dependency.outcome);
+    return json;
+}
+
+/// What only some orders have.
+void put_fields(Json& json, const fleet::JobOrder& order) {
+    if (!order.wanted_type.empty()) json["vehicle_type"] = order.wanted_type.str();
+    if (order.earliest_start) json["earliest_start"] = rfc3339(*order.earliest_start);
+    if (order.due) json["due"] = rfc3339(*order.due);
+    if (!order.after.empty()) json["after"] = list_json(order.after, dependency_json);
+    if (!order.sequence.empty()) json["sequence"] = order.sequence;
+    if (!order.sequence_vehicle.empty()) json["sequence_vehicle"] = order.sequence_vehicle.str();
+    if (!order.from_template.empty()) json["template"] = order.from_template;
+    put_id(json, "schedule", order.from_schedule);
 }
 
 }  // namespace
@@ -34,7 +61,9 @@ Json job_order_json(const plant::Plant& plant, const fleet::JobOrder& order) {
          list_json(order.steps, [&](const fleet::Step& step) { return step_json(plant, step); })},
         {"current_step", order.current_step},
         {"cancel_requested", order.cancel_requested},
+        {"stop_requested", order.stop_requested},
         {"pause_requested", order.pause_requested},
+        {"removed", order.removed},
         {"created_by", order.created_by},
         {"created_at", rfc3339(order.created)},
         {"revision", order.revision}};
@@ -43,6 +72,7 @@ Json job_order_json(const plant::Plant& plant, const fleet::JobOrder& order) {
     if (order.started != Time{}) json["started_at"] = rfc3339(order.started);
     if (order.ended != Time{}) json["ended_at"] = rfc3339(order.ended);
     if (order.expected) json["expected_at"] = rfc3339(*order.expected);
+    put_fields(json, order);
     return json;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/access/secrets.hpp"
+#include "api/http/order_body.hpp"
 #include "api/http/page.hpp"
 #include "api/json/object_reader.hpp"
 
@@ -13,7 +14,6 @@ using json::FieldErrors;
 using json::Json;
 using json::ObjectReader;
 
-constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kMaxResumed = 1000;
 constexpr std::size_t kMaxClosed = 1000;
 constexpr std::int64_t kMaxRoutes = 10;
@@ -24,13 +24,6 @@ constexpr std::size_t kMaxKeyBytes = 128;
 constexpr json::TextLimits kVehicleName{1, 64};
 constexpr json::TextLimits kClosureName{1, 100};
 constexpr json::CountLimits kOutline{0, 64};
-
-Result<Json> read_body(const Request& request) {
-    if (request.body.empty()) {
-        return fail(Errc::kInvalid, "body_missing", "This operation needs a JSON body; send one.");
-    }
-    return json::parse_json(request.body);
-}
 
 /// Parses the body and lets `read` take its members; the first fault is the answer.
 template <class T, class Read>
@@ -43,19 +36,6 @@ Result<T> read_object(const Request& request, Read read) {
     in.refuse_unknown();
     if (const Status ok = errors.status(); !ok) return fail(ok.error());
     return value;
-}
-
-fleet::NewStep read_step(const Json& item, const std::string& pointer, FieldErrors& errors) {
-    using plant::MotionMode;
-    ObjectReader in(item, pointer, errors);
-    fleet::NewStep step;
-    step.station_number = static_cast<int>(in.integer("station", {0, kMaxStation}));
-    step.mode =
-        in.one_of_or("motion_mode", MotionMode::kAuto,
-                     {MotionMode::kAuto, MotionMode::kSelfRotation, MotionMode::kLinear,
-                      MotionMode::kFixedAxisRotation, MotionMode::kLateral, MotionMode::kFree});
-    in.refuse_unknown();
-    return step;
 }
 
 /// The draft standard quotes the key, most clients do not: both are the same key.
@@ -74,6 +54,14 @@ Result<std::string> read_idempotency_key(const Request& request) {
                     "Idempotency-Key");
     }
     return key;
+}
+
+Result<bool> read_flag(const Request& request, const std::string& name) {
+    const auto text = request.query_value(name);
+    if (!text || *text == "false") return false;
+    if (*text == "true") return true;
+    return fail(Errc::kInvalid, "wrong_type", name + " is true or false.", "?" + name,
+                {{"expected", std::string("boolean")}});
 }
 
 Result<int> read_limit(const Request& request) {
@@ -125,7 +113,26 @@ Result<std::vector<fleet::JobState>> read_states(const std::string& text) {
     return states;
 }
 
+/// Who asks, and the key under which the answer is kept.
+template <class Asked>
+Status read_asker(const Request& request, const std::string& digested, Asked& to) {
+    const auto key = read_idempotency_key(request);
+    if (!key) return fail(key.error());
+    to.actor = request.identity.name;
+    to.idempotency_client = request.identity.name;
+    to.idempotency_key = *key;
+    to.body_sha256 = access::sha256_hex(digested);
+    return {};
+}
+
 }  // namespace
+
+Result<Json> read_body(const Request& request) {
+    if (request.body.empty()) {
+        return fail(Errc::kInvalid, "body_missing", "This operation needs a JSON body; send one.");
+    }
+    return json::parse_json(request.body);
+}
 
 Result<SignIn> read_sign_in(const Request& request) {
     return read_object<SignIn>(request, [](ObjectReader& in) {
@@ -137,24 +144,39 @@ Result<SignIn> read_sign_in(const Request& request) {
 }
 
 Result<fleet::NewOrder> read_new_order(const Request& request) {
-    const auto key = read_idempotency_key(request);
-    if (!key) return fail(key.error());
-    auto order = read_object<fleet::NewOrder>(request, [](ObjectReader& in) {
-        fleet::NewOrder read;
-        read.client_order_id = in.text_or("client_order_id", "", {1, 64});
-        read.vehicle = plant::VehicleId(in.text_or("vehicle", "", kVehicleName));
-        read.priority = static_cast<int>(in.integer_or("priority", 0, {-100, 100}));
-        in.items("steps", {1, kMaxSteps}, [&](const Json& item, const std::string& pointer) {
-            read.steps.push_back(read_step(item, pointer, in.errors()));
-        });
+    const auto body = read_body(request);
+    if (!body) return fail(body.error());
+    FieldErrors errors;
+    ObjectReader in(*body, "", errors);
+    fleet::NewOrder order = read_order_body(in, OrderUse::kCreate);
+    if (const Status ok = errors.status(); !ok) return fail(ok.error());
+    if (auto asker = read_asker(request, request.body, order); !asker) return fail(asker.error());
+    return order;
+}
+
+Status read_asker_of_instance(const Request& request, fleet::NewOrder& order) {
+    return read_asker(request, request.path + "\n" + request.body, order);
+}
+
+Result<fleet::ControlRequest> read_job_control(const Request& request) {
+    using fleet::JobMethod;
+    auto control = read_object<fleet::ControlRequest>(request, [](ObjectReader& in) {
+        fleet::ControlRequest read;
+        read.method =
+            in.one_of("method", {JobMethod::kStore, JobMethod::kStoreAndStart, JobMethod::kStart,
+                                 JobMethod::kRevokeStart, JobMethod::kPause, JobMethod::kResume,
+                                 JobMethod::kUpdate, JobMethod::kAbort, JobMethod::kStop,
+                                 JobMethod::kCancel, JobMethod::kClear});
+        if (read.method == JobMethod::kUpdate) {
+            ObjectReader order = in.object("order");
+            if (in.has("order")) read.update = read_order_body(order, OrderUse::kUpdate);
+        }
         return read;
     });
-    if (!order) return order;
-    order->actor = request.identity.name;
-    order->idempotency_client = request.identity.name;
-    order->idempotency_key = *key;
-    order->body_sha256 = access::sha256_hex(request.body);
-    return order;
+    if (!control) return control;
+    const std::string digested = request.path + "\n" + request.body;
+    if (auto asker = read_asker(request, digested, *control); !asker) return fail(asker.error());
+    return control;
 }
 
 Result<geometry::Pose2> read_pose(const Request& request) {
@@ -213,13 +235,7 @@ Result<planning::WhatIf> read_what_if(const Request& request) {
     });
 }
 
-Result<bool> read_dry_run(const Request& request) {
-    const auto text = request.query_value("dryRun");
-    if (!text || *text == "false") return false;
-    if (*text == "true") return true;
-    return fail(Errc::kInvalid, "wrong_type", "dryRun is true or false.", "?dryRun",
-                {{"expected", std::string("boolean")}});
-}
+Result<bool> read_dry_run(const Request& request) { return read_flag(request, "dryRun"); }
 
 Result<fleet::OrderQuery> read_order_query(const Request& request) {
     fleet::OrderQuery query;
@@ -229,6 +245,9 @@ Result<fleet::OrderQuery> read_order_query(const Request& request) {
         query.states = std::move(*states);
     }
     query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));
+    const auto removed = read_flag(request, "removed");
+    if (!removed) return fail(removed.error());
+    query.removed = *removed;
     const auto limit = read_limit(request);
     if (!limit) return fail(limit.error());
     query.limit = *limit;

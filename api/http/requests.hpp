@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,9 @@
 /// 400.
 namespace pulseline::api {
 
+/// The body as it is; an empty one is an error.
+Result<nlohmann::json> read_body(const Request& request);
+
 struct SignIn {
     std::string name;
     std::string password;
@@ -23,6 +27,10 @@ struct SignIn {
 Result<SignIn> read_sign_in(const Request& request);
 /// Body, Idempotency-Key and who asks.
 Result<fleet::NewOrder> read_new_order(const Request& request);
+/// The same of who asks for an order of a template.
+Status read_asker_of_instance(const Request& request, fleet::NewOrder& order);
+Result<fleet::ControlRequest> read_job_control(const Request& request);
+Result<fleet::NewSchedule> read_new_schedule(const Request& request);
 Result<geometry::Pose2> read_pose(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 

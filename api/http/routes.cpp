@@ -1,9 +1,11 @@
 #include "api/http/job_order_handlers.hpp"
 #include "api/http/route_handlers.hpp"
 #include "api/http/router.hpp"
+#include "api/http/schedule_handlers.hpp"
 #include "api/http/service_handlers.hpp"
 #include "api/http/session_handlers.hpp"
 #include "api/http/stop_record_handlers.hpp"
+#include "api/http/template_handlers.hpp"
 #include "api/http/traffic_handlers.hpp"
 #include "api/http/vehicle_handlers.hpp"
 
@@ -53,7 +55,7 @@ std::span<const Route> routes() {
          "/api/v1/job-orders",
          "listJobOrders",
          kViewer,
-         {"state", "vehicle", "limit", "cursor"},
+         {"state", "vehicle", "removed", "limit", "cursor"},
          list_job_orders},
         {"POST", "/api/v1/job-orders", "createJobOrder", kOperator, {"dryRun"}, create_job_order},
         {"GET", "/api/v1/job-orders/{id}", "getJobOrder", kViewer, {}, get_job_order},
@@ -74,6 +76,51 @@ std::span<const Route> routes() {
         {"GET", "/api/v1/traffic", "getTraffic", kViewer, {}, get_traffic},
         {"POST", "/api/v1/closures", "closeFloor", kOperator, {}, close_floor},
         {"DELETE", "/api/v1/closures/{id}", "reopenFloor", kOperator, {}, reopen_floor},
+
+        {"POST",
+         "/api/v1/job-orders/{id}/job-control",
+         "controlJobOrder",
+         kOperator,
+         {},
+         control_job_order},
+
+        {"GET", "/api/v1/job-order-templates", "listTemplates", kViewer, {}, list_templates},
+        {"POST", "/api/v1/job-order-templates", "createTemplate", kOperator, {}, create_template},
+        {"GET", "/api/v1/job-order-templates/{name}", "getTemplate", kViewer, {}, get_template},
+        {"DELETE",
+         "/api/v1/job-order-templates/{name}",
+         "deleteTemplate",
+         kOperator,
+         {},
+         delete_template},
+        {"POST",
+         "/api/v1/job-order-templates/{name}/job-orders",
+         "createJobOrderOfTemplate",
+         kOperator,
+         {},
+         create_job_order_of_template},
+
+        {"GET", "/api/v1/job-order-schedules", "listSchedules", kViewer, {}, list_schedules},
+        {"POST", "/api/v1/job-order-schedules", "createSchedule", kOperator, {}, create_schedule},
+        {"GET", "/api/v1/job-order-schedules/{id}", "getSchedule", kViewer, {}, get_schedule},
+        {"DELETE",
+         "/api/v1/job-order-schedules/{id}",
+         "deleteSchedule",
+         kOperator,
+         {},
+         delete_schedule},
+        {"POST",
+         "/api/v1/job-order-schedules/{id}/pause",
+         "pauseSchedule",
+         kOperator,
+         {},
+         pause_schedule},
+        {"POST",
+         "/api/v1/job-order-schedules/{id}/resume",
+         "resumeSchedule",
+         kOperator,
+         {},
+         resume_schedule},
 
         {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes},
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 
 namespace pulseline::json {
@@ -34,6 +35,64 @@ std::string counted(CountLimits limits) {
 std::int64_t clamped(std::size_t value) {
     constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
     return value > static_cast<std::size_t>(kMost) ? kMost : static_cast<std::int64_t>(value);
+}
+
+/// `count` decimal digits at `at`, or -1.
+int digits(const std::string& text, std::size_t at, std::size_t count) {
+    int value = 0;
+    if (at + count > text.size()) return -1;
+    for (std::size_t i = at; i < at + count; ++i) {
+        if (text[i] < '0' || text[i] > '9') return -1;
+        value = value * 10 + (text[i] - '0');
+    }
+    return value;
+}
+
+/// The fraction behind the seconds in nanoseconds; moves `at` past it. -1: more than nine digits
+/// or none.
+std::int64_t fraction_ns(const std::string& text, std::size_t& at) {
+    if (at >= text.size() || text[at] != '.') return 0;
+    std::int64_t ns = 0;
+    std::int64_t unit = 1'000'000'000;
+    const std::size_t start = ++at;
+    for (; at < text.size() && text[at] >= '0' && text[at] <= '9'; ++at) {
+        unit /= 10;
+        ns += unit * (text[at] - '0');
+    }
+    return at == start || at - start > 9 ? -1 : ns;
+}
+
+std::optional<Time> parse_time(const std::string& text) {
+    using namespace std::chrono;
+    const bool shape = text.size() >= 20 && text[4] == '-' && text[7] == '-' &&
+                       (text[10] == 'T' || text[10] == 't') && text[13] == ':' && text[16] == ':';
+    if (!shape) return std::nullopt;
+    const int y = digits(text, 0, 4), mo = digits(text, 5, 2), d = digits(text, 8, 2);
+    const int h = digits(text, 11, 2), mi = digits(text, 14, 2), s = digits(text, 17, 2);
+    if (y < 1970 || y > 2200 || mo < 0 || d < 0 || h < 0 || h > 23 || mi < 0 || mi > 59 || s < 0 ||
+        s > 59) {
+        return std::nullopt;
+    }
+    const year_month_day date{year(y), month(static_cast<unsigned>(mo)),
+                              day(static_cast<unsigned>(d))};
+    if (!date.ok()) return std::nullopt;
+    std::size_t at = 19;
+    const std::int64_t ns = fraction_ns(text, at);
+    if (ns < 0 || at >= text.size()) return std::nullopt;
+    int offset_min = 0;
+    if (text[at] == '+' || text[at] == '-') {
+        const int oh = digits(text, at + 1, 2), om = digits(text, at + 4, 2);
+        if (text.size() != at + 6 || text[at + 3] != ':' || oh < 0 || oh > 23 || om < 0 ||
+            om > 59) {
+            return std::nullopt;
+        }
+        offset_min = (text[at] == '-' ? -1 : 1) * (60 * oh + om);
+    } else if ((text[at] != 'Z' && text[at] != 'z') || text.size() != at + 1) {
+        return std::nullopt;
+    }
+    const std::int64_t day_s = sys_days(date).time_since_epoch().count() * std::int64_t{86'400};
+    const std::int64_t in_day_s = 3600LL * h + 60LL * (mi - offset_min) + s;
+    return time_from_ns((day_s + in_day_s) * 1'000'000'000 + ns);
 }
 
 }  // namespace
@@ -125,6 +184,19 @@ std::int64_t read_integer(const Json& value, const std::string& pointer, FieldEr
     return number;
 }
 
+Time read_time(const Json& value, const std::string& pointer, FieldErrors& errors) {
+    if (!value.is_string()) {
+        wrong_type_at(errors, pointer, "string");
+        return {};
+    }
+    const auto time = parse_time(value.get_ref<const std::string&>());
+    if (!time) {
+        errors.add(pointer, {"bad_time", {}},
+                   "Write the time as RFC 3339 says, for example 2026-11-21T06:30:00Z.");
+    }
+    return time.value_or(Time{});
+}
+
 bool read_boolean(const Json& value, const std::string& pointer, FieldErrors& errors) {
     if (value.is_boolean()) return value.get<bool>();
     wrong_type_at(errors, pointer, "boolean");
@@ -206,6 +278,12 @@ bool ObjectReader::boolean(const char* name) {
 
 bool ObjectReader::boolean_or(const char* name, bool fallback) {
     return find(name) == nullptr ? fallback : boolean(name);
+}
+
+std::optional<Time> ObjectReader::time_if_any(const char* name) {
+    const Json* found = find(name);
+    if (found == nullptr) return std::nullopt;
+    return read_time(*found, child_pointer(pointer_, std::string_view(name)), errors_);
 }
 
 ObjectReader ObjectReader::object(const char* name) {

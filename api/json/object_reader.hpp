@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/json/parse.hpp"
+#include "core/base/time.hpp"
 
 namespace pulseline::json {
 
@@ -58,6 +59,8 @@ double read_number(const Json& value, const std::string& pointer, FieldErrors& e
                    NumberLimits limits = {});
 std::int64_t read_integer(const Json& value, const std::string& pointer, FieldErrors& errors,
                           IntegerLimits limits = {});
+/// RFC 3339: "2026-11-21T06:30:00Z", any offset, up to nine decimals. Reason code: bad_time.
+Time read_time(const Json& value, const std::string& pointer, FieldErrors& errors);
 bool read_boolean(const Json& value, const std::string& pointer, FieldErrors& errors);
 /// Null with an error kept when it is no array or has too few or too many items.
 const Json* read_array(const Json& value, const std::string& pointer, FieldErrors& errors,
@@ -85,6 +88,8 @@ public:
     std::int64_t integer_or(const char* name, std::int64_t fallback, IntegerLimits limits = {});
     bool boolean(const char* name);
     bool boolean_or(const char* name, bool fallback);
+
+    std::optional<Time> time_if_any(const char* name);
 
     /// One of `values`, written as to_string(value) writes it.
     template <class T>

@@ -144,6 +144,9 @@ Result<fleet::Factsheet> decode_factsheet(const Json& payload) {
     features.items("agvActions", {0, 500}, [&](const Json& item, const std::string& at) {
         json::ObjectReader action(item, at, errors);
         factsheet.actions.push_back(action.text("actionType", {1, 200}));
+        action.items_if_any("actionScopes", {0, 10}, [&](const Json& scope, const std::string&) {
+            if (scope == "NODE") factsheet.node_actions.push_back(factsheet.actions.back());
+        });
     });
     if (auto status = errors.status(); !status) return fail(status.error());
     factsheet.json = print(payload);

@@ -4,6 +4,7 @@
 
 #include "core/fleet/assignment.hpp"
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/start_conditions.hpp"
 
 // Free vehicles and waiting orders, solved as one assignment.
 namespace pulseline::fleet {
@@ -13,12 +14,18 @@ namespace {
 // ways decide by whom.
 constexpr double kPriority_s = 600;  // one step of priority
 constexpr double kAge = 0.5;         // per second of waiting: nobody waits for ever
+constexpr double kDueSoon_s = 3600;  // from here on the due time counts, up to kMostDue_s
+constexpr double kDue = 0.25;        // per second nearer
+constexpr double kMostDue_s = 1800;
 constexpr double kMostUrgency_s = 1e8;
 // Orders looked at in one go, the most urgent ones: bounds the work with a thousand of each.
 constexpr std::size_t kMostOrders = 64;
 
 double urgency_s(const JobOrder& order, Time now) {
-    const double urgency = kPriority_s * order.priority + kAge * seconds(now - order.created);
+    double urgency = kPriority_s * order.priority + kAge * seconds(now - order.created);
+    if (order.due) {
+        urgency += std::clamp(kDue * (kDueSoon_s - seconds(*order.due - now)), 0.0, kMostDue_s);
+    }
     return std::clamp(urgency, -kMostUrgency_s, kMostUrgency_s);
 }
 
@@ -75,7 +82,14 @@ Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
 }  // namespace
 
 void assign_waiting(FleetState& fleet, Time now) {
-    std::vector<JobOrder*> orders = by_urgency(fleet, JobState::kAllowedToStart);
+    std::vector<JobOrder*> orders;
+    for (JobOrder* order : by_urgency(fleet, JobState::kAllowedToStart)) {
+        if (auto waits = waits_for_condition(fleet, *order, now)) {
+            set_order_reason(fleet, *order, std::move(*waits), now);
+        } else {
+            orders.push_back(order);
+        }
+    }
     if (orders.empty()) return;
     std::vector<VehicleRun*> free;
     for (auto& [id, run] : fleet.vehicles) {
@@ -88,7 +102,7 @@ void assign_waiting(FleetState& fleet, Time now) {
         const JobOrder& order = *orders[row];
         for (std::size_t column = 0; column < free.size(); ++column) {
             const VehicleRun& run = *free[column];
-            if (!order.wanted_vehicle.empty() && order.wanted_vehicle != run.record.id) continue;
+            if (!vehicle_fits(fleet, order, run)) continue;
             matrix.at(row, column) = way_s(fleet, order, run) - urgency_s(order, now);
         }
     }
@@ -104,6 +118,7 @@ void assign_waiting(FleetState& fleet, Time now) {
             set_order_reason(fleet, order, plan.error().reason, now);
             continue;
         }
+        if (!vehicle_fits(fleet, order, *run)) continue;  // its sequence got one in this round
         fleet.orders.assign(order, run->record.id);
         run->floor.next_try.reset();
         set_order_state(fleet, order, JobState::kRunning, {}, {}, now);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -15,7 +16,9 @@ constexpr Duration kKeepFinal = std::chrono::hours(24 * 7);
 
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now)
     : state_(std::make_unique<FleetState>(plant, id_seed, now)) {
+    restore_standing(*state_, stored);
     restore(*state_, std::move(stored), now);
+    require_persons_for_schedules(*state_, now);
 }
 
 Fleet::~Fleet() = default;
@@ -68,6 +71,8 @@ bool Fleet::connection_refused(const plant::VehicleId& id) const {
 void Fleet::tick(Time now) {
     update_links(*state_, now);
     resend(*state_, now);
+    settle_dependencies(*state_);
+    run_schedules(*state_, now);
     dispatch(*state_, now);
     state_->orders.forget_ended_before(now - kKeepFinal);
     std::erase_if(state_->idempotency,
@@ -76,7 +81,9 @@ void Fleet::tick(Time now) {
 
 Outputs Fleet::take_outputs(Time now) {
     FleetState& fleet = *state_;
+    for (const auto& id : fleet.orders.take_bound()) fleet.store(*fleet.find(id));
     Outputs out = std::exchange(fleet.out, {});
+    take_standing(fleet, out.records);
     for (const auto& id : std::exchange(fleet.stored_orders, {})) {
         if (const JobOrder* order = fleet.find(id)) out.records.orders.push_back(*order);
     }

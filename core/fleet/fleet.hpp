@@ -9,35 +9,32 @@
 
 #include "core/base/id.hpp"
 #include "core/base/result.hpp"
+#include "core/fleet/job_control.hpp"
 #include "core/fleet/job_order.hpp"
+#include "core/fleet/new_order.hpp"
 #include "core/fleet/ports.hpp"
+#include "core/fleet/standing_orders.hpp"
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/fleet/views.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::fleet {
 
-struct NewStep {
-    int station_number = 0;
-    plant::MotionMode mode = plant::MotionMode::kAuto;
-};
-
-struct NewOrder {
-    std::string client_order_id;  // empty: none
-    plant::VehicleId vehicle;     // empty: any
-    int priority = 0;
-    std::vector<NewStep> steps;
-    std::string actor;  // who asks
-    // Idempotency-Key of the request; empty: none.
-    std::string idempotency_client;
-    std::string idempotency_key;
-    std::string body_sha256;
-};
-
 /// Outcome of a create: `repeated` says that this is the stored answer to an earlier request.
 struct Created {
     JobOrder order;
     bool repeated = false;
+};
+
+/// A call of one of the 11 methods on an order that exists.
+struct ControlRequest {
+    JobMethod method = JobMethod::kStart;
+    std::optional<NewOrder> update;  // Update: all that may change, as in a creation
+    std::optional<std::int64_t> if_revision;
+    std::string actor;
+    std::string idempotency_client;
+    std::string idempotency_key;
+    std::string body_sha256;
 };
 
 /// All that a step of the fleet put out. Records first: nothing else leaves the server before they
@@ -69,6 +66,23 @@ public:
                                   const std::string& actor, Time now);
     Result<JobOrder> cancel_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                   const std::string& actor, Time now);
+    /// Any method of the Job Control machine; what its table does not allow is a conflict.
+    Result<Created> control_order(JobOrderId id, const ControlRequest& request, Time now);
+    /// The answer stored with an Idempotency-Key, if there is one.
+    Result<std::optional<JobOrder>> earlier_answer(const std::string& client,
+                                                   const std::string& key,
+                                                   const std::string& body_sha256) const;
+
+    // Templates and schedules. Storing the same once more gives the stored one.
+    Result<OrderTemplate> store_template(const OrderTemplate& wanted, Time now);
+    Status delete_template(const std::string& name, const std::string& actor, Time now);
+    Result<Schedule> create_schedule(const NewSchedule& wanted, Time now);
+    Result<Schedule> pause_schedule(ScheduleId id, bool paused,
+                                    std::optional<std::int64_t> if_revision,
+                                    const std::string& actor, Time now);
+    Status delete_schedule(ScheduleId id, std::optional<std::int64_t> if_revision,
+                           const std::string& actor, Time now);
+
     Result<VehicleView> pause_vehicle(const plant::VehicleId& id, const std::string& actor,
                                       Time now);
     Result<VehicleView> init_position(const plant::VehicleId& id, const Pose2& pose,
@@ -105,6 +119,10 @@ public:
     Preview preview(const NewOrder& order, Time now) const;
     std::optional<JobOrder> order(JobOrderId id) const;
     std::vector<JobOrder> orders() const;  // open ones and recent final ones, newest first
+    std::optional<OrderTemplate> order_template(const std::string& name) const;
+    std::vector<OrderTemplate> order_templates() const;  // by name
+    std::optional<Schedule> schedule(ScheduleId id) const;
+    std::vector<Schedule> schedules() const;  // oldest first
     std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now) const;
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;

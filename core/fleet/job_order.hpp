@@ -17,6 +17,7 @@ namespace pulseline::fleet {
 using JobOrderId = Id<struct JobOrderTag>;
 using LegId = Id<struct LegTag>;  // also the VDA 5050 orderId of that drive
 using StopRecordId = Id<struct StopRecordTag>;
+using ScheduleId = Id<struct ScheduleTag>;
 
 /// States of the ISA-95 Job Control machine (OPC 10031-4).
 enum class JobState {
@@ -33,9 +34,24 @@ bool is_final(JobState state);
 enum class StepState { kPending, kDriving, kMeasuring, kDone, kSkipped };
 const char* to_string(StepState state);  // "pending"
 
+/// Something the vehicle does standing, by a name that its factsheet announces for nodes.
+struct StepAction {
+    std::string type;  // "lowerParking"
+    Params params;
+    friend bool operator==(const StepAction&, const StepAction&) = default;
+};
+
+/// Where a step is: its actions before the drive, the drive with its stop, the actions after it.
+enum class StepPhase { kBefore, kDrive, kAfter };
+const char* to_string(StepPhase phase);  // "before"
+
 struct Step {
     plant::StationId station;
     plant::MotionMode mode = plant::MotionMode::kAuto;
+    std::vector<StepAction> before;  // done before it leaves, in this order
+    std::vector<StepAction> after;   // done when its stop is inside the tolerance
+    StepPhase phase = StepPhase::kBefore;
+    std::size_t actions_done = 0;  // of the phase's actions
     StepState state = StepState::kPending;
     LegId leg;             // the drive under way or done
     StopRecordId stop;     // set when the stop was measured
@@ -43,19 +59,38 @@ struct Step {
     double planned_s = 0;  // drive as planned when the order came
 };
 
+/// An order that has to end before another may start. What became of it is noted, since the fleet
+/// forgets ended orders after a while.
+struct Dependency {
+    JobOrderId order;
+    std::int64_t number = 0;
+    std::optional<JobState> outcome;  // Ended or Aborted, once it is
+    friend bool operator==(const Dependency&, const Dependency&) = default;
+};
+
 struct JobOrder {
     JobOrderId id;
-    std::int64_t number = 0;          // people say JO-<number>; gapless, ours
-    std::string client_order_id;      // the MES's own name, unique when given
-    plant::VehicleId wanted_vehicle;  // empty: any that can
+    std::int64_t number = 0;           // people say JO-<number>; gapless, ours
+    std::string client_order_id;       // the MES's own name, unique when given
+    plant::VehicleId wanted_vehicle;   // empty: any that can
+    plant::VehicleTypeId wanted_type;  // empty: any that can
     plant::VehicleId assigned_vehicle;
-    int priority = 0;  // higher first
+    int priority = 0;                    // higher first
+    std::optional<Time> earliest_start;  // not assigned before
+    std::optional<Time> due;             // when it should have ended
+    std::vector<Dependency> after;       // all of these Ended first
+    std::string sequence;                // orders of one name: one vehicle, by number; empty: none
+    plant::VehicleId sequence_vehicle;   // of the order that started the sequence
+    std::string from_template;           // name of the template it was made from
+    ScheduleId from_schedule;            // the schedule that made it
     std::vector<Step> steps;
     std::size_t current_step = 0;
     JobState state = JobState::kAllowedToStart;
     bool cancel_requested = false;
+    bool stop_requested = false;  // as cancel_requested, but it shall be Ended
     bool pause_requested = false;
-    Reason reason;  // why it waits, is interrupted or aborted; empty code: nothing
+    bool removed = false;  // taken out by Cancel or Clear: history only
+    Reason reason;         // why it waits, is interrupted or aborted; empty code: nothing
     std::string created_by;
     Time created;
     Time started;
@@ -120,6 +155,7 @@ struct Leg {
     std::size_t passed_nodes = 1;    // reported by the vehicle
     double duration_s = 0;
     int attempt = 1;
+    bool actions_only = false;  // one node, where it stands: the actions before or after a step
 };
 
 /// What survives a restart about a vehicle.

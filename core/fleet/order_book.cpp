@@ -14,6 +14,7 @@ JobOrder& OrderBook::add(JobOrder order) {
         ended_.push_back(id);
     } else {
         open_.insert(id);
+        join_sequence(kept);
         if (!kept.assigned_vehicle.empty()) of_vehicle_[kept.assigned_vehicle] = id;
     }
     return kept;
@@ -45,11 +46,69 @@ const JobOrder* OrderBook::of(const plant::VehicleId& vehicle) const {
 void OrderBook::assign(JobOrder& order, const plant::VehicleId& vehicle) {
     order.assigned_vehicle = vehicle;
     of_vehicle_[vehicle] = order.id;
+    const auto it = sequences_.find(order.sequence);
+    if (it == sequences_.end() || it->second.vehicle == vehicle) return;
+    it->second.vehicle = vehicle;
+    for (const JobOrderId& id : it->second.open) {
+        find(id)->sequence_vehicle = vehicle;
+        bound_.push_back(id);
+    }
 }
+
+void OrderBook::join_sequence(JobOrder& order) {
+    if (order.sequence.empty()) return;
+    Sequence& sequence = sequences_[order.sequence];
+    sequence.open.insert(order.id);
+    // From the store: whichever member knows the vehicle tells the others.
+    if (sequence.vehicle.empty()) sequence.vehicle = order.sequence_vehicle;
+    if (sequence.vehicle.empty()) sequence.vehicle = order.assigned_vehicle;
+    for (const JobOrderId& id : sequence.open) {
+        JobOrder& member = *find(id);
+        if (member.sequence_vehicle == sequence.vehicle) continue;
+        member.sequence_vehicle = sequence.vehicle;
+        bound_.push_back(id);
+    }
+}
+
+void OrderBook::leave_sequence(const JobOrder& order) {
+    const auto it = sequences_.find(order.sequence);
+    if (it == sequences_.end()) return;
+    it->second.open.erase(order.id);
+    if (it->second.open.empty()) sequences_.erase(it);
+}
+
+const std::set<JobOrderId>& OrderBook::sequence(const std::string& name) const {
+    static const std::set<JobOrderId> kNone;
+    const auto it = sequences_.find(name);
+    return it == sequences_.end() ? kNone : it->second.open;
+}
+
+plant::VehicleId OrderBook::vehicle_of_sequence(const std::string& name) const {
+    const auto it = sequences_.find(name);
+    return it == sequences_.end() ? plant::VehicleId() : it->second.vehicle;
+}
+
+std::string OrderBook::sequence_of(const plant::VehicleId& vehicle) const {
+    for (const auto& [name, sequence] : sequences_) {
+        if (sequence.vehicle == vehicle) return name;
+    }
+    return {};
+}
+
+void OrderBook::set_sequence(JobOrder& order, const std::string& name) {
+    if (order.sequence == name) return;
+    leave_sequence(order);
+    order.sequence = name;
+    order.sequence_vehicle = {};
+    join_sequence(order);
+}
+
+std::vector<JobOrderId> OrderBook::take_bound() { return std::exchange(bound_, {}); }
 
 void OrderBook::close(const JobOrder& order) {
     if (open_.erase(order.id) == 0) return;
     ended_.push_back(order.id);
+    leave_sequence(order);
     const auto it = of_vehicle_.find(order.assigned_vehicle);
     if (it != of_vehicle_.end() && it->second == order.id) of_vehicle_.erase(it);
 }
@@ -70,7 +129,9 @@ void OrderBook::forget_ended_before(Time time) {
 std::vector<JobOrder> OrderBook::newest_first() const {
     std::vector<JobOrder> orders;
     orders.reserve(orders_.size());
-    for (auto it = orders_.rbegin(); it != orders_.rend(); ++it) orders.push_back(it->second);
+    for (auto it = orders_.rbegin(); it != orders_.rend(); ++it) {
+        if (!it->second.removed) orders.push_back(it->second);
+    }
     return orders;
 }
 

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/order_fields.hpp"
+#include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -93,6 +95,27 @@ Status check_steps(const FleetState& fleet, const NewOrder& order) {
     return {};
 }
 
+/// Puts into the order what a request may set at its creation and by Update.
+void fill(const FleetState& fleet, JobOrder& order, const NewOrder& request,
+          std::vector<Dependency> after, const OrderPlan& plan) {
+    order.wanted_vehicle = request.vehicle;
+    order.wanted_type = request.vehicle_type;
+    order.priority = request.priority;
+    order.earliest_start = request.earliest_start;
+    order.due = request.due;
+    order.after = std::move(after);
+    order.steps.clear();
+    for (std::size_t i = 0; i < request.steps.size(); ++i) {
+        Step made;
+        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
+        made.mode = request.steps[i].mode;
+        made.before = request.steps[i].before;
+        made.after = request.steps[i].after;
+        if (plan.plans[i]) made.planned_s = plan.plans[i]->duration_s;
+        order.steps.push_back(std::move(made));
+    }
+}
+
 }  // namespace
 
 bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station) {
@@ -105,14 +128,11 @@ bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station
 
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now) {
     if (auto steps = check_steps(fleet, order); !steps) return fail(steps.error());
+    if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
+        return fail(vehicles.error());
+    }
     if (!order.vehicle.empty()) {
         const VehicleRun* run = fleet.find(order.vehicle);
-        if (!run) {
-            return fail(Errc::kUnreachable, "unknown_vehicle",
-                        "There is no vehicle " + order.vehicle.str() +
-                            ". GET /api/v1/vehicles lists the vehicles.",
-                        "/vehicle", {{"vehicle", order.vehicle.str()}});
-        }
         if (is_gone(fleet, *run, now)) {
             return fail(Errc::kConflict, "vehicle_gone",
                         "Vehicle " + order.vehicle.str() +
@@ -128,7 +148,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     double best_s = 0;
     std::optional<Error> why_not;
     for (const auto& [id, run] : fleet.vehicles) {
-        if (is_gone(fleet, run, now)) continue;
+        if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
         auto plan = plan_with(fleet, order, run);
         if (!plan) {
             if (!why_not) why_not = plan.error();
@@ -144,22 +164,36 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     if (best) return std::move(*best);
     if (why_not) return fail(*why_not);
     return fail(Errc::kConflict, "no_vehicle",
-                "No vehicle has been heard in the last 60 s. Connect one, then repeat.",
+                "No vehicle that this order may have has been heard in the last 60 s. Connect one, "
+                "then repeat.",
                 "/vehicle");
 }
 
-Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
-    const auto idempotency = std::make_pair(request.idempotency_client, request.idempotency_key);
-    if (!request.idempotency_key.empty()) {
-        const auto it = fleet.idempotency.find(idempotency);
-        if (it != fleet.idempotency.end()) {
-            if (it->second.body_sha256 != request.body_sha256) {
-                return fail(Errc::kInvalid, "idempotency_key_reused",
-                            "This Idempotency-Key was used with another body. Use a new key.");
-            }
-            if (const JobOrder* order = fleet.find(it->second.order)) return Created{*order, true};
-        }
+Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
+                                               const std::string& key,
+                                               const std::string& body_sha256) {
+    if (key.empty()) return std::optional<JobOrder>();
+    const auto it = fleet.idempotency.find({client, key});
+    if (it == fleet.idempotency.end()) return std::optional<JobOrder>();
+    if (it->second.body_sha256 != body_sha256) {
+        return fail(Errc::kInvalid, "idempotency_key_reused",
+                    "This Idempotency-Key was used with another body. Use a new key.");
     }
+    const JobOrder* order = fleet.find(it->second.order);
+    return order ? std::optional<JobOrder>(*order) : std::nullopt;
+}
+
+void keep_answer(FleetState& fleet, const IdempotencyRecord& record) {
+    if (record.key.empty()) return;
+    fleet.idempotency[{record.client, record.key}] = record;
+    fleet.out.records.idempotency.push_back(record);
+}
+
+Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
+    const auto earlier = earlier_answer(fleet, request.idempotency_client, request.idempotency_key,
+                                        request.body_sha256);
+    if (!earlier) return fail(earlier.error());
+    if (*earlier) return Created{**earlier, true};
     if (!request.client_order_id.empty()) {
         if (const auto* known = fleet.orders.with_client_id(request.client_order_id)) {
             return fail(Errc::kConflict, "duplicate_client_order_id",
@@ -168,6 +202,8 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
                         "/client_order_id", {{"order", known->id.str()}});
         }
     }
+    auto fields = resolve_fields(fleet, request, {});
+    if (!fields) return fail(fields.error());
     const auto plan = plan_order(fleet, request, now);
     if (!plan) return fail(plan.error());
     if (plan->plans.front()) {
@@ -184,29 +220,49 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.id = JobOrderId(fleet.ids.next(now));
     order.number = ++fleet.order_number;
     order.client_order_id = request.client_order_id;
-    order.wanted_vehicle = request.vehicle;
-    order.priority = request.priority;
-    for (std::size_t i = 0; i < request.steps.size(); ++i) {
-        Step made;
-        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
-        made.mode = request.steps[i].mode;
-        if (plan->plans[i]) made.planned_s = plan->plans[i]->duration_s;
-        order.steps.push_back(std::move(made));
-    }
+    order.sequence = request.sequence;
+    order.from_template = request.from_template;
+    order.from_schedule = request.from_schedule;
     order.created_by = request.actor;
     order.created = now;
+    fill(fleet, order, request, std::move(*fields), *plan);
+    if (!request.start) {
+        order.state = JobState::kNotAllowedToStart;
+        order.reason = {"waits_for_start", {}};
+    }
     const JobOrder& stored = fleet.orders.add(std::move(order));
     fleet.stored_orders.insert(stored.id);
-    add_event(
-        fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
-        {{"number", stored.number}, {"steps", static_cast<std::int64_t>(stored.steps.size())}});
-    if (!request.idempotency_key.empty()) {
-        const IdempotencyRecord record{request.idempotency_client, request.idempotency_key,
-                                       request.body_sha256, stored.id, now};
-        fleet.idempotency[idempotency] = record;
-        fleet.out.records.idempotency.push_back(record);
-    }
+    Params params{{"number", stored.number},
+                  {"steps", static_cast<std::int64_t>(stored.steps.size())}};
+    if (!request.start) params.push_back({"state", to_string(stored.state)});
+    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
+              std::move(params));
+    keep_answer(fleet, {request.idempotency_client, request.idempotency_key, request.body_sha256,
+                        stored.id, now});
     return Created{stored, false};
+}
+
+Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
+                    const std::string& actor, Time now) {
+    auto fields = resolve_fields(fleet, request, order.id);
+    if (!fields) return fail(fields.error());
+    const auto plan = plan_order(fleet, request, now);
+    if (!plan) return fail(plan.error());
+    JobOrder changed = order;
+    fill(fleet, changed, request, std::move(*fields), *plan);
+    changed.sequence = request.sequence;
+    if (depends_on(fleet, changed, order.id, &changed)) {
+        return fail(Errc::kConflict, "dependency_cycle",
+                    "The order would wait for orders that wait for it. Leave one of them out.",
+                    request.after.empty() ? "/sequence" : "/after");
+    }
+    changed.sequence = order.sequence;
+    order = std::move(changed);
+    fleet.orders.set_sequence(order, request.sequence);
+    add_event(fleet, now, "job_order.updated", order.id, {}, order.wanted_vehicle, actor,
+              {{"steps", static_cast<std::int64_t>(order.steps.size())}});
+    fleet.store(order);
+    return {};
 }
 
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
@@ -214,7 +270,8 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
     for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
         if (order.steps[i].state != StepState::kDone) order.steps[i].state = StepState::kSkipped;
     }
-    set_order_state(fleet, order, JobState::kAborted, std::move(reason), actor, now);
+    const JobState to = order.stop_requested ? JobState::kEnded : JobState::kAborted;
+    set_order_state(fleet, order, to, std::move(reason), actor, now);
     if (VehicleRun* run = fleet.find(order.assigned_vehicle)) give_up_task(fleet, *run, now);
 }
 

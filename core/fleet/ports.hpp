@@ -7,6 +7,7 @@
 #include "core/base/result.hpp"
 #include "core/fleet/closures.hpp"
 #include "core/fleet/job_order.hpp"
+#include "core/fleet/standing_orders.hpp"
 
 /// Where the fleet core meets the outside: what it reads at start and what every step puts out.
 namespace pulseline::fleet {
@@ -29,9 +30,12 @@ struct Records {
     std::vector<IdempotencyRecord> idempotency;
     std::vector<Closure> closures;    // new ones
     std::vector<ClosureId> reopened;  // to forget
+    std::vector<Schedule> schedules;  // upserts by id; deleted ones say so
+    std::vector<OrderTemplate> templates;
     bool empty() const {
         return orders.empty() && vehicles.empty() && stops.empty() && events.empty() &&
-               idempotency.empty() && closures.empty() && reopened.empty();
+               idempotency.empty() && closures.empty() && reopened.empty() && schedules.empty() &&
+               templates.empty();
     }
 };
 
@@ -41,6 +45,8 @@ struct StoredFleet {
     std::vector<VehicleRecord> vehicles;
     std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
     std::vector<Closure> closures;               // oldest first
+    std::vector<Schedule> schedules;
+    std::vector<OrderTemplate> templates;
     std::int64_t last_event_seq = 0;
     std::int64_t last_order_number = 0;
     Time last_time;  // newest stored time; the clock may not start before it
@@ -65,6 +71,7 @@ struct StopQuery {
 struct OrderQuery {
     std::vector<JobState> states;  // empty: all
     plant::VehicleId vehicle;
+    bool removed = false;  // those taken out by Cancel or Clear instead of the others
     int limit = 50;
     JobOrderId before;
 };

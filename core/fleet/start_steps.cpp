@@ -1,4 +1,5 @@
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/step_actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -49,9 +50,11 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     Step& step = order.steps[order.current_step];
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
     const LegId id(fleet.ids.next(now));
-    const bool corrects = nearly_there(run, run.record.pose, *station);
-    auto leg = corrects ? Result<Leg>(build_adjust_leg(fleet, run, *station, run.record.pose, id))
-                        : leg_to(fleet, run, step, id);
+    auto actions = next_actions_leg(fleet, order, run, id);
+    const bool corrects = !actions && nearly_there(run, run.record.pose, *station);
+    auto leg = actions    ? Result<Leg>(std::move(*actions))
+               : corrects ? Result<Leg>(build_adjust_leg(fleet, run, *station, run.record.pose, id))
+                          : leg_to(fleet, run, step, id);
     if (!leg) {
         set_order_state(fleet, order, JobState::kInterrupted, leg.error().reason, {}, now);
         return;
@@ -61,25 +64,29 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     leg->attempt = step.attempts + 1;
     const VehicleRecord before = run.record;
     take_leg(run, std::move(*leg));
+    const bool stays = run.leg().nodes.size() == 1;
     if (corrects) {
         hold_for_correction(fleet, run, station->pose, now);
+    } else if (stays) {
+        // Only actions: it stands on floor that it has.
     } else if (const auto reason = plan_on_floor(fleet, run, now)) {
         run.record = before;
         set_order_reason(fleet, order, *reason, now);
         return;
     }
     step.leg = id;
-    step.state = StepState::kDriving;
+    if (!run.leg().actions_only) step.state = StepState::kDriving;
     order.reason = {};
     fleet.store(order);
     fleet.store(run);
     fleet.changed_stations.insert(station->id);
-    add_event(fleet, now, "step.started", order.id, id, run.record.id, {},
+    add_event(fleet, now, run.leg().actions_only ? "step.actions" : "step.started", order.id, id,
+              run.record.id, {},
               {{"step", static_cast<std::int64_t>(order.current_step)},
                {"station", std::int64_t{station->number}},
                {"mode", plant::to_string(run.leg().mode)},
                {"attempt", std::int64_t{run.leg().attempt}}});
-    if (corrects) {
+    if (stays) {
         send_order_update(fleet, run, 0, now);
     } else {
         extend_base(fleet, run, now);

@@ -93,6 +93,7 @@ struct FleetState {
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;
+    StandingOrders standing;
 
     // Put out by this step.
     Outputs out;
@@ -194,8 +195,24 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
 bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station);
 Result<Created> create_order(FleetState& fleet, const NewOrder& order, Time now);
+/// Gives an order that has not started all that `request` may set.
+Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
+                    const std::string& actor, Time now);
+Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
+                                               const std::string& key,
+                                               const std::string& body_sha256);
+void keep_answer(FleetState& fleet, const IdempotencyRecord& record);
+/// Ends an order whose vehicle has nothing to do for it any more: Ended after a Stop, else Aborted.
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
                  Time now);
+
+// --- schedules (schedules.cpp) ---
+void restore_standing(FleetState& fleet, StoredFleet& stored);
+/// After a restart the vehicles that schedules may set in motion need a person's act, too.
+void require_persons_for_schedules(FleetState& fleet, Time now);
+void take_standing(FleetState& fleet, Records& records);
+/// Makes the orders whose time has come.
+void run_schedules(FleetState& fleet, Time now);
 
 // --- dispatch (dispatch.cpp) ---
 void dispatch(FleetState& fleet, Time now);

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "core/fleet/state.hpp"
+#include "core/fleet/step_actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -107,13 +108,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
     pass_stop(fleet, run, now);
     drop_leg(fleet, run, now, true);
     if (!order) return;
-    order->steps[static_cast<std::size_t>(stop.step)].state = StepState::kDone;
-    order->current_step = static_cast<std::size_t>(stop.step) + 1;
-    if (order->current_step == order->steps.size()) {
-        set_order_state(fleet, *order, JobState::kEnded, {}, {}, now);
-    } else if (order->cancel_requested) {
-        abort_order(fleet, *order, order->reason, {}, now);
-    }
+    take_good_stop(fleet, *order, static_cast<std::size_t>(stop.step), now);
 }
 
 void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/fleet/state.hpp"
+#include "core/fleet/step_actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -179,6 +180,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         }
     }
     if (run.cancelling) return;
+    if (leg.actions_only) return take_actions_leg(fleet, run, now);
 
     bool measures = false;
     for (const auto& action : leg.nodes.back().actions) {

@@ -196,6 +196,7 @@ struct Factsheet {
     double length_m = 0;
     double width_m = 0;
     std::vector<std::string> actions;
+    std::vector<std::string> node_actions;  // those of them that a node of an order may ask for
     std::string json;
 };
 

@@ -49,7 +49,51 @@ public:
         o.steps[1].planned_s = 12.5;
         o.expected = at(ms + 13'000);
         o.revision = 4;
+        o.wanted_type = plant::VehicleTypeId("steered-platform");
+        o.earliest_start = at(ms + 100);
+        o.due = at(ms + 200'000);
+        o.after = {{fleet::JobOrderId(ids_.next(at(ms))), 41, fleet::JobState::kEnded},
+                   {fleet::JobOrderId(ids_.next(at(ms))), 42, std::nullopt}};
+        o.sequence = "left \"wing\"";
+        o.sequence_vehicle = plant::VehicleId("TP-01");
+        o.from_template = "to station";
+        o.from_schedule = fleet::ScheduleId(ids_.next(at(ms)));
+        o.stop_requested = true;
+        o.removed = false;
+        o.steps[1].before = {{"raiseParking", {}}, {"setBracketHeight", {{"height_m", number()}}}};
+        o.steps[1].after = {{"lowerParking", {{"name", std::string("all")}, {"slow", true}}}};
+        o.steps[1].phase = fleet::StepPhase::kAfter;
+        o.steps[1].actions_done = 1;
         return o;
+    }
+
+    fleet::Schedule schedule(const std::string& name, std::int64_t ms) {
+        fleet::Schedule s;
+        s.id = fleet::ScheduleId(ids_.next(at(ms)));
+        s.name = name;
+        s.recurrence.daily_at_s = {60, 7200};
+        s.recurrence.window = std::chrono::seconds(900);
+        s.recurrence.from = at(ms);
+        s.recurrence.until = at(ms + 86'400'000);
+        s.order.vehicle = plant::VehicleId("TP-01");
+        s.order.vehicle_type = plant::VehicleTypeId("steered-platform");
+        s.order.priority = 5;
+        s.order.start = false;
+        s.order.sequence = "wing";
+        s.order.steps = {{7,
+                          plant::MotionMode::kLateral,
+                          {{"raiseParking", {{"n", std::int64_t{3}}}}},
+                          {{"lowerParking", {}}}}};
+        s.paused = true;
+        s.next = at(ms + 60'000);
+        s.newest_order = fleet::JobOrderId(ids_.next(at(ms)));
+        s.made = 12;
+        s.skipped = 3;
+        s.last_skip = {"previous_order_open", {{"order", std::string("JO-7")}}};
+        s.created_by = "mes";
+        s.created = at(ms);
+        s.revision = 9;
+        return s;
     }
 
     fleet::StopRecord stop(int station_number, std::int64_t ms) {

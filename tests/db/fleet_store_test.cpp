@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "db/fleet_rows.hpp"
+#include "db/standing_rows.hpp"
 #include "tests/db/fleet_samples.hpp"
 #include "tests/db/temp_folder.hpp"
 
@@ -90,6 +91,40 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
     EXPECT_EQ(stored.last_event_seq, 2);
     EXPECT_EQ(stored.last_order_number, 2);
     EXPECT_EQ(stored.last_time, samples.at(20));
+}
+
+TEST(FleetStore, SchedulesAndTemplatesComeBackAndGo) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(3);
+    fleet::Records records;
+    records.schedules = {samples.schedule("round", 0), samples.schedule("night", 10)};
+    records.templates = {
+        {"to station", "why", "[]", "{\"steps\":[]}", "mes", samples.at(1), false}};
+    store.commit(records);
+
+    fleet::StoredFleet stored = store.load();
+    ASSERT_EQ(stored.schedules.size(), 2u);
+    EXPECT_EQ(columns<ScheduleRow>(stored.schedules[0]),
+              columns<ScheduleRow>(records.schedules[0]));
+    EXPECT_EQ(stored.schedules[0].order, records.schedules[0].order);
+    EXPECT_EQ(stored.schedules[0].recurrence, records.schedules[0].recurrence);
+    ASSERT_EQ(stored.templates.size(), 1u);
+    EXPECT_EQ(columns<TemplateRow>(stored.templates[0]),
+              columns<TemplateRow>(records.templates[0]));
+
+    // A deleted one goes before another of its name comes, in one transaction.
+    records.schedules[0].deleted = true;
+    fleet::Schedule again = samples.schedule("round", 20);
+    fleet::Records change;
+    change.schedules = {records.schedules[0], again};
+    records.templates[0].deleted = true;
+    change.templates = {records.templates[0]};
+    store.commit(change);
+    stored = store.load();
+    ASSERT_EQ(stored.schedules.size(), 2u);
+    EXPECT_EQ(stored.schedules[1].id, again.id);
+    EXPECT_TRUE(stored.templates.empty());
 }
 
 // (SQLite keeps -0.0 as 0.0, which is the same number.)

@@ -28,6 +28,8 @@ public:
         }
         for (const auto& [id, vehicle] : vehicles_) stored.vehicles.push_back(vehicle);
         stored.idempotency = idempotency_;
+        for (const auto& [id, schedule] : schedules_) stored.schedules.push_back(schedule);
+        for (const auto& [name, one] : templates_) stored.templates.push_back(one);
         if (!events_.empty()) {
             stored.last_event_seq = events_.back().seq;
             stored.last_time = events_.back().at;
@@ -48,6 +50,14 @@ public:
         stops_.insert(stops_.end(), records.stops.begin(), records.stops.end());
         idempotency_.insert(idempotency_.end(), records.idempotency.begin(),
                             records.idempotency.end());
+        for (const auto& one : records.schedules) {
+            schedules_.erase(one.id);
+            if (!one.deleted) schedules_[one.id] = one;
+        }
+        for (const auto& one : records.templates) {
+            templates_.erase(one.name);
+            if (!one.deleted) templates_[one.name] = one;
+        }
         ++commits;
     }
 
@@ -96,6 +106,8 @@ private:
     std::map<fleet::JobOrderId, fleet::JobOrder> orders_;
     std::map<plant::VehicleId, fleet::VehicleRecord> vehicles_;
     std::vector<fleet::IdempotencyRecord> idempotency_;
+    std::map<fleet::ScheduleId, fleet::Schedule> schedules_;
+    std::map<std::string, fleet::OrderTemplate> templates_;
     std::vector<fleet::Event> events_;
     std::vector<fleet::StopRecord> stops_;
 };

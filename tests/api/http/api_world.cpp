@@ -78,7 +78,8 @@ std::vector<fleet::JobOrder> WorldHistory::orders(const fleet::OrderQuery& query
         const bool state =
             query.states.empty() ||
             std::find(query.states.begin(), query.states.end(), order.state) != query.states.end();
-        return state && (query.vehicle.empty() || order.assigned_vehicle == query.vehicle) &&
+        return state && order.removed == query.removed &&
+               (query.vehicle.empty() || order.assigned_vehicle == query.vehicle) &&
                (query.before.empty() || order.id < query.before);
     });
 }

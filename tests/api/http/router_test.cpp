@@ -67,9 +67,23 @@ std::string code_of(Request request) {
 
 // Written by hand, apart from the table: who may do what is decided here a second time.
 const std::set<std::string> kForEverybody = {"signIn", "getOpenApi", "health", "ready"};
-const std::set<std::string> kForOperators = {"pauseVehicle",   "initPosition",   "pauseFleet",
-                                             "resumeFleet",    "createJobOrder", "pauseJobOrder",
-                                             "resumeJobOrder", "cancelJobOrder", "findRoutes"};
+const std::set<std::string> kForOperators = {"pauseVehicle",
+                                             "initPosition",
+                                             "pauseFleet",
+                                             "resumeFleet",
+                                             "createJobOrder",
+                                             "pauseJobOrder",
+                                             "resumeJobOrder",
+                                             "cancelJobOrder",
+                                             "findRoutes",
+                                             "controlJobOrder",
+                                             "createTemplate",
+                                             "deleteTemplate",
+                                             "createJobOrderOfTemplate",
+                                             "createSchedule",
+                                             "deleteSchedule",
+                                             "pauseSchedule",
+                                             "resumeSchedule"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

@@ -32,8 +32,7 @@ Total best_by_trial(const CostMatrix& matrix) {
             ++total.served;
             total.cost += cost;
         }
-        if (total.served > best.served ||
-            (total.served == best.served && total.cost < best.cost)) {
+        if (total.served > best.served || (total.served == best.served && total.cost < best.cost)) {
             best = total;
         }
     } while (std::next_permutation(order.begin(), order.end()));
@@ -45,9 +44,8 @@ TEST(Assignment, IsAsGoodAsTryingEverything) {
     std::uniform_int_distribution<int> size(1, 6);
     std::uniform_real_distribution<double> cost(-500, 500);
     for (int trial = 0; trial < 400; ++trial) {
-        CostMatrix matrix{static_cast<std::size_t>(size(random)),
-                          static_cast<std::size_t>(size(random)),
-                          {}};
+        CostMatrix matrix{
+            static_cast<std::size_t>(size(random)), static_cast<std::size_t>(size(random)), {}};
         for (std::size_t i = 0; i < matrix.rows * matrix.columns; ++i) {
             matrix.costs.push_back(size(random) == 1 ? kNever : cost(random));
         }

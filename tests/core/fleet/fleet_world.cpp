@@ -93,6 +93,20 @@ void MemoryStore::commit(const Records& records) {
     std::erase_if(closures, [&](const Closure& closure) {
         return std::count(records.reopened.begin(), records.reopened.end(), closure.id) > 0;
     });
+    for (const auto& schedule : records.schedules) {
+        if (schedule.deleted) {
+            schedules.erase(schedule.id);
+        } else {
+            schedules[schedule.id] = schedule;
+        }
+    }
+    for (const auto& one : records.templates) {
+        if (one.deleted) {
+            templates.erase(one.name);
+        } else {
+            templates[one.name] = one;
+        }
+    }
 }
 
 StoredFleet MemoryStore::load() const {
@@ -104,6 +118,8 @@ StoredFleet MemoryStore::load() const {
     for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
     stored.idempotency = idempotency;
     stored.closures = closures;
+    for (const auto& [id, schedule] : schedules) stored.schedules.push_back(schedule);
+    for (const auto& [name, one] : templates) stored.templates.push_back(one);
     if (!events.empty()) {
         stored.last_event_seq = events.back().seq;
         stored.last_time = events.back().at;
@@ -220,7 +236,13 @@ bool FakeVehicle::step() {
             action.result_description = *measure_fails;
             return true;
         }
+        if (action.type == action_fails) {
+            action.status = ActionStatus::kFailed;
+            action.result_description = "it jammed";
+            return true;
+        }
         action.status = ActionStatus::kFinished;
+        actions_done.push_back(action.type);
         if (action.type == "measureStop") {
             const Pose2 station = order_->nodes.back().actions.back().stop_target->target;
             action.measurement = StopMeasurement{};
@@ -263,6 +285,15 @@ void World::connect_all() {
     run(1);
 }
 
+void World::announce(std::vector<std::string> actions) {
+    for (const auto& [id, vehicle] : vehicles) {
+        Factsheet factsheet;
+        factsheet.actions = factsheet.node_actions = actions;
+        factsheet.actions.insert(factsheet.actions.end(), {"measureStop", "adjustToMarker"});
+        fleet->vehicle_factsheet(id, factsheet, now);
+    }
+}
+
 void World::settle() {
     for (int round = 0; round < 10; ++round) {
         Outputs out = fleet->take_outputs(now);
@@ -302,8 +333,12 @@ Result<Created> World::order(const std::string& vehicle, std::vector<int> statio
                              plant::MotionMode mode) {
     NewOrder request;
     request.vehicle = plant::VehicleId(vehicle);
-    request.actor = "tester";
     for (const int station : stations) request.steps.push_back({station, mode});
+    return order(std::move(request));
+}
+
+Result<Created> World::order(NewOrder request) {
+    if (request.actor.empty()) request.actor = "tester";
     auto created = fleet->create(request, now);
     settle();
     return created;

@@ -28,6 +28,8 @@ public:
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
     std::vector<Closure> closures;
+    std::map<ScheduleId, Schedule> schedules;
+    std::map<std::string, OrderTemplate> templates;
 };
 
 /// Obeys VDA 5050: drives released nodes one by one, measures stops, answers instant actions.
@@ -44,6 +46,8 @@ public:
     StateMessage state;
     Pose2 stop_error;  // added to the next measured stops
     std::optional<std::string> measure_fails;
+    std::string action_fails;               // type of the action that fails
+    std::vector<std::string> actions_done;  // types in the order in which they finished
     bool sees_codes = true;  // reports the codes below its cameras while standing on them
     int orders_received = 0;
     int node_steps = 0;
@@ -70,11 +74,15 @@ public:
     /// Server dies without warning before anything uncommitted left it, and starts again.
     void crash_server();
     void connect_all();
+    /// All vehicles say in their factsheets that nodes may ask for these.
+    void announce(std::vector<std::string> actions);
 
     FakeVehicle& vehicle(const std::string& id) { return vehicles.at(plant::VehicleId(id)); }
     Result<Created> order(const std::string& vehicle, std::vector<int> stations,
                           plant::MotionMode mode = plant::MotionMode::kAuto);
+    Result<Created> order(NewOrder request);
     JobOrder only_order() const;
+    const JobOrder& stored(JobOrderId id) const { return store.orders.at(id); }
     int count_events(const std::string& type) const;
 
     plant::Plant plant;

@@ -206,11 +206,9 @@ TEST(TrafficScenarios, ABrokenDownVehicleOnTheShortWayIsPassedOnTheLongOne) {
 }
 
 TEST(TrafficScenarios, OnTheOnlyRoadABreakdownIsWaitedForWithItsName) {
-    plant::Plant plant = plant_of({{"west", 10, 40, 1},
-                                   {"east", 70, 40, 2},
-                                   {"middle", 40, 40, 3},
-                                   {"far", 90, 40, 4}},
-                                  {{"west", "middle"}, {"middle", "east"}, {"east", "far"}}, 2);
+    plant::Plant plant = plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"far", 90, 40, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"east", "far"}}, 2);
     plant.vehicles[1].home = plant::StationId("s3");
     World world(plant);
     confirm_poses(world);

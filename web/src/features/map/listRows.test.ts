@@ -34,6 +34,8 @@ const order = (number: number, over: Partial<JobOrder> = {}): JobOrder => ({
   wanted_vehicle: "",
   cancel_requested: false,
   pause_requested: false,
+  stop_requested: false,
+  removed: false,
   created_by: "",
   created_at: "",
   revision: 1,

@@ -6,6 +6,7 @@ import { Card, StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { OrderCommands } from "./OrderCommands";
+import { OrderFields, StepActions } from "./OrderFields";
 import { doneSteps, stateSymbol } from "./orderLook";
 
 /** One order: state and why, its stations with their stops, its times. */
@@ -64,7 +65,10 @@ export function OrderDetail({ order }: { order: JobOrder }) {
               <tr key={i} className={i === order.current_step && step.state !== "done" ? "on" : ""}>
                 <td className="b">{step.number}</td>
                 <td>{words.modeShort(step.motion_mode)}</td>
-                <td>{t(`words:step.${step.state}`)}</td>
+                <td>
+                  {t(`words:step.${step.state}`)}
+                  <StepActions step={step} />
+                </td>
                 <td className="n">
                   {stop ? (
                     <>
@@ -113,6 +117,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
         <dd>{dateTime(order.ended_at, now)}</dd>
         <dt>{t("detail.priority")}</dt>
         <dd>{order.priority}</dd>
+        <OrderFields order={order} now={now} />
         {order.client_order_id && (
           <>
             <dt>{t("detail.client_id")}</dt>

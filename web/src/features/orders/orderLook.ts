@@ -28,14 +28,14 @@ export function sortOrders(orders: readonly JobOrder[]): JobOrder[] {
   return [...orders].sort((a, b) => rank[a.state] - rank[b.state] || b.number - a.number);
 }
 
-/** Live orders win over fetched ones unless those are newer. */
+/** Live orders win over fetched ones unless those are newer; what Cancel or Clear took out is not listed. */
 export function mergeOrders(live: readonly JobOrder[], pages: readonly JobOrder[]): JobOrder[] {
   const byId = new Map<string, JobOrder>();
   for (const order of [...pages, ...live]) {
     const known = byId.get(order.id);
     if (!known || order.revision >= known.revision) byId.set(order.id, order);
   }
-  return sortOrders([...byId.values()]);
+  return sortOrders([...byId.values()].filter((o) => !o.removed));
 }
 
 export function doneSteps(order: JobOrder): number {

@@ -40,6 +40,10 @@ describe("orders", () => {
 
     expect(merged.map((o) => o.state)).toEqual(["Ended"]);
   });
+  it("does not list what was taken out, though an older page still has it", () => {
+    const gone = order("a", 1, "Ended", { revision: 3, removed: true });
+    expect(mergeOrders([gone], [order("a", 1, "Ended", { revision: 2 })])).toEqual([]);
+  });
   it.each<[JobState, Partial<JobOrder>, string]>([
     ["Running", {}, "pause cancel"],
     ["AllowedToStart", {}, "pause cancel"],

@@ -35,6 +35,8 @@ const order = (revision: number): JobOrder => ({
   wanted_vehicle: "",
   cancel_requested: false,
   pause_requested: false,
+  stop_requested: false,
+  removed: false,
   created_by: "",
   created_at: "",
   revision,

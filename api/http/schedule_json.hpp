@@ -1,0 +1,10 @@
+#pragma once
+
+#include "api/http/common_json.hpp"
+#include "core/fleet/standing_orders.hpp"
+
+namespace pulseline::api {
+
+Json schedule_json(const fleet::Schedule& schedule);
+
+}  // namespace pulseline::api

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/time.hpp"
+#include "core/fleet/job_order.hpp"
+#include "core/plant/plant.hpp"
+
+namespace pulseline::fleet {
+
+struct NewStep {
+    int station_number = 0;
+    plant::MotionMode mode = plant::MotionMode::kAuto;
+    std::vector<StepAction> before = {};
+    std::vector<StepAction> after = {};
+    friend bool operator==(const NewStep&, const NewStep&) = default;
+};
+
+/// What somebody asks for; create_order() makes a job order of it.
+struct NewOrder {
+    std::string client_order_id;        // empty: none
+    plant::VehicleId vehicle;           // empty: any
+    plant::VehicleTypeId vehicle_type;  // empty: any
+    int priority = 0;
+    bool start = true;  // StoreAndStart; false: Store, it waits for Start
+    std::optional<Time> earliest_start;
+    std::optional<Time> due;
+    std::vector<std::string> after;  // ids, or client order ids, of orders that have to end first
+    std::string sequence;            // empty: none
+    std::vector<NewStep> steps;
+    std::string from_template;
+    ScheduleId from_schedule;
+    std::string actor;  // who asks
+    // Idempotency-Key of the request; empty: none.
+    std::string idempotency_client;
+    std::string idempotency_key;
+    std::string body_sha256;
+    friend bool operator==(const NewOrder&, const NewOrder&) = default;
+};
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,214 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/fleet/order_fields.hpp"
+#include "core/fleet/state.hpp"
+
+// Orders made by time. The core has no clock: a schedule's time has come when a tick says so.
+namespace pulseline::fleet {
+namespace {
+
+constexpr std::size_t kMaxSchedules = 1000;
+
+void note(FleetState& fleet, Time now, const char* type, const Schedule& schedule,
+          const std::string& actor, Params more = {}) {
+    Params params{{"schedule", schedule.name}, {"schedule_id", schedule.id.str()}};
+    params.insert(params.end(), more.begin(), more.end());
+    add_event(fleet, now, type, schedule.newest_order, {}, schedule.order.vehicle, actor,
+              std::move(params));
+}
+
+void store(FleetState& fleet, Schedule& schedule) {
+    ++schedule.revision;
+    fleet.standing.changed_schedules.insert(schedule.id);
+}
+
+Result<Schedule*> find_for_change(FleetState& fleet, ScheduleId id,
+                                  std::optional<std::int64_t> if_revision) {
+    const auto it = fleet.standing.schedules.find(id);
+    if (it == fleet.standing.schedules.end()) {
+        return fail(Errc::kNotFound, "unknown_schedule",
+                    "There is no such schedule; GET /api/v1/job-order-schedules lists them.", {},
+                    {{"schedule", id.str()}});
+    }
+    if (if_revision && *if_revision != it->second.revision) {
+        return fail(Errc::kConflict, "stale_revision",
+                    "The schedule has changed meanwhile. Read it again, then decide.", {},
+                    {{"revision", it->second.revision}});
+    }
+    return &it->second;
+}
+
+/// Its order, checked as if it were to be made now. A silent vehicle is no fault of a schedule.
+Status check_order(const FleetState& fleet, const NewOrder& order, Time now) {
+    if (auto fields = resolve_fields(fleet, order, {}); !fields) return fail(fields.error());
+    const auto plan = plan_order(fleet, order, now);
+    if (plan || plan.error().reason.code == "vehicle_gone" ||
+        plan.error().reason.code == "no_vehicle") {
+        return {};
+    }
+    return fail(plan.error());
+}
+
+void skip(FleetState& fleet, Schedule& schedule, Reason why, Time now) {
+    ++schedule.skipped;
+    Params params{{"reason", why.code}};
+    params.insert(params.end(), why.params.begin(), why.params.end());
+    schedule.last_skip = std::move(why);
+    note(fleet, now, "job_order_schedule.skipped", schedule, {}, std::move(params));
+}
+
+void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
+    const JobOrder* before = fleet.find(schedule.newest_order);
+    if (before && !is_final(before->state)) {
+        skip(fleet, schedule,
+             {"previous_order_open", {{"order", "JO-" + std::to_string(before->number)}}}, now);
+        return;
+    }
+    NewOrder order = schedule.order;
+    order.actor = "schedule:" + schedule.name;
+    order.from_schedule = schedule.id;
+    order.due = at + schedule.recurrence.window;
+    const auto created = create_order(fleet, order, now);
+    if (!created) {
+        skip(fleet, schedule, created.error().reason, now);
+        return;
+    }
+    ++schedule.made;
+    schedule.newest_order = created->order.id;
+    note(fleet, now, "job_order_schedule.made", schedule, {},
+         {{"order", "JO-" + std::to_string(created->order.number)}});
+}
+
+}  // namespace
+
+void restore_standing(FleetState& fleet, StoredFleet& stored) {
+    for (auto& schedule : stored.schedules) {
+        fleet.standing.schedules[schedule.id] = std::move(schedule);
+    }
+    for (auto& one : stored.templates) fleet.standing.templates[one.name] = std::move(one);
+}
+
+void require_persons_for_schedules(FleetState& fleet, Time now) {
+    for (const auto& [id, schedule] : fleet.standing.schedules) {
+        if (schedule.paused || !schedule.next) continue;
+        for (auto& [name, run] : fleet.vehicles) {
+            const bool wanted = schedule.order.vehicle.empty() || schedule.order.vehicle == name;
+            const auto& type = schedule.order.vehicle_type;
+            if (wanted && (type.empty() || type == run.type->id)) {
+                require_person(fleet, run, {"server_restarted", {}}, now);
+            }
+        }
+    }
+}
+
+void take_standing(FleetState& fleet, Records& records) {
+    StandingOrders& standing = fleet.standing;
+    // Deleted ones first: their names may have been taken again.
+    for (auto& gone : std::exchange(standing.deleted_schedules, {})) {
+        records.schedules.push_back(std::move(gone));
+    }
+    for (const ScheduleId& id : std::exchange(standing.changed_schedules, {})) {
+        const auto it = standing.schedules.find(id);
+        if (it != standing.schedules.end()) records.schedules.push_back(it->second);
+    }
+    records.templates = std::exchange(standing.changed_templates, {});
+}
+
+void run_schedules(FleetState& fleet, Time now) {
+    for (auto& [id, schedule] : fleet.standing.schedules) {
+        if (schedule.paused || !schedule.next || now < *schedule.next) continue;
+        // After a long silence only the newest time can still be kept.
+        const Time at = last_time(schedule.recurrence, now).value_or(*schedule.next);
+        if (at != *schedule.next || now - at > schedule.recurrence.window) {
+            skip(fleet, schedule, {"time_missed", {}}, now);
+        }
+        if (now - at <= schedule.recurrence.window) make_order(fleet, schedule, at, now);
+        schedule.next = next_time(schedule.recurrence, now);
+        if (!schedule.next) note(fleet, now, "job_order_schedule.over", schedule, {});
+        store(fleet, schedule);
+    }
+}
+
+Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
+    auto& schedules = state_->standing.schedules;
+    for (const auto& [id, known] : schedules) {
+        if (known.name != wanted.name) continue;
+        Recurrence same = wanted.recurrence;
+        if (same.from == Time{}) same.from = known.recurrence.from;  // it meant "from now on"
+        if (known.recurrence == same && known.order == wanted.order) return known;
+        return fail(Errc::kConflict, "duplicate_schedule",
+                    "There is another schedule " + wanted.name +
+                        ". Use another name, or delete that one first.",
+                    "/name", {{"schedule", id.str()}});
+    }
+    if (schedules.size() >= kMaxSchedules) {
+        return fail(Errc::kConflict, "too_many_schedules",
+                    "There are 1000 schedules. Delete one that nobody uses, then repeat.", "/name");
+    }
+    if (auto possible = check_order(*state_, wanted.order, now); !possible) {
+        Error error = possible.error();
+        error.field = "/order" + error.field;
+        return fail(std::move(error));
+    }
+    Schedule made;
+    made.name = wanted.name;
+    made.recurrence = wanted.recurrence;
+    if (made.recurrence.from == Time{}) made.recurrence.from = now;
+    made.next = next_time(made.recurrence, now - Duration(1));
+    if (!made.next) {
+        return fail(Errc::kInvalid, "schedule_over",
+                    "This schedule would never make an order. Set until to a later time.",
+                    "/until");
+    }
+    made.id = ScheduleId(state_->ids.next(now));
+    made.order = wanted.order;
+    made.created_by = wanted.actor;
+    made.created = now;
+    const Schedule& kept = schedules[made.id] = made;
+    state_->standing.changed_schedules.insert(kept.id);
+    note(*state_, now, "job_order_schedule.created", kept, wanted.actor);
+    return kept;
+}
+
+Result<Schedule> Fleet::pause_schedule(ScheduleId id, bool paused,
+                                       std::optional<std::int64_t> if_revision,
+                                       const std::string& actor, Time now) {
+    auto found = find_for_change(*state_, id, if_revision);
+    if (!found) return fail(found.error());
+    Schedule& schedule = **found;
+    if (schedule.paused == paused) return schedule;
+    schedule.paused = paused;
+    // What fell into the pause is left out, not made up for.
+    if (!paused) schedule.next = next_time(schedule.recurrence, now);
+    note(*state_, now, paused ? "job_order_schedule.paused" : "job_order_schedule.resumed",
+         schedule, actor);
+    store(*state_, schedule);
+    return schedule;
+}
+
+Status Fleet::delete_schedule(ScheduleId id, std::optional<std::int64_t> if_revision,
+                              const std::string& actor, Time now) {
+    auto found = find_for_change(*state_, id, if_revision);
+    if (!found) return fail(found.error());
+    Schedule gone = **found;
+    gone.deleted = true;
+    note(*state_, now, "job_order_schedule.deleted", gone, actor);
+    state_->standing.schedules.erase(id);
+    state_->standing.changed_schedules.erase(id);
+    state_->standing.deleted_schedules.push_back(std::move(gone));
+    return {};
+}
+
+std::optional<Schedule> Fleet::schedule(ScheduleId id) const {
+    const auto it = state_->standing.schedules.find(id);
+    return it == state_->standing.schedules.end() ? std::nullopt : std::optional(it->second);
+}
+
+std::vector<Schedule> Fleet::schedules() const {
+    std::vector<Schedule> all;
+    for (const auto& [id, schedule] : state_->standing.schedules) all.push_back(schedule);
+    return all;
+}
+
+}  // namespace pulseline::fleet
