@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/crash_point.hpp"
 #include "db/fleet_rows.hpp"
 #include "db/names.hpp"
 #include "db/order_reader.hpp"
@@ -71,12 +72,14 @@ void FleetStore::put(const fleet::JobOrder& order) {
     Statements& s = *statements_;
     s.order.set(order);
     s.put_order.run();
+    crash_point(CrashPoint::kCommitAfterOrder);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         s.step.set(s.order.id, i, order.steps[i]);
         s.put_step.run();
     }
     s.step_count = static_cast<std::int64_t>(order.steps.size());
     s.drop_steps.run();
+    crash_point(CrashPoint::kCommitAfterSteps);
 }
 
 void FleetStore::commit(const fleet::Records& records) {
@@ -88,10 +91,12 @@ void FleetStore::commit(const fleet::Records& records) {
         for (const auto& vehicle : records.vehicles) {
             s.vehicle.set(vehicle);
             s.put_vehicle.run();
+            crash_point(CrashPoint::kCommitAfterVehicle);
         }
         for (const auto& stop : records.stops) {
             s.stop.set(stop);
             s.put_stop.run();
+            crash_point(CrashPoint::kCommitAfterStop);
         }
         for (const auto& event : records.events) {
             if (event.seq != seq + 1) {
@@ -102,6 +107,7 @@ void FleetStore::commit(const fleet::Records& records) {
             seq = event.seq;
             s.event.set(event);
             s.put_event.run();
+            crash_point(CrashPoint::kCommitAfterEvent);
         }
         for (const auto& key : records.idempotency) {
             s.key.client = key.client;
@@ -110,6 +116,7 @@ void FleetStore::commit(const fleet::Records& records) {
             s.key.order_id = stored_id(key.order);
             s.key.at_ns = to_ns(key.at);
             s.put_key.run();
+            crash_point(CrashPoint::kCommitAfterKey);
             s.keys_before = s.key.at_ns - kKept_ns;
             s.drop_keys.run();
         }
@@ -144,6 +151,7 @@ fleet::StoredFleet FleetStore::load() {
             stored.orders.back().steps = steps.steps_of(order.id);
         }
 
+        crash_point(CrashPoint::kStartInLoad);
         VehicleRow vehicle;
         Statement vehicles(
             sql, std::string("SELECT ") + VehicleRow::kColumns + " FROM vehicles_state ORDER BY id",

@@ -14,7 +14,8 @@ constexpr Duration kKeepFinal = std::chrono::hours(24 * 7);
 }  // namespace
 
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now)
-    : state_(std::make_unique<FleetState>(plant, id_seed, now)) {
+    : state_(std::make_unique<FleetState>(plant, id_seed, now)),
+      stored_seq_(stored.last_event_seq) {
     restore(*state_, std::move(stored), now);
 }
 
@@ -63,6 +64,21 @@ void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
 bool Fleet::connection_refused(const plant::VehicleId& id) const {
     const VehicleRun* run = state_->find(id);
     return run && run->connection_refused;
+}
+
+void Fleet::store_failed(const StoreFault& fault, Time now) {
+    store_fault_ = fault;
+    add_event(*state_, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
+    state_->out.fleet_changed = true;
+}
+
+void Fleet::store_works_again(Time now) {
+    if (!store_fault_) return;
+    add_event(
+        *state_, now, "store.recovered", {}, {}, {}, {},
+        {{"cause", store_fault_->cause}, {"read_only_s", seconds(now - store_fault_->since)}});
+    store_fault_.reset();
+    state_->out.fleet_changed = true;
 }
 
 void Fleet::tick(Time now) {

@@ -91,6 +91,11 @@ public:
     void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
     bool connection_refused(const plant::VehicleId& id) const;
 
+    /// The store refused what came before; the fleet was built anew from it and serves reads until
+    /// the records it now puts out are stored.
+    void store_failed(const StoreFault& fault, Time now);
+    void store_works_again(Time now);
+
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
@@ -108,6 +113,8 @@ public:
 
 private:
     std::unique_ptr<FleetState> state_;
+    std::int64_t stored_seq_ = 0;  // newest event of the store at start
+    std::optional<StoreFault> store_fault_;
 };
 
 }  // namespace pulseline::fleet
