@@ -22,7 +22,8 @@ CREATE TEMP TABLE past AS
 WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n WHERE i < :orders)
 SELECT i, :from + i * (6 * 86400000000000 / :orders) AS at_ns,
        (SELECT id FROM vehicles ORDER BY position LIMIT 1) AS vehicle,
-       (SELECT id FROM stations ORDER BY position LIMIT 1 OFFSET i % (SELECT COUNT(*) FROM stations)) AS station
+       (SELECT id FROM stations
+        WHERE position = (SELECT MIN(position) FROM stations) + i % (SELECT COUNT(*) FROM stations)) AS station
 FROM n)sql";
 constexpr const char* kPastIds = R"sql(
 CREATE TEMP TABLE past_id AS SELECT i,
@@ -33,7 +34,7 @@ INSERT INTO orders (id, number, client_order_id, wanted_vehicle, assigned_vehicl
                     cancel_requested, pause_requested, reason_code, reason_params, created_by, created_ns,
                     started_ns, ended_ns, revision)
 SELECT id, i, 'past-' || i, vehicle, vehicle, 0, 2, CASE WHEN i % 20 = 0 THEN 'Aborted' ELSE 'Ended' END,
-       0, 0, '', '[]', 'mes', at_ns, at_ns + 1000000000, at_ns + 60000000000, 7
+       0, 0, '', '{}', 'mes', at_ns, at_ns + 1000000000, at_ns + 60000000000, 7
 FROM past JOIN past_id USING (i))sql";
 constexpr const char* kSteps = R"sql(
 INSERT INTO job_order_steps (order_id, position, station, mode, state, leg, stop, attempts)
@@ -51,7 +52,7 @@ constexpr const char* kEvents = R"sql(
 WITH RECURSIVE n(seq) AS (SELECT 1 UNION ALL SELECT seq + 1 FROM n WHERE seq < :events)
 INSERT INTO events
 SELECT seq, at_ns + seq % 10, 'job_order.state', id, id, vehicle, 'mes',
-       '[{"name":"from","value":"AllowedToStart"},{"name":"to","value":"Running"}]'
+       '{"from":"AllowedToStart","to":"Running"}'
 FROM n JOIN past ON past.i = 1 + (seq - 1) * :orders / :events JOIN past_id ON past_id.i = past.i)sql";
 
 int fill(const std::string& path, std::int64_t events, std::int64_t orders) {
@@ -157,7 +158,15 @@ int check(const std::string& path) {
              "SELECT o.id, o.state, o.client_order_id, o.cancel_requested, o.revision, "
              "COALESCE(k.key, '') AS key FROM orders o LEFT JOIN idempotency_keys k "
              "ON k.order_id = o.id");
-    Json report{{"faults", std::move(faults)}, {"orders", std::move(orders)}};
+    Json events = Json::array();
+    for (const auto& row : rows(sql,
+                                "SELECT CAST(seq AS TEXT) AS seq, type, order_id FROM events "
+                                "ORDER BY events.seq")) {
+        events.push_back({row["type"], row["order_id"]});
+    }
+    Json report{{"faults", std::move(faults)},
+                {"orders", std::move(orders)},
+                {"events", std::move(events)}};
     std::cout << report.dump() << '\n';
     return 0;
 }
