@@ -41,7 +41,8 @@ std::int64_t newest_time(soci::session& sql) {
     return std::max(
         {scalar(sql, "SELECT COALESCE((SELECT at_ns FROM events ORDER BY seq DESC LIMIT 1), 0)"),
          scalar(sql,
-                "SELECT COALESCE((SELECT created_ns FROM orders ORDER BY number DESC LIMIT 1), 0)"),
+                "SELECT COALESCE((SELECT MAX(created_ns, started_ns, ended_ns) FROM orders ORDER "
+                "BY number DESC LIMIT 1), 0)"),
          scalar(sql, "SELECT COALESCE(MAX(ended_ns), 0) FROM orders WHERE ended_ns > 0"),
          scalar(sql,
                 "SELECT COALESCE((SELECT at_ns FROM stop_records ORDER BY id DESC LIMIT 1), 0)"),

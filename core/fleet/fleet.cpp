@@ -10,6 +10,8 @@ namespace {
 // Final orders stay in memory for this long (idempotent repeats, lists); all of them are in the
 // store.
 constexpr Duration kKeepFinal = std::chrono::hours(24 * 7);
+// A walk over all keys of a week, so not at every tick.
+constexpr Duration kSweepKeys = std::chrono::hours(1);
 
 }  // namespace
 
@@ -86,8 +88,11 @@ void Fleet::tick(Time now) {
     resend(*state_, now);
     dispatch(*state_, now);
     state_->orders.forget_ended_before(now - kKeepFinal);
-    std::erase_if(state_->idempotency,
-                  [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
+    if (now - state_->keys_swept >= kSweepKeys) {
+        state_->keys_swept = now;
+        std::erase_if(state_->idempotency,
+                      [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
+    }
 }
 
 Outputs Fleet::take_outputs(Time now) {

@@ -48,7 +48,10 @@ std::optional<JobOrder> Fleet::order(JobOrderId id) const {
     return order ? std::optional<JobOrder>(*order) : std::nullopt;
 }
 
-std::vector<JobOrder> Fleet::orders() const { return state_->orders.newest_first(); }
+std::vector<JobOrder> Fleet::orders() const {
+    constexpr std::size_t kRecent = 100;  // the store has the rest
+    return state_->orders.newest_first(kRecent);
+}
 
 std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now) const {
     const VehicleRun* run = state_->find(id);

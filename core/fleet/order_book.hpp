@@ -33,7 +33,8 @@ public:
     /// Forgets orders that ended before; the store keeps them.
     void forget_ended_before(Time time);
 
-    std::vector<JobOrder> newest_first() const;
+    /// All open ones and the newest `finished` of the others.
+    std::vector<JobOrder> newest_first(std::size_t finished) const;
 
 private:
     std::map<JobOrderId, JobOrder> orders_;

@@ -83,6 +83,7 @@ struct FleetState {
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     traffic::TileMap tiles;
+    Time keys_swept;  // when old idempotency keys were last forgotten
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;

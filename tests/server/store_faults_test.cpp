@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "tests/db/fault_vfs.hpp"
+#include "tests/db/temp_folder.hpp"
+#include "tests/server/stored_fleet.hpp"
+
+namespace pulseline::server::testing {
+namespace {
+
+using db::testing::FaultVfs;
+using Kind = FaultVfs::Kind;
+
+constexpr int kSteps = 200;
+constexpr Time kStart = time_from_ns(1'800'000'000'000'000'000);
+
+std::int64_t number(soci::session& sql, const std::string& query) {
+    std::int64_t value = 0;
+    sql << query, soci::into(value);
+    return value;
+}
+
+/// What a clean file system finds in the file, held against what was answered.
+void expect_kept(const std::string& path, const Ledger& ledger) {
+    db::Database database(path);
+    auto& sql = database.sql();
+    std::string integrity;
+    sql << "PRAGMA integrity_check", soci::into(integrity);
+    EXPECT_EQ(integrity, "ok");
+    EXPECT_EQ(number(sql, "SELECT COUNT(*) FROM events"),
+              number(sql, "SELECT MAX(seq) FROM events"));
+    EXPECT_GE(number(sql, "SELECT MAX(seq) FROM events"), ledger.last_event);
+    EXPECT_EQ(ledger.gaps, 0);
+    std::map<std::string, std::int64_t> revisions;
+    for (const auto& order : db::FleetStore(database).load().orders) {
+        revisions[order.id.str()] = order.revision;
+    }
+    std::size_t accepted = 0;
+    for (const auto& [key, asked] : ledger.orders) {
+        if (!asked.accepted) continue;
+        ++accepted;
+        const auto found = revisions.find(asked.order.str());
+        ASSERT_NE(found, revisions.end()) << "false acknowledgement: " << key << " is not stored";
+        EXPECT_GE(found->second, asked.revision) << "false acknowledgement of a change of " << key;
+    }
+    EXPECT_EQ(revisions.size(), accepted) << "an order that was refused is stored";
+}
+
+struct Run {
+    std::vector<FaultVfs::Call> calls;
+    bool hit = false;
+};
+
+/// The whole scenario with one fault in it; ends some steps after the server works again.
+Run run(const FaultVfs::Plan& plan) {
+    const db::TempFolder folder;
+    const std::string path = folder.file("p.db");
+    Ledger ledger;
+    Run run;
+    FaultVfs::begin(plan);
+    std::unique_ptr<StoredFleet> server;
+    try {
+        server = std::make_unique<StoredFleet>(path, ledger, kStart);
+    } catch (const db::Error&) {
+        // It says so and does not start; the person tries again.
+        FaultVfs::heal();
+        server = std::make_unique<StoredFleet>(path, ledger, kStart);
+    }
+    int left = kSteps;
+    for (int step = 1; step <= kSteps && left > 0; ++step, --left) {
+        server->step(step);
+        if (!run.hit && FaultVfs::faults() > 0) {
+            run.hit = true;
+            FaultVfs::heal();
+            EXPECT_TRUE(server->works_again());
+            left = std::min(left, 6);
+        }
+    }
+    if (plan.at == 0) run.calls = FaultVfs::calls();
+    server.reset();  // what fails while it closes is part of it
+    run.hit = run.hit || FaultVfs::faults() > 0;
+    FaultVfs::heal();
+    expect_kept(path, ledger);
+    return run;
+}
+
+/// The kinds take turns from call to call; PULSELINE_FAULT_KINDS=all fails every call in each way.
+std::vector<FaultVfs::Plan> plans_for(std::int64_t at, FaultVfs::Call call) {
+    if (call != FaultVfs::Call::kWrite) return {{at, at % 2 == 0 ? 1 : 12, Kind::kIo}};
+    if (std::getenv("PULSELINE_FAULT_KINDS")) {
+        return {{at, 1, Kind::kIo}, {at, 12, Kind::kFull}, {at, 1, Kind::kShortWrite}};
+    }
+    const Kind kind = at % 3 == 0 ? Kind::kIo : at % 3 == 1 ? Kind::kFull : Kind::kShortWrite;
+    return {{at, at % 2 == 0 ? 1 : 12, kind}};
+}
+
+TEST(StoreFaults, EveryCallOfTwoHundredStepsMayFailAndNothingIsFalselyAcknowledged) {
+    FaultVfs::install();
+    const auto clean = run({});
+    ASSERT_FALSE(::testing::Test::HasFailure());
+    ASSERT_GT(clean.calls.size(), 500u) << "the scenario commits in most steps";
+
+    std::cout << clean.calls.size() << " calls" << std::endl;
+    std::size_t runs = 0;
+    std::size_t hits = 0;
+    for (std::int64_t at = 1; at <= static_cast<std::int64_t>(clean.calls.size()); ++at) {
+        for (const auto& plan : plans_for(at, clean.calls[static_cast<std::size_t>(at - 1)])) {
+            SCOPED_TRACE("call " + std::to_string(at) + ", " + std::to_string(plan.calls) +
+                         " calls, kind " + std::to_string(static_cast<int>(plan.kind)));
+            ++runs;
+            if (run(plan).hit) ++hits;
+            ASSERT_FALSE(::testing::Test::HasFailure());
+        }
+    }
+    std::cout << clean.calls.size() << " calls, " << runs << " runs, " << hits << " with a fault\n";
+    // Which commits share a batch is up to the threads, so a number may be another call's.
+    EXPECT_GE(hits, runs * 9 / 10);
+}
+
+}  // namespace
+}  // namespace pulseline::server::testing
