@@ -23,7 +23,7 @@ std::string cause_of(const std::exception_ptr& error) {
 
 Error store_unavailable(const std::optional<fleet::StoreFault>& fault) {
     std::string what = "The database cannot be written now, so nothing was changed. ";
-    Params params;
+    Params params{{"retry_after_s", std::int64_t{2}}};
     if (fault) {
         params.push_back({"cause", fault->cause});
         if (fault->cause == "disk_full") {

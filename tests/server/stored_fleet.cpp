@@ -5,22 +5,27 @@ namespace {
 
 constexpr const char* kPerson = "tester";
 
+const plant::Plant& the_plant() {
+    static const plant::Plant plant = fleet::testing::small_plant();  // vehicles outlive servers
+    return plant;
+}
+
 }  // namespace
 
-StoredFleet::StoredFleet(const std::string& path, Ledger& ledger, Time now)
-    : ledger_(ledger), database_(path), store_(database_) {
+StoredFleet::StoredFleet(const std::string& path, Ledger& ledger, Time now, Vehicles vehicles)
+    : ledger_(ledger), vehicles_(std::move(vehicles)), database_(path), store_(database_) {
     auto stored = store_.load();
     clock_.at = std::max(to_ns(now), to_ns(stored.last_time));
-    for (const auto& vehicle : plant_.vehicles) {
-        const auto home = plant::find_station(plant_, vehicle.home)->pose;
-        vehicles_.emplace(vehicle.id, fleet::testing::FakeVehicle(plant_, vehicle.id, home));
+    for (const auto& vehicle : the_plant().vehicles) {
+        const auto home = plant::find_station(the_plant(), vehicle.home)->pose;
+        vehicles_.emplace(vehicle.id, fleet::testing::FakeVehicle(the_plant(), vehicle.id, home));
     }
     const auto connect = [this] {
         for (const auto& [id, vehicle] : vehicles_) {
             runtime_->input([id = id](fleet::Fleet& f, Time at) { f.vehicle_connected(id, at); });
         }
     };
-    FleetRuntime::Ports ports{plant_, store_, clock_, metrics_, {}, {}, connect};
+    FleetRuntime::Ports ports{the_plant(), store_, clock_, metrics_, {}, {}, connect};
     ports.deliver = [this](FleetRuntime::Job job) {
         const std::lock_guard lock(mutex_);
         delivered_.push_back(std::move(job));

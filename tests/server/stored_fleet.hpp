@@ -33,7 +33,10 @@ struct Ledger {
 /// thread is its network thread. Every choice comes from the seed of a step.
 class StoredFleet {
 public:
-    StoredFleet(const std::string& path, Ledger& ledger, Time now);
+    using Vehicles = std::map<plant::VehicleId, fleet::testing::FakeVehicle>;
+
+    /// `vehicles`: where an earlier server left them; empty: at home.
+    StoredFleet(const std::string& path, Ledger& ledger, Time now, Vehicles vehicles = {});
     ~StoredFleet();
 
     /// One of the things people and vehicles do; every one is waited for.
@@ -42,7 +45,7 @@ public:
     bool works_again();
     void pass(Duration time) { clock_.at += time.count(); }
     Time now() const { return clock_.now(); }
-    bool writable() const { return runtime_->writable(); }
+    const Vehicles& vehicles() const { return vehicles_; }
 
 private:
     struct ManualClock : Clock {
@@ -60,10 +63,9 @@ private:
     void let_go();
 
     Ledger& ledger_;
-    plant::Plant plant_ = fleet::testing::small_plant();
     ManualClock clock_;
     Metrics metrics_;
-    std::map<plant::VehicleId, fleet::testing::FakeVehicle> vehicles_;
+    Vehicles vehicles_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<FleetRuntime::Job> delivered_;
