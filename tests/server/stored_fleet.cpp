@@ -15,6 +15,9 @@ const plant::Plant& the_plant() {
 StoredFleet::StoredFleet(const std::string& path, Ledger& ledger, Time now, Vehicles vehicles)
     : ledger_(ledger), vehicles_(std::move(vehicles)), database_(path), store_(database_) {
     auto stored = store_.load();
+    // A start that failed may have stored more than it could tell; never less than was told.
+    if (stored.last_event_seq < ledger_.last_event) ++ledger_.gaps;
+    ledger_.last_event = stored.last_event_seq;
     clock_.at = std::max(to_ns(now), to_ns(stored.last_time));
     for (const auto& vehicle : the_plant().vehicles) {
         const auto home = plant::find_station(the_plant(), vehicle.home)->pose;
@@ -65,8 +68,7 @@ auto StoredFleet::ask(F f) -> Result<std::invoke_result_t<F, fleet::Fleet&, Time
 
 void StoredFleet::publish(const FleetRuntime::Published& batch) {
     for (const auto& event : batch.outputs.records.events) {
-        // The start of a server publishes what it stored at once; nothing else may be missing.
-        if (ledger_.last_event != 0 && event.seq != ledger_.last_event + 1) ++ledger_.gaps;
+        if (event.seq != ledger_.last_event + 1) ++ledger_.gaps;
         ledger_.last_event = event.seq;
     }
     for (const auto& message : batch.outputs.messages) {
