@@ -1,4 +1,4 @@
-// kill -9 of the server at 8 and of an agent at 20 points of a drive: no acknowledged order is lost or doubled,
+// kill -9 of the server at 8 and of an agent at 14 points of a drive: no acknowledged order is lost or doubled,
 // nothing moves past its released base until a person allows it, and after that the drive ends.
 // The two kinds of death run side by side, each with a server, a database and a vehicle of its own.
 import assert from "node:assert/strict";
@@ -7,7 +7,7 @@ import { Client } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
 
 const SERVER_POINTS = Number(process.env.PULSELINE_KILL_POINTS ?? 8);  // load.test.mjs kills it far more often
-const AGENT_POINTS = Number(process.env.PULSELINE_KILL_POINTS ?? 20);
+const AGENT_POINTS = Number(process.env.PULSELINE_KILL_POINTS ?? 14);
 const VEHICLE = "TP-01";
 // A body brakes within what it was released; rounding of poses in the log aside.
 const PAST_BASE_M = 0.05;

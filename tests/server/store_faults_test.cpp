@@ -16,7 +16,7 @@ using db::testing::FaultVfs;
 using Kind = FaultVfs::Kind;
 
 constexpr int kSteps = 200;
-constexpr int kStepsOfALife = 20;
+constexpr int kStepsOfALife = 10;
 constexpr Time kStart = time_from_ns(1'800'000'000'000'000'000);
 
 std::int64_t number(soci::session& sql, const std::string& query) {
@@ -51,7 +51,7 @@ void expect_kept(const std::string& path, const Ledger& ledger) {
     EXPECT_EQ(revisions.size(), accepted) << "an order that was refused is stored";
 }
 
-/// The scenario's server starts anew every twenty steps, so that a run need not begin at the first.
+/// The scenario's server starts anew every ten steps, so that a run need not begin at the first.
 struct Begin {
     std::string file;
     Ledger ledger;
