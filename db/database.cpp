@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "core/base/crash_point.hpp"
 #include "migrations.hpp"
 
 namespace pulseline::db {
@@ -28,7 +29,7 @@ void open(soci::session& sql, const std::string& path, const std::string& option
                     path + ": this path cannot be used; name a file without double quotes.");
     }
     try {
-        sql.open(soci::sqlite3, "dbname=\"" + path + "\" timeout=10" + options);
+        sql.open(soci::sqlite3, "dbname=\"" + path + "\" timeout=1" + options);
         // Nobody maps the file: the WAL bug of 3.40.1 and torn reads after truncation are not worth
         // it.
         sql << "PRAGMA mmap_size = 0";
@@ -55,15 +56,31 @@ void refuse_foreign(soci::session& sql, const std::string& path) {
                 path + ": this is a database of another program; name another file.");
 }
 
+sqlite_api::sqlite3* handle(soci::session& sql) {
+    return static_cast<soci::sqlite3_session_backend*>(sql.get_backend())->conn_;
+}
+
 /// Several statements: SOCI prepares only the first one of a text.
 void run_script(soci::session& sql, const char* script) {
-    auto* const connection = static_cast<soci::sqlite3_session_backend*>(sql.get_backend())->conn_;
     char* message = nullptr;
-    if (sqlite_api::sqlite3_exec(connection, script, nullptr, nullptr, &message) != SQLITE_OK) {
+    if (sqlite_api::sqlite3_exec(handle(sql), script, nullptr, nullptr, &message) != SQLITE_OK) {
         const std::string what = message == nullptr ? "unknown error" : message;
         sqlite_api::sqlite3_free(message);
         throw soci::soci_error(what);
     }
+}
+
+constexpr int kCheckpointPages = 1000;  // SQLite's own default
+
+/// Does what SQLite does by itself, so that tests can die right before and after it. A checkpoint
+/// that fails loses nothing: the log keeps what was committed.
+int write_back(void*, sqlite_api::sqlite3* connection, const char* schema, int pages) {
+    if (pages < kCheckpointPages) return SQLITE_OK;
+    crash_point(CrashPoint::kCheckpointBefore);
+    sqlite_api::sqlite3_wal_checkpoint_v2(connection, schema, SQLITE_CHECKPOINT_PASSIVE, nullptr,
+                                          nullptr);
+    crash_point(CrashPoint::kCheckpointAfter);
+    return SQLITE_OK;
 }
 
 }  // namespace
@@ -105,13 +122,16 @@ Database::Database(const std::string& path) : path_(path) {
             }
         }
         sql_ << "PRAGMA synchronous = FULL";
+        sqlite_api::sqlite3_wal_hook(handle(sql_), write_back, nullptr);
+        crash_point(CrashPoint::kStartBeforeMigration);
         migrate();
+        crash_point(CrashPoint::kStartAfterMigration);
     } catch (const soci::soci_error& error) {
         throw Error(Error::Kind::kUnusable, path_ + ": " + error.what() + ". " + kRemedy);
     }
 }
 
-Database::~Database() = default;
+Database::~Database() { crash_point(CrashPoint::kStopBeforeClose); }
 
 int Database::version() { return pragma(sql_, "user_version"); }
 
@@ -126,6 +146,7 @@ void Database::migrate() {
     for (int next = found; next < kVersion; ++next) {
         soci::transaction transaction(sql_);
         run_script(sql_, kMigrations[static_cast<std::size_t>(next)]);
+        crash_point(CrashPoint::kStartInMigration);
         sql_ << "PRAGMA application_id = " + std::to_string(kApplicationId);
         sql_ << "PRAGMA user_version = " + std::to_string(next + 1);
         transaction.commit();
@@ -134,13 +155,28 @@ void Database::migrate() {
 
 void Database::transaction(const std::function<void()>& work) {
     try {
+        crash_point(CrashPoint::kCommitBeforeBegin);
         soci::transaction transaction(sql_);
+        crash_point(CrashPoint::kCommitAfterBegin);
         work();
+        crash_point(CrashPoint::kCommitBeforeCommit);
         transaction.commit();
     } catch (const soci::soci_error& error) {
-        throw Error(Error::Kind::kFailed, path_ + ": nothing was stored: " + error.what() +
-                                              ". Check the free space and the disk.");
+        throw failure(path_ + ": nothing was stored", error);
     }
+    crash_point(CrashPoint::kCommitAfterCommit);
+}
+
+Error failure(const std::string& path, const soci::soci_error& error) {
+    const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&error);
+    // The lower byte is the kind; what is above tells where it happened.
+    const int code = sqlite ? sqlite->result() & 0xff : SQLITE_ERROR;
+    const std::string what = path + ": " + error.what() + ". ";
+    if (code == SQLITE_FULL) return {Error::Kind::kFull, what + "Free space on its disk."};
+    if (code == SQLITE_READONLY || code == SQLITE_PERM || code == SQLITE_CANTOPEN) {
+        return {Error::Kind::kReadOnly, what + "Make the file and its folder writable again."};
+    }
+    return {Error::Kind::kFailed, what + "Check the free space and the disk."};
 }
 
 ReadOnly::ReadOnly(const std::string& path) : path_(path) { open(sql_, path, " readonly=true"); }

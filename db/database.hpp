@@ -62,13 +62,16 @@ private:
     soci::session sql_;
 };
 
+/// What SQLite refused as db::Error: full disk and write protection are kinds of their own.
+Error failure(const std::string& path, const soci::soci_error& error);
+
 /// Runs work that only reads; SOCI's exceptions become db::Error.
 template <class Work>
 auto reading(const std::string& path, Work work) {
     try {
         return work();
     } catch (const soci::soci_error& error) {
-        throw Error(Error::Kind::kFailed, path + ": " + error.what());
+        throw failure(path, error);
     }
 }
 

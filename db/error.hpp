@@ -9,7 +9,7 @@ namespace pulseline::db {
 /// and the remedy. Expected outcomes (no such row) are no errors.
 class Error : public std::runtime_error {
 public:
-    enum class Kind { kLocked, kUnusable, kTooNew, kFailed, kBadValue };
+    enum class Kind { kLocked, kUnusable, kTooNew, kFailed, kFull, kReadOnly, kBadValue };
 
     Error(Kind kind, const std::string& what) : std::runtime_error(what), kind_(kind) {}
     Kind kind() const { return kind_; }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/crash_point.hpp"
 #include "db/fleet_rows.hpp"
 #include "db/names.hpp"
 #include "db/order_reader.hpp"
@@ -56,10 +57,59 @@ constexpr const char* kDropSteps =
     "DELETE FROM job_order_steps WHERE order_id = :order_id AND position >= :count";
 constexpr const char* kDropKeys = "DELETE FROM idempotency_keys WHERE at_ns < :before";
 
+// Open orders and those of the last days, each part by an index of its own.
+constexpr const char* kKeptOrders =
+    "SELECT id FROM orders WHERE state IN ('NotAllowedToStart', 'AllowedToStart', 'Running', "
+    "'Interrupted') UNION SELECT id FROM orders WHERE ended_ns > 0 AND ended_ns >= :since";
+
 std::int64_t scalar(soci::session& sql, const std::string& query) {
     std::int64_t value = 0;
     sql << query, soci::into(value);
     return value;
+}
+
+/// Newest time of all tables, from the ends of their indexes: what is stored of an order later than
+/// its creation and before its end comes with an event.
+std::int64_t newest_time(soci::session& sql) {
+    return std::max(
+        {scalar(sql, "SELECT COALESCE((SELECT at_ns FROM events ORDER BY seq DESC LIMIT 1), 0)"),
+         scalar(sql,
+                "SELECT COALESCE((SELECT MAX(created_ns, started_ns, ended_ns) FROM orders ORDER "
+                "BY number DESC LIMIT 1), 0)"),
+         scalar(sql, "SELECT COALESCE(MAX(ended_ns), 0) FROM orders WHERE ended_ns > 0"),
+         scalar(sql,
+                "SELECT COALESCE((SELECT at_ns FROM stop_records ORDER BY id DESC LIMIT 1), 0)"),
+         scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys")});
+}
+
+/// Two passes in the same order: a query for the steps of each order would take ten times as long.
+std::vector<fleet::JobOrder> load_orders(soci::session& sql, std::int64_t since_ns) {
+    std::vector<fleet::JobOrder> orders;
+    OrderRow order;
+    Statement list(sql,
+                   std::string("SELECT ") + OrderRow::kColumns + " FROM orders WHERE id IN (" +
+                       kKeptOrders + ") ORDER BY id",
+                   std::tie(since_ns), order.fields());
+    for (list.start(); list.fetch();) orders.push_back(order.get());
+
+    StepRow step;
+    Statement steps(sql,
+                    std::string("SELECT ") + StepRow::kColumns +
+                        " FROM job_order_steps WHERE order_id IN (" + kKeptOrders +
+                        ") ORDER BY order_id, position",
+                    std::tie(since_ns), step.fields());
+    auto of = orders.begin();
+    std::string id;
+    for (steps.start(); steps.fetch();) {
+        if (step.order_id != id) {
+            id = step.order_id;
+            while (of != orders.end() && of->id.str() != id) ++of;
+            if (of == orders.end()) break;
+        }
+        of->steps.push_back(step.get());
+    }
+    std::ranges::sort(orders, {}, &fleet::JobOrder::number);
+    return orders;
 }
 
 }  // namespace
@@ -117,12 +167,14 @@ void FleetStore::put(const fleet::JobOrder& order) {
     Statements& s = *statements_;
     s.order.set(order);
     s.put_order.run();
+    crash_point(CrashPoint::kCommitAfterOrder);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         s.step.set(s.order.id, i, order.steps[i]);
         s.put_step.run();
     }
     s.step_count = static_cast<std::int64_t>(order.steps.size());
     s.drop_steps.run();
+    crash_point(CrashPoint::kCommitAfterSteps);
 }
 
 void FleetStore::put_standing(const fleet::Records& records) {
@@ -146,10 +198,12 @@ void FleetStore::commit(const fleet::Records& records) {
         for (const auto& vehicle : records.vehicles) {
             s.vehicle.set(vehicle);
             s.put_vehicle.run();
+            crash_point(CrashPoint::kCommitAfterVehicle);
         }
         for (const auto& stop : records.stops) {
             s.stop.set(stop);
             s.put_stop.run();
+            crash_point(CrashPoint::kCommitAfterStop);
         }
         for (const auto& event : records.events) {
             if (event.seq != seq + 1) {
@@ -160,6 +214,7 @@ void FleetStore::commit(const fleet::Records& records) {
             seq = event.seq;
             s.event.set(event);
             s.put_event.run();
+            crash_point(CrashPoint::kCommitAfterEvent);
         }
         for (const auto& key : records.idempotency) {
             s.key.client = key.client;
@@ -168,6 +223,7 @@ void FleetStore::commit(const fleet::Records& records) {
             s.key.order_id = stored_id(key.order);
             s.key.at_ns = to_ns(key.at);
             s.put_key.run();
+            crash_point(CrashPoint::kCommitAfterKey);
             s.keys_before = s.key.at_ns - kKept_ns;
             s.drop_keys.run();
         }
@@ -190,27 +246,12 @@ fleet::StoredFleet FleetStore::load() {
         fleet::StoredFleet stored;
         stored.last_event_seq = scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events");
         stored.last_order_number = scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders");
-        const std::int64_t newest_ns = std::max(
-            {scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM events"),
-             scalar(sql,
-                    "SELECT COALESCE(MAX(MAX(created_ns, started_ns, ended_ns)), 0) FROM orders"),
-             scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM stop_records"),
-             scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys")});
+        const std::int64_t newest_ns = newest_time(sql);
         stored.last_time = time_from_ns(newest_ns);
         std::int64_t since_ns = newest_ns - kKept_ns;
 
-        OrderRow order;
-        StepReader steps(sql);
-        Statement orders(sql,
-                         std::string("SELECT ") + OrderRow::kColumns +
-                             " FROM orders WHERE state NOT IN ('Ended', 'Aborted') OR "
-                             "ended_ns >= :since ORDER BY number",
-                         std::tie(since_ns), order.fields());
-        for (orders.start(); orders.fetch();) {
-            stored.orders.push_back(order.get());
-            stored.orders.back().steps = steps.steps_of(order.id);
-        }
-
+        stored.orders = load_orders(sql, since_ns);
+        crash_point(CrashPoint::kStartInLoad);
         VehicleRow vehicle;
         Statement vehicles(
             sql, std::string("SELECT ") + VehicleRow::kColumns + " FROM vehicles_state ORDER BY id",

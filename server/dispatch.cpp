@@ -10,7 +10,6 @@ using api::Response;
 
 Response refused(const Error& error, const Request& request) {
     if (error.reason.code == "internal") return api::internal_error(request);
-    if (error.reason.code == "store_unavailable") return api::unavailable(request);
     return api::problem(error, request);
 }
 

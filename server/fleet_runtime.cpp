@@ -2,6 +2,7 @@
 
 #include <future>
 
+#include "core/base/crash_point.hpp"
 #include "server/log.hpp"
 
 namespace pulseline::server {
@@ -11,13 +12,6 @@ constexpr auto kTick = std::chrono::milliseconds(50);
 constexpr auto kRetryStore = std::chrono::seconds(1);
 constexpr std::size_t kMaxQueued = 10'000;  // commands that wait; more are refused
 
-Error store_unavailable() {
-    return {Errc::kUnavailable,
-            {"store_unavailable", {}},
-            "The database cannot be written now, so nothing was changed. Free disk space if it is "
-            "full, then try again.",
-            {}};
-}
 Error overloaded() {
     return {Errc::kUnavailable,
             {"overloaded", {}},
@@ -29,16 +23,6 @@ Error internal() {
             {"internal", {}},
             "The server met a fault of its own and changed nothing; its log has the request id.",
             {}};
-}
-
-std::string what(const std::exception_ptr& error) {
-    try {
-        std::rethrow_exception(error);
-    } catch (const std::exception& e) {
-        return e.what();
-    } catch (...) {
-        return "unknown exception";
-    }
 }
 
 template <class T>
@@ -67,7 +51,9 @@ Status FleetRuntime::start(fleet::StoredFleet stored) {
                                             ports_.clock.now());
     Published first = take_published();
     try {
+        crash_point(CrashPoint::kStartBeforeFirstCommit);
         if (!first.outputs.records.empty()) ports_.store.commit(first.outputs.records);
+        crash_point(CrashPoint::kStartAfterFirstCommit);
     } catch (const std::exception& e) {
         return fail(Errc::kUnavailable, "store_unavailable",
                     std::string("the database cannot be written: ") + e.what() +
@@ -102,7 +88,7 @@ void FleetRuntime::submit(bool reading, Task task) {
         const std::lock_guard lock(mutex_);
         auto& queue = reading ? reads_ : commands_;
         if (stopping_) {
-            refused = store_unavailable();
+            refused = store_unavailable(std::nullopt);
         } else if (task.answer && queue.size() >= kMaxQueued) {
             refused = overloaded();
         } else {
@@ -147,7 +133,11 @@ void FleetRuntime::fleet_loop() {
             refuse(commands);
             rebuild();
         } else if (degraded_ && !ending && ports_.clock.now() >= retry_at_) {
-            rebuild();
+            if (fleet_) {
+                try_store();
+            } else {
+                rebuild();
+            }
         }
         handle(commands, reads);
         if (ending) return;
@@ -157,72 +147,78 @@ void FleetRuntime::fleet_loop() {
 void FleetRuntime::handle(std::deque<Task>& commands, std::deque<Task>& reads) {
     Commit commit;
     bool broken = false;
-    if (degraded_) {
+    const bool read_only = degraded_;
+    if (read_only) {
         refuse(commands);
         if (!fleet_) refuse(reads);
-        run_all(reads, commit.answers, broken);
-        if (!commit.answers.empty()) {
-            ports_.deliver([answers = std::move(commit.answers)] {
-                for (const auto& answer : answers) answer(nullptr);
-            });
+    } else {
+        for (auto& task : commands) {
+            if (!run(task)) {
+                broken = true;
+            } else if (task.answer) {
+                commit.answers.push_back(std::move(task.answer));
+            }
         }
-        return;
+        commands.clear();
+        const Time now = ports_.clock.now();
+        if (now - last_tick_ >= kTick) {
+            last_tick_ = now;
+            fleet_->tick(now);
+        }
+        commit.batch = take_published();
+        crash_point(CrashPoint::kBatchHandled);
     }
-    run_all(commands, commit.answers, broken);
-    const Time now = ports_.clock.now();
-    if (now - last_tick_ >= kTick) {
-        last_tick_ = now;
-        fleet_->tick(now);
-    }
-    commit.batch = take_published();
     // Reads come last, so that they see exactly what their batch commits; one that throws changed
     // nothing.
-    bool ignored = false;
-    run_all(reads, commit.answers, ignored);
+    for (auto& task : reads) {
+        if (run(task)) commit.reads.push_back(std::move(task));
+    }
+    reads.clear();
+    const auto& out = commit.batch.outputs;
+    const bool nothing = out.records.empty() && out.messages.empty() && out.vehicles.empty() &&
+                         out.stations.empty() && !commit.batch.fleet && commit.answers.empty() &&
+                         commit.reads.empty();
+    if (nothing && !broken) return;
     bool lost = false;
     {
         const std::lock_guard lock(mutex_);
         if (broken) must_rebuild_ = true;
+        // What a fleet that is to be built anew has shown is as lost as what it has decided.
         lost = must_rebuild_;
-        const auto& out = commit.batch.outputs;
-        const bool nothing = out.records.empty() && out.messages.empty() && out.vehicles.empty() &&
-                             out.stations.empty() && !commit.batch.fleet && commit.answers.empty();
-        if (!lost && !nothing) commits_.push_back(std::move(commit));
+        if (!lost && !read_only) commits_.push_back(std::move(commit));
     }
     if (lost) {
         std::vector<Commit> one;
         one.push_back(std::move(commit));
         give_up(std::move(one));
+    } else if (read_only) {
+        deliver(std::move(commit));
     } else {
         commit_wake_.notify_one();
     }
 }
 
-void FleetRuntime::run_all(std::deque<Task>& tasks, std::vector<Answer>& answers, bool& broken) {
-    for (auto& task : tasks) {
-        try {
-            task.run(*fleet_, ports_.clock.now());
-            if (task.answer) answers.push_back(std::move(task.answer));
-        } catch (const std::exception& e) {
-            // Half a change may be in the fleet: nothing of this batch may be kept.
-            log::error("fleet_task_threw", {{"what", e.what()}});
-            broken = true;
-            if (task.answer) {
-                ports_.deliver([answer = std::move(task.answer)] {
-                    const Error error = internal();
-                    answer(&error);
-                });
-            }
+bool FleetRuntime::run(Task& task) {
+    try {
+        task.run(*fleet_, ports_.clock.now());
+        return true;
+    } catch (const std::exception& e) {
+        // Half a change may be in the fleet: nothing of this batch may be kept.
+        log::error("fleet_task_threw", {{"what", e.what()}});
+        if (task.answer) {
+            ports_.deliver([answer = std::move(task.answer)] {
+                const Error error = internal();
+                answer(&error);
+            });
         }
+        return false;
     }
-    tasks.clear();
 }
 
 void FleetRuntime::refuse(std::deque<Task>& tasks) {
     for (auto& task : tasks) {
         if (!task.answer) continue;
-        ports_.deliver([answer = std::move(task.answer)] {
-            const Error error = store_unavailable();
+        ports_.deliver([answer = std::move(task.answer), error = store_unavailable(store_fault())] {
             answer(&error);
         });
     }
@@ -233,7 +229,7 @@ FleetRuntime::Published FleetRuntime::take_published() {
     Published batch;
     const Time now = ports_.clock.now();
     batch.outputs = fleet_->take_outputs(now);
-    if (batch.outputs.fleet_changed) batch.fleet = fleet_->view(now);
+    if (batch.outputs.fleet_changed) batch.fleet = last_view_ = fleet_->view(now);
     return batch;
 }
 
@@ -243,23 +239,73 @@ void FleetRuntime::rebuild() {
     retry_at_ = ports_.clock.now() + kRetryStore;
     std::optional<fleet::StoredFleet> stored;
     if (const auto error = write_and_wait([&] { stored = ports_.store.load(); })) {
-        log::error("store_unreadable", {{"what", what(error)}});
+        note_fault(error);
         fleet_.reset();
+        show_fault();
         return;
     }
-    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(*stored), id_seed_++,
-                                            ports_.clock.now());
-    Published first = take_published();
-    if (const auto error = write_and_wait([&] { ports_.store.commit(first.outputs.records); })) {
-        log::error("store_unwritable", {{"what", what(error)}});
-        return;  // readable: this fleet answers reads until the next try
+    build_fleet(std::move(*stored));
+    try_store();
+    if (degraded_) show_fault();
+}
+
+void FleetRuntime::build_fleet(fleet::StoredFleet stored) {
+    const Time now = ports_.clock.now();
+    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now);
+    if (const auto fault = store_fault()) fleet_->store_failed(*fault, now);
+    unstored_ = take_published();
+}
+
+/// Stores what the fleet built anew has put out. REQUIRES: fleet_, which answers reads until then.
+void FleetRuntime::try_store() {
+    retry_at_ = ports_.clock.now() + kRetryStore;
+    const auto write = [&] { ports_.store.commit(unstored_.outputs.records); };
+    if (const auto error = write_and_wait(write)) {
+        // One that was good for reads only has to say now why it takes no commands.
+        const bool first = !store_fault();
+        note_fault(error);
+        if (first) {
+            fleet_.reset();
+            retry_at_ = {};
+        }
+        return;
     }
+    {
+        const std::lock_guard lock(mutex_);
+        fault_.reset();
+    }
+    fleet_->store_works_again(ports_.clock.now());
+    ports_.metrics.read_only = 0;
     degraded_ = false;
     log::warn("fleet_rebuilt");
     Commit commit;
-    commit.batch = std::move(first);
+    commit.batch = std::exchange(unstored_, {});
+    commit.batch.fleet = fleet_->view(ports_.clock.now());
     deliver(std::move(commit));
     ports_.deliver(ports_.rebuilt);
+}
+
+std::optional<fleet::StoreFault> FleetRuntime::store_fault() const {
+    const std::lock_guard lock(mutex_);
+    return fault_;
+}
+
+void FleetRuntime::note_fault(const std::exception_ptr& error) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (fault_) return;  // one alarm until the store works again
+        fault_ = fleet::StoreFault{cause_of(error), ports_.clock.now()};
+    }
+    ports_.metrics.read_only = 1;
+    log::error("read_only", {{"cause", cause_of(error)}, {"what", what(error)}});
+}
+
+/// Tells the dashboards at once; the event of it follows when it can be stored.
+void FleetRuntime::show_fault() {
+    Commit commit;
+    commit.batch.fleet = fleet_ ? fleet_->view(ports_.clock.now()) : last_view_;
+    commit.batch.fleet->store_fault = store_fault();
+    deliver(std::move(commit));
 }
 
 std::exception_ptr FleetRuntime::write_and_wait(Job job) {
@@ -313,6 +359,7 @@ void FleetRuntime::commit_loop() {
 bool FleetRuntime::commit_group(std::vector<Commit> group, bool good) {
     if (group.empty()) return good;
     if (good && store(group)) {
+        crash_point(CrashPoint::kBatchBeforeRelease);
         for (auto& commit : group) deliver(std::move(commit));
         return true;
     }
@@ -342,7 +389,7 @@ bool FleetRuntime::store(const std::vector<Commit>& group) {
     try {
         ports_.store.commit(records);
     } catch (...) {
-        log::error("commit_failed", {{"what", what(std::current_exception())}});
+        note_fault(std::current_exception());
         ports_.metrics.commit_failed();
         return false;
     }
@@ -355,18 +402,29 @@ bool FleetRuntime::store(const std::vector<Commit>& group) {
 void FleetRuntime::deliver(Commit commit) {
     auto shared = std::make_shared<Commit>(std::move(commit));
     ports_.deliver([this, shared] {
+        crash_point(CrashPoint::kReleaseBeforeMessages);
         ports_.publish(std::move(shared->batch));
-        for (const auto& answer : shared->answers) answer(nullptr);
+        crash_point(CrashPoint::kReleaseBeforeAnswers);
+        for (const auto& answer : shared->answers) {
+            answer(nullptr);
+            crash_point(CrashPoint::kReleaseBetweenAnswers);
+        }
+        for (const auto& read : shared->reads) {
+            if (read.answer) read.answer(nullptr);
+        }
+        crash_point(CrashPoint::kReleaseDone);
     });
 }
 
 void FleetRuntime::give_up(std::vector<Commit> lost) {
-    auto shared = std::make_shared<std::vector<Commit>>(std::move(lost));
-    ports_.deliver([shared] {
-        const Error error = store_unavailable();
-        for (const auto& commit : *shared) {
-            for (const auto& answer : commit.answers) answer(&error);
-        }
+    std::vector<Answer> refused;
+    for (auto& commit : lost) {
+        for (auto& answer : commit.answers) refused.push_back(std::move(answer));
+        // They read what is not stored: the fleet built from the store answers them.
+        for (auto& read : commit.reads) submit(true, std::move(read));
+    }
+    ports_.deliver([refused = std::move(refused), error = store_unavailable(store_fault())] {
+        for (const auto& answer : refused) answer(&error);
     });
 }
 

@@ -17,6 +17,7 @@
 
 #include "core/fleet/fleet.hpp"
 #include "server/metrics.hpp"
+#include "server/store_fault.hpp"
 
 namespace pulseline::server {
 
@@ -29,7 +30,8 @@ struct StoreUnavailable : std::runtime_error {
 /// batches put out; nothing of a batch is answered, sent or shown before its COMMIT, and all of it
 /// leaves in order. While a commit runs the next batch is handled; those that gather behind it
 /// share one commit. When a commit fails nothing of it leaves: its callers and those behind get
-/// store_unavailable and the fleet is built anew from the store.
+/// store_unavailable and the fleet is built anew from the store. Until a commit succeeds again,
+/// tried every second, it is read-only: reads are answered, nothing is accepted or sent.
 /// Thread safety: every function may be called from any thread; callbacks run through `deliver`.
 class FleetRuntime {
 public:
@@ -59,6 +61,7 @@ public:
     void stop();
     /// False while the store cannot be written: reads go on, commands are refused.
     bool writable() const { return !degraded_; }
+    std::optional<fleet::StoreFault> store_fault() const;
 
     /// `done` gets what `f` returned, after the commit of its batch.
     template <class F>
@@ -90,7 +93,8 @@ private:
     struct Commit {
         Published batch;
         std::vector<Answer> answers;
-        Job job;  // a write of others instead of a batch
+        std::vector<Task> reads;  // handled; asked again when the batch is lost
+        Job job;                  // a write of others instead of a batch
     };
 
     template <class R, class F>
@@ -113,9 +117,13 @@ private:
     void submit(bool reading, Task task);
     void fleet_loop();
     void handle(std::deque<Task>& commands, std::deque<Task>& reads);
-    void run_all(std::deque<Task>& tasks, std::vector<Answer>& answers, bool& broken);
+    bool run(Task& task);
     void refuse(std::deque<Task>& tasks);
     void rebuild();
+    void build_fleet(fleet::StoredFleet stored);
+    void try_store();
+    void note_fault(const std::exception_ptr& error);
+    void show_fault();
     Published take_published();
     void commit_loop();
     bool commit_group(std::vector<Commit> group, bool good);
@@ -129,13 +137,16 @@ private:
     std::unique_ptr<fleet::Fleet> fleet_;  // fleet thread only
     Time last_tick_{};
     Time retry_at_{};
+    Published unstored_;  // of a fleet built anew, until the store takes it
+    fleet::FleetView last_view_;
 
-    std::mutex mutex_;  // guards what follows
+    mutable std::mutex mutex_;  // guards what follows
     std::condition_variable fleet_wake_;
     std::condition_variable commit_wake_;
     std::deque<Task> commands_;
     std::deque<Task> reads_;
     std::vector<Commit> commits_;
+    std::optional<fleet::StoreFault> fault_;
     bool must_rebuild_ = false;
     bool stopping_ = false;
     bool commit_stopping_ = false;

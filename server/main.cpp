@@ -16,6 +16,8 @@
 int main(int argc, char** argv) {
     using namespace pulseline::server;
     std::signal(SIGPIPE, SIG_IGN);
+    // A file over the size limit is a write that fails, not a death.
+    std::signal(SIGXFSZ, SIG_IGN);
     if (sodium_init() < 0) {
         fmt::print(stderr, "pulseline: libsodium cannot start\n");
         return cli::kFailed;

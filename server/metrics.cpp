@@ -104,6 +104,8 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
            commits_failed_.load());
     single(out, "pulseline_fleet_rebuilds_total", "counter", "Fleet built anew from the store.",
            fleet_rebuilds.load());
+    single(out, "pulseline_read_only", "gauge",
+           "1 while the database takes no writes and commands are refused.", read_only.load());
     single(out, "pulseline_connections", "gauge", "Open connections.", connections.load());
     single(out, "pulseline_connections_refused_total", "counter", "Connections over a limit.",
            connections_refused.load());

@@ -47,6 +47,7 @@ public:
     std::atomic<std::uint64_t> vehicle_messages_malformed{0};
     std::atomic<std::uint64_t> vehicle_takeovers{0};
     std::atomic<std::uint64_t> fleet_rebuilds{0};
+    std::atomic<int> read_only{0};
 
     /// Prometheus text format 0.0.4.
     std::string text(const std::map<std::string, int>& orders_by_state,

@@ -5,6 +5,7 @@
 #include <csignal>
 
 #include "api/http/documents.hpp"
+#include "core/base/crash_point.hpp"
 #include "server/context.hpp"
 #include "server/listener.hpp"
 #include "server/origins.hpp"
@@ -100,6 +101,7 @@ Status Server::Impl::start() {
     acceptor_ = std::move(*acceptor);
     address_.port = acceptor_->local_endpoint().port();
 
+    crash_point(CrashPoint::kStartBeforeLoad);
     auto stored = parts_.store.load();
     clock_.emplace(stored.last_time);
     documents_ = api::make_documents(parts_.plant);
@@ -199,7 +201,9 @@ void Server::Impl::begin_stop() {
     signals_->cancel(ec);
     acceptor_->close(ec);
     context_->stops.stop_all();
+    crash_point(CrashPoint::kStopBeforeLastCommit);
     runtime_->stop();  // what was asked before is committed; its answers wait in io_
+    crash_point(CrashPoint::kStopAfterLastCommit);
     net::co_spawn(*io_, finish(), rethrow);
 }
 
@@ -219,10 +223,7 @@ std::optional<Error> Server::Impl::not_ready() const {
         return Error{Errc::kUnavailable, {"stopping", {}}, "The server is stopping.", {}};
     }
     if (!runtime_->writable()) {
-        return Error{Errc::kUnavailable,
-                     {"store_unavailable", {}},
-                     "The database cannot be written; look at the server's disk.",
-                     {}};
+        return store_unavailable(runtime_->store_fault());
     }
     return std::nullopt;
 }

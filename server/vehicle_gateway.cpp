@@ -7,6 +7,7 @@
 #include "api/vehicle/frame.hpp"
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
+#include "core/base/crash_point.hpp"
 #include "server/await.hpp"
 #include "server/vehicle_frames.hpp"
 
@@ -190,9 +191,8 @@ void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socke
             ports_.poses.put(id, seen->pose, seen->velocity_mps, ports_.clock.now());
         }
     } else if (auto* factsheet = std::get_if<fleet::Factsheet>(&decoded->message)) {
-        ports_.runtime.input([id, sheet = std::move(*factsheet)](fleet::Fleet& fleet, Time at) {
-            fleet.vehicle_factsheet(id, sheet, at);
-        });
+        row->factsheet = std::move(*factsheet);
+        hand_over_factsheet(id, *row);
     } else if (const auto* link = std::get_if<fleet::ConnectionState>(&decoded->message)) {
         row->said_offline = *link == fleet::ConnectionState::kOffline;
     }
@@ -202,11 +202,23 @@ void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::Sta
     if (row.refused && Steady::now() - row.refused_at < kShowRefused) {
         state.errors.push_back(*row.refused);
     }
-    const std::lock_guard lock(row.state->mutex);
     // A state says all there is to say: one that waits is overtaken by the next.
-    const bool waits = row.state->waiting.has_value();
-    row.state->waiting = std::move(state);
-    if (waits) return;
+    bool waits = false;
+    {
+        const std::lock_guard lock(row.state->mutex);
+        waits = row.state->waiting.has_value();
+        row.state->waiting = std::move(state);
+    }
+    if (!waits) hand_over_state(id, row);
+}
+
+void VehicleGateway::hand_over_factsheet(const plant::VehicleId& id, const Row& row) {
+    ports_.runtime.input([id, sheet = *row.factsheet](fleet::Fleet& fleet, Time at) {
+        fleet.vehicle_factsheet(id, sheet, at);
+    });
+}
+
+void VehicleGateway::hand_over_state(const plant::VehicleId& id, const Row& row) {
     ports_.runtime.input([id, slot = row.state](fleet::Fleet& fleet, Time at) {
         std::optional<fleet::StateMessage> newest;
         {
@@ -288,6 +300,7 @@ void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
             put(Topic::kInstantActions,
                 vda5050::encode_instant_actions(*message.instant_actions, header));
         }
+        crash_point(CrashPoint::kReleaseBetweenMessages);
     }
 }
 
@@ -305,6 +318,9 @@ void VehicleGateway::introduce_all() {
         if (!row.socket) continue;
         ports_.runtime.input(
             [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
+        if (row.factsheet) hand_over_factsheet(id, row);
+        // One that was refused with the old fleet still waits, and would keep all later ones back.
+        hand_over_state(id, row);
     }
 }
 

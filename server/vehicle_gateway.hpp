@@ -81,6 +81,7 @@ private:
         Steady::time_point told_heard{};
         std::map<vda5050::Topic, std::string> retained;
         std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
+        std::optional<fleet::Factsheet> factsheet;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors
         Steady::time_point refused_at{};
         int malformed_in_a_row = 0;
@@ -91,6 +92,8 @@ private:
     Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
     void malformed(const plant::VehicleId& id, Row& row, const Error& error);
     void pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state);
+    void hand_over_factsheet(const plant::VehicleId& id, const Row& row);
+    void hand_over_state(const plant::VehicleId& id, const Row& row);
     void play_last_will(const plant::VehicleId& id, Row& row);
     vda5050::Header next_header(const plant::VehicleId& id, Row& row, vda5050::Topic topic);
 

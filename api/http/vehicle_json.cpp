@@ -112,14 +112,19 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
 }
 
 Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet) {
-    return {{"paused", fleet.paused},
-            {"last_event_seq", fleet.last_event_seq},
-            {"vehicles_live", fleet.vehicles_live},
-            {"vehicles_total", fleet.vehicles_total},
-            {"needs_resume", list_json(fleet.needs_resume,
-                                       [](const plant::VehicleId& id) { return Json(id.str()); })},
-            {"plant_revision", plant.revision},
-            {"server_started_at", rfc3339(fleet.started)}};
+    Json json{
+        {"paused", fleet.paused},
+        {"last_event_seq", fleet.last_event_seq},
+        {"vehicles_live", fleet.vehicles_live},
+        {"vehicles_total", fleet.vehicles_total},
+        {"needs_resume",
+         list_json(fleet.needs_resume, [](const plant::VehicleId& id) { return Json(id.str()); })},
+        {"plant_revision", plant.revision},
+        {"server_started_at", rfc3339(fleet.started)}};
+    if (const auto& fault = fleet.store_fault) {
+        json["read_only"] = {{"cause", fault->cause}, {"since", rfc3339(fault->since)}};
+    }
+    return json;
 }
 
 }  // namespace pulseline::api

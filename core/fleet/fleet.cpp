@@ -11,11 +11,14 @@ namespace {
 // Final orders stay in memory for this long (idempotent repeats, lists); all of them are in the
 // store.
 constexpr Duration kKeepFinal = std::chrono::hours(24 * 7);
+// A walk over all keys of a week, so not at every tick.
+constexpr Duration kSweepKeys = std::chrono::hours(1);
 
 }  // namespace
 
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now)
-    : state_(std::make_unique<FleetState>(plant, id_seed, now)) {
+    : state_(std::make_unique<FleetState>(plant, id_seed, now)),
+      stored_seq_(stored.last_event_seq) {
     restore_standing(*state_, stored);
     restore(*state_, std::move(stored), now);
     require_persons_for_schedules(*state_, now);
@@ -68,6 +71,21 @@ bool Fleet::connection_refused(const plant::VehicleId& id) const {
     return run && run->connection_refused;
 }
 
+void Fleet::store_failed(const StoreFault& fault, Time now) {
+    store_fault_ = fault;
+    add_event(*state_, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
+    state_->out.fleet_changed = true;
+}
+
+void Fleet::store_works_again(Time now) {
+    if (!store_fault_) return;
+    add_event(
+        *state_, now, "store.recovered", {}, {}, {}, {},
+        {{"cause", store_fault_->cause}, {"read_only_s", seconds(now - store_fault_->since)}});
+    store_fault_.reset();
+    state_->out.fleet_changed = true;
+}
+
 void Fleet::tick(Time now) {
     update_links(*state_, now);
     resend(*state_, now);
@@ -75,8 +93,11 @@ void Fleet::tick(Time now) {
     run_schedules(*state_, now);
     dispatch(*state_, now);
     state_->orders.forget_ended_before(now - kKeepFinal);
-    std::erase_if(state_->idempotency,
-                  [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
+    if (now - state_->keys_swept >= kSweepKeys) {
+        state_->keys_swept = now;
+        std::erase_if(state_->idempotency,
+                      [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
+    }
 }
 
 Outputs Fleet::take_outputs(Time now) {

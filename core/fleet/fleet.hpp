@@ -109,6 +109,11 @@ public:
     Result<Closure> close_floor(const NewClosure& wanted, const std::string& actor, Time now);
     Status reopen_floor(ClosureId id, const std::string& actor, Time now);
 
+    /// The store refused what came before; the fleet was built anew from it and serves reads until
+    /// the records it now puts out are stored.
+    void store_failed(const StoreFault& fault, Time now);
+    void store_works_again(Time now);
+
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
@@ -132,6 +137,8 @@ public:
 
 private:
     std::unique_ptr<FleetState> state_;
+    std::int64_t stored_seq_ = 0;  // newest event of the store at start
+    std::optional<StoreFault> store_fault_;
 };
 
 }  // namespace pulseline::fleet

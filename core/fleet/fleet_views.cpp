@@ -48,7 +48,10 @@ std::optional<JobOrder> Fleet::order(JobOrderId id) const {
     return order ? std::optional<JobOrder>(*order) : std::nullopt;
 }
 
-std::vector<JobOrder> Fleet::orders() const { return state_->orders.newest_first(); }
+std::vector<JobOrder> Fleet::orders() const {
+    constexpr std::size_t kRecent = 100;  // the store has the rest
+    return state_->orders.newest_first(kRecent);
+}
 
 std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now) const {
     const VehicleRun* run = state_->find(id);
@@ -70,7 +73,9 @@ std::vector<StationView> Fleet::stations() const {
 
 FleetView Fleet::view(Time) const {
     FleetView view;
-    view.last_event_seq = state_->event_seq;
+    view.store_fault = store_fault_;
+    // While nothing can be stored, events still wait; a reader must not go on behind them.
+    view.last_event_seq = store_fault_ ? stored_seq_ : state_->event_seq;
     view.started = state_->started;
     view.paused = !state_->vehicles.empty();
     for (const auto& [id, run] : state_->vehicles) {

@@ -1,5 +1,7 @@
 #include "core/fleet/order_book.hpp"
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "core/fleet/views.hpp"
@@ -126,11 +128,18 @@ void OrderBook::forget_ended_before(Time time) {
     }
 }
 
-std::vector<JobOrder> OrderBook::newest_first() const {
+std::vector<JobOrder> OrderBook::newest_first(std::size_t finished) const {
+    // Not by a walk over all: a hundred thousand may have ended in a week, and every dashboard that
+    // connects asks.
+    std::vector<JobOrderId> ids(open_.begin(), open_.end());
+    const std::size_t from = ended_.size() - std::min(finished, ended_.size());
+    ids.insert(ids.end(), ended_.begin() + static_cast<std::ptrdiff_t>(from), ended_.end());
+    std::ranges::sort(ids, std::greater<>());
     std::vector<JobOrder> orders;
-    orders.reserve(orders_.size());
-    for (auto it = orders_.rbegin(); it != orders_.rend(); ++it) {
-        if (!it->second.removed) orders.push_back(it->second);
+    orders.reserve(ids.size());
+    for (const auto& id : ids) {
+        const JobOrder* order = find(id);
+        if (order && !order->removed) orders.push_back(*order);
     }
     return orders;
 }

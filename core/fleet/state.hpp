@@ -90,6 +90,7 @@ struct FleetState {
         traffic::ClosureIndex in_traffic = 0;
     };
     std::vector<ClosedFloor> closures;
+    Time keys_swept;  // when old idempotency keys were last forgotten
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;

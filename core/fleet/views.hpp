@@ -72,6 +72,12 @@ struct StationView {
     StopRecordId last_stop;
 };
 
+/// The store takes no writes: commands are refused and vehicles get no further base meanwhile.
+struct StoreFault {
+    std::string cause;  // "disk_full", "write_protected", "disk_error"
+    Time since;
+};
+
 struct FleetView {
     bool paused = false;
     std::int64_t last_event_seq = 0;
@@ -79,6 +85,7 @@ struct FleetView {
     int vehicles_total = 0;
     std::vector<plant::VehicleId> needs_resume;
     Time started;
+    std::optional<StoreFault> store_fault;
 };
 
 /// The live wait-for graph of traffic and the closed floor.

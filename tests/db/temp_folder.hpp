@@ -12,7 +12,7 @@ namespace pulseline::db {
 class TempFolder {
 public:
     TempFolder() {
-        std::string name = testing::TempDir() + "pulseline-db-XXXXXX";
+        std::string name = ::testing::TempDir() + "pulseline-db-XXXXXX";
         EXPECT_NE(::mkdtemp(name.data()), nullptr);
         path_ = name;
     }

@@ -79,16 +79,16 @@ export class System {
     return join(this.directory, "truth.jsonl");
   }
 
-  start(program, args, name) {
+  start(program, args, name, env = {}) {
     const log = openSync(join(this.directory, `${name}.log`), "a");
-    const child = spawn(program, args, { stdio: ["ignore", log, log], cwd: ROOT });
+    const child = spawn(program, args, { stdio: ["ignore", log, log], cwd: ROOT, env: { ...process.env, ...env } });
     this.children.add(child);
     child.ended = new Promise((done) => child.on("exit", (code, signal) => { child.over = { code, signal }; this.children.delete(child); done(child.over); }));
     return child;
   }
 
-  async startServer(extra = []) {
-    this.server = this.start(SERVER, ["serve", "--db", this.database, "--listen", `127.0.0.1:${this.port}`, ...extra], "server");
+  async startServer(extra = [], env = {}) {
+    this.server = this.start(SERVER, ["serve", "--db", this.database, "--listen", `127.0.0.1:${this.port}`, ...extra], "server", env);
     await until(() => `server ready; its log:\n${this.log("server")}`, async () => {
       if (this.server.over) throw new Error(`the server ended: ${JSON.stringify(this.server.over)}\n${this.log("server")}`);
       try { return (await fetch(`${this.url}/readyz`)).ok; } catch { return false; }

@@ -68,5 +68,28 @@ TEST(StoreFailure, IsNotReadyWhileItLasts) {
     EXPECT_EQ(alive.status, 200);
 }
 
+TEST(StoreFailure, IsShownWithItsCauseWhileItLastsAndToldAsEventsAfterwards) {
+    TestServer server;
+    const auto headers = server.operator_token();
+    WsClient dashboard(server.port(), "/api/v1/stream", headers);
+    ASSERT_TRUE(dashboard.read());
+
+    server.store().fails = true;
+    request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto told = dashboard.read_until("\"read_only\"");
+    const auto fleet = request(server.port(), "GET", "/api/v1/fleet", headers);
+    const auto metrics = request(server.port(), "GET", "/metrics", headers);
+    const auto refused = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    server.store().fails = false;
+
+    ASSERT_TRUE(told);
+    EXPECT_NE(told->find("disk_error"), std::string::npos) << *told;
+    EXPECT_NE(fleet.body.find("\"cause\":\"disk_error\""), std::string::npos) << fleet.body;
+    EXPECT_NE(metrics.body.find("pulseline_read_only 1"), std::string::npos);
+    EXPECT_NE(refused.body.find("disk_error"), std::string::npos) << refused.body;
+    EXPECT_TRUE(dashboard.read_until("store.failed"));
+    EXPECT_TRUE(dashboard.read_until("store.recovered"));
+}
+
 }  // namespace
 }  // namespace pulseline::server::testing

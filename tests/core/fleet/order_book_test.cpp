@@ -34,7 +34,7 @@ TEST(OrderBook, OpenOrdersAreOldestFirst) {
 
     EXPECT_EQ(std::vector(book.open().begin(), book.open().end()),
               (std::vector{first.id, second.id}));
-    EXPECT_EQ(book.newest_first().front().id, second.id);
+    EXPECT_EQ(book.newest_first(1).front().id, second.id);
 }
 
 TEST(OrderBook, AVehicleHasItsOpenOrderOnly) {

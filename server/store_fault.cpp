@@ -1,0 +1,50 @@
+#include "server/store_fault.hpp"
+
+#include "db/error.hpp"
+
+namespace pulseline::server {
+namespace {
+
+constexpr const char* kRetry =
+    "Reading goes on, and the server tries again by itself every second.";
+
+}  // namespace
+
+std::string cause_of(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const db::Error& e) {
+        if (e.kind() == db::Error::Kind::kFull) return "disk_full";
+        if (e.kind() == db::Error::Kind::kReadOnly) return "write_protected";
+    } catch (...) {
+    }
+    return "disk_error";
+}
+
+Error store_unavailable(const std::optional<fleet::StoreFault>& fault) {
+    std::string what = "The database cannot be written now, so nothing was changed. ";
+    Params params{{"retry_after_s", std::int64_t{2}}};
+    if (fault) {
+        params.push_back({"cause", fault->cause});
+        if (fault->cause == "disk_full") {
+            what += "Its disk is full: free space there. ";
+        } else if (fault->cause == "write_protected") {
+            what += "It is write-protected: make the file and its folder writable. ";
+        } else {
+            what += "Its disk reports a fault: look at it and at the server's log. ";
+        }
+    }
+    return {Errc::kUnavailable, {"store_unavailable", std::move(params)}, what + kRetry, {}};
+}
+
+std::string what(const std::exception_ptr& error) {
+    try {
+        std::rethrow_exception(error);
+    } catch (const std::exception& e) {
+        return e.what();
+    } catch (...) {
+        return "unknown exception";
+    }
+}
+
+}  // namespace pulseline::server
