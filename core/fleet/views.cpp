@@ -102,6 +102,13 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
         if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
         if (!run.leg_seen) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        if (run.leg().order.empty()) {
+            if (auto wait = floor_wait(fleet, run); wait && !moving) {
+                return {Activity::kWaiting, std::move(wait)};
+            }
+            return {Activity::kMoving,
+                    Reason{"makes_way", {{"station", run.leg().station.str()}}}};
+        }
         return {Activity::kMoving, std::nullopt};
     }
     if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
