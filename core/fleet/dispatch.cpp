@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/interlocks.hpp"
 
 namespace pulseline::fleet {
 
@@ -41,11 +42,7 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     for (const auto& error : run.state.errors) {
         if (error.fatal) return because("vehicle_error", {{"type", error.type}});
     }
-    for (const auto& wheel : run.state.wheels) {
-        if (!wheel.fault.empty()) {
-            return because("wheel_fault", {{"wheel", wheel.name}, {"fault", wheel.fault}});
-        }
-    }
+    if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
     if (run.state.paused) return because("vehicle_paused");
     if (run.cancelling || run.state.driving) return because("vehicle_busy");
     return std::nullopt;
@@ -71,8 +68,11 @@ std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run
     for (const auto& error : run.state.errors) {
         if (error.fatal) return because("vehicle_error");
     }
-    for (const auto& wheel : run.state.wheels) {
-        if (!wheel.fault.empty()) return because("wheel_fault");
+    // On its way a platform loses sight of the codes, and forces shift: what bars a start does not
+    // stop a drive, but for a broken wheel.
+    if (const auto bar = interlock(fleet, run);
+        bar && (!run.has_leg() || bar->code == "wheel_fault")) {
+        return because(bar->code.c_str());
     }
     return std::nullopt;
 }

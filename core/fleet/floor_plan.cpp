@@ -131,7 +131,8 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     }
     const bool ends = !is_drive(move_of_node(run, node));
     const bool has_stop = move_of_node(run, node) <= plan.last() && ends;
-    if (node == leg.nodes.size() && ends && has_stop == !leg.nodes.back().actions.empty()) {
+    if (node == leg.nodes.size() && ends &&
+        (leg.order.empty() || has_stop == !leg.nodes.back().actions.empty())) {
         return false;
     }
     leg.nodes.resize(node);
@@ -141,10 +142,15 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         append_move(of_class, leg, plan.at(n).place,
                     before == kNoPlace ? std::nullopt : std::optional(before));
     }
-    if (has_stop) {
-        const auto* station = plant::find_station(fleet.plant, leg.station);
+    const auto* station = plant::find_station(fleet.plant, leg.station);
+    if (has_stop || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = stop_actions(fleet, run, *station, leg.id);
+        // Making way is no stop to keep, but the codes take away what odometry has gathered.
+        if (leg.order.empty()) {
+            std::erase_if(leg.nodes.back().actions,
+                          [](const Action& action) { return action.type == "measureStop"; });
+        }
     }
     leg.duration_s = 0;
     for (const auto& edge : leg.edges) leg.duration_s += edge.segment.duration_s;

@@ -46,8 +46,8 @@ public:
     /// Forgets orders that ended before; the store keeps them.
     void forget_ended_before(Time time);
 
-    /// All open ones and the newest `finished` of the others, without those that Cancel or Clear took
-    /// out.
+    /// All open ones and the newest `finished` of the others, without those that Cancel or Clear
+    /// took out.
     std::vector<JobOrder> newest_first(std::size_t finished) const;
 
 private:

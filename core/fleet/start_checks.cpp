@@ -1,14 +1,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/interlocks.hpp"
 #include "core/fleet/state.hpp"
 
 // What is looked at before a move; the screen shows each with its number and its limit.
 namespace pulseline::fleet {
 namespace {
 
-constexpr double kBalance = 0.05;         // share a bracket may differ from the mean of its row
-constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 constexpr double kWarmWheel_c = 65;
 constexpr double kLowBattery = 20;
 constexpr double kEmptyBattery = 5;
@@ -44,22 +43,14 @@ std::optional<Check> load_check(const VehicleRun& run) {
     if (run.state.brackets.empty()) return std::nullopt;
     double total_n = 0;
     for (const auto& bracket : run.state.brackets) total_n += bracket.force_a_n + bracket.force_b_n;
-    const double mean_n = total_n / static_cast<double>(run.state.brackets.size());
-    double worst = 0;
-    for (const auto& bracket : run.state.brackets) {
-        const double sum_n = bracket.force_a_n + bracket.force_b_n;
-        if (mean_n > 0) worst = std::max(worst, std::abs(sum_n - mean_n) / mean_n);
-    }
+    const double worst = bracket_unbalance(run);
     const bool too_heavy = total_n > run.type->max_load_kg * kGravity;
-    const bool empty = total_n < 0.01 * run.type->max_load_kg * kGravity;
-    // Interlocks that hold a move back come with the platform's workflow; until then a note.
-    const auto result = too_heavy                        ? Check::Result::kFail
-                        : !empty && worst > 2 * kBalance ? Check::Result::kNote
-                                                         : Check::Result::kPass;
+    const auto result =
+        too_heavy || worst > kBracketBalance ? Check::Result::kFail : Check::Result::kPass;
     return check("load", result,
                  {{"total_n", total_n},
                   {"unbalance", worst},
-                  {"limit", 2 * kBalance},
+                  {"limit", kBracketBalance},
                   {"max_load_kg", run.type->max_load_kg}});
 }
 

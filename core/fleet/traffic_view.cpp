@@ -2,21 +2,38 @@
 
 namespace pulseline::fleet {
 
+namespace {
+
+TrafficView::Wait shown(const FleetState& fleet, const plant::VehicleId& vehicle,
+                        const traffic::Block& block) {
+    TrafficView::Wait wait;
+    wait.vehicle = vehicle;
+    if (block.cause == traffic::BlockCause::kVehicle) {
+        wait.waits_for = plant::VehicleId(fleet.floor.traffic.name(block.vehicle));
+    }
+    wait.reason = floor_reason(fleet, block);
+    return wait;
+}
+
+}  // namespace
+
 TrafficView Fleet::traffic(Time) const {
     const Floor& floor = state_->floor;
     TrafficView view;
     view.stopped = floor.stopped;
     for (const auto& wait : floor.traffic.waits()) {
-        TrafficView::Wait shown;
-        shown.vehicle = plant::VehicleId(floor.traffic.name(wait.vehicle));
-        if (wait.block.cause == traffic::BlockCause::kVehicle) {
-            shown.waits_for = plant::VehicleId(floor.traffic.name(wait.block.vehicle));
-        }
-        shown.reason = floor_reason(*state_, wait.block);
+        view.waits.push_back(
+            shown(*state_, plant::VehicleId(floor.traffic.name(wait.vehicle)), wait.block));
         if (wait.until_s < traffic::kBlocked_s / 2 + seconds(state_->started.time_since_epoch())) {
-            shown.until = Time{} + from_seconds(wait.until_s);
+            view.waits.back().until = Time{} + from_seconds(wait.until_s);
         }
-        view.waits.push_back(std::move(shown));
+    }
+    // Who has an order but found no plan for it waits, too.
+    for (const auto& [id, run] : state_->vehicles) {
+        const auto block = floor.traffic.blocked_by(run.floor.vehicle);
+        if (run.floor.next_try && !run.has_leg() && block) {
+            view.waits.push_back(shown(*state_, id, *block));
+        }
     }
     for (const auto& closed : state_->closures) view.closures.push_back(closed.closure);
     return view;

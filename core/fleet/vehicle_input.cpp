@@ -207,6 +207,10 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     const bool makes_way = leg.order.empty();
     const bool idle = state.node_states.empty() && state.edge_states.empty() && !state.driving;
     if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
+        for (const auto& action : leg.nodes.back().actions) {
+            const ActionState* found = find_action(state, action.id);
+            if (found && !is_final(found->status)) return;
+        }
         add_event(fleet, now, "leg.ended", {}, leg.id, leg.vehicle, {});
         drop_leg(fleet, run, now, true);
         return;

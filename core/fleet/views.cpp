@@ -106,8 +106,7 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
             if (auto wait = floor_wait(fleet, run); wait && !moving) {
                 return {Activity::kWaiting, std::move(wait)};
             }
-            return {Activity::kMoving,
-                    Reason{"makes_way", {{"station", run.leg().station.str()}}}};
+            return {Activity::kMoving, Reason{"makes_way", {{"station", run.leg().station.str()}}}};
         }
         return {Activity::kMoving, std::nullopt};
     }

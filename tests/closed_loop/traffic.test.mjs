@@ -11,7 +11,7 @@ import { ROOT, System, until } from "../harness/processes.mjs";
 const CAMERA_M = 5.346; // ahead of and behind the platform's centre
 
 /** A hall of resting stations `name: [x, y, number]` and plain nodes `name: [x, y]`, joined by two-way lanes "a-b". */
-function plantOf({ spots, lanes, vehicles }) {
+function plantOf({ spots, lanes, vehicles, obstacles = [] }) {
   const model = JSON.parse(readFileSync(join(ROOT, "db/plants/pulse-line.json"), "utf8"));
   const hall = model.halls[0];
   delete hall.occupancy_yaml;
@@ -19,7 +19,10 @@ function plantOf({ spots, lanes, vehicles }) {
   const stations = Object.entries(spots).filter(([, spot]) => spot.length === 3).sort(([, a], [, b]) => a[2] - b[2]);
   const code = (number, side) => `ST${String(number).padStart(2, "0")}-${side}`;
   Object.assign(model, {
-    id: "meeting", name: "Meeting", areas: [],
+    id: "meeting", name: "Meeting",
+    areas: obstacles.map(([x0, y0, x1, y1], i) => ({
+      id: `rack-${i + 1}`, kind: "obstacle", name: `Rack ${i + 1}`, hall: hall.id, outline: [[x0, y0], [x1, y0], [x1, y1], [x0, y1]].map(([x_m, y_m]) => ({ x_m, y_m })),
+    })),
     stations: stations.map(([name, [x_m, y_m, number]]) => ({
       id: `s${number}`, number, name, hall: hall.id, pose: { x_m, y_m, heading_rad: 0 }, node: name, resting_place: true,
       tolerance: { shape: "box", dx_m: 0.025, dy_m: 0.025, dheading_rad: 0.0035 }, markers: [code(number, "F"), code(number, "B")], vehicle_types: ["transport-platform"],
@@ -94,7 +97,7 @@ const ended = async (client, orders) => {
 };
 
 test("head on in a corridor: both get to the other's place by the bay", async (t) => {
-  const plant = { spots: { west: [20, 40, 1], east: [120, 40, 2], middle: [70, 40], bay: [70, 70, 3] }, lanes: ["west-middle", "middle-east", "middle-bay"], vehicles: [1, 2] };
+  const plant = { spots: { west: [20, 40, 1], east: [70, 40, 2], middle: [45, 40], bay: [45, 62, 3] }, lanes: ["west-middle", "middle-east", "middle-bay"], vehicles: [1, 2] };
   const seen = await meeting(t, plant, async ({ client }) => {
     await ended(client, [await client.order("V1", [2]), await client.order("V2", [1])]);
   });
@@ -103,19 +106,20 @@ test("head on in a corridor: both get to the other's place by the bay", async (t
 
 test("four in a ring over a crossing: each takes the next one's place", async (t) => {
   const plant = {
-    spots: { west: [20, 60, 1], north: [70, 105, 2], east: [120, 60, 3], south: [70, 15, 4], crossing: [70, 60], bay: [100, 90, 5] },
+    spots: { west: [20, 60, 1], north: [45, 85, 2], east: [70, 60, 3], south: [45, 35, 4], crossing: [45, 60], bay: [66, 81, 5] },
     lanes: ["west-crossing", "north-crossing", "east-crossing", "south-crossing", "crossing-bay"], vehicles: [1, 2, 3, 4],
+    obstacles: [[24, 68, 36, 80], [24, 40, 36, 52], [54, 40, 66, 52]], // no way but over the crossing
   };
   const seen = await meeting(t, plant, async ({ client }) => {
     const orders = [];
-    for (const i of [1, 2, 3, 4]) orders.push(await client.order(`V${i}`, [(i % 4) + 1]));
+    for (const i of [1, 2, 3, 4]) orders.push(await client.order(`V${i}`, [{ station: (i % 4) + 1, motion_mode: "linear" }]));
     await ended(client, orders);
   });
   assert.ok(seen.size > 1, `only seen: ${[...seen]}`);
 });
 
 test("an idle platform backs out of a dead end for another", async (t) => {
-  const plant = { spots: { west: [20, 40, 1], junction: [70, 40], end: [70, 80, 2], east: [120, 40, 3] }, lanes: ["west-junction", "junction-end", "junction-east"], vehicles: [1, 2] };
+  const plant = { spots: { west: [20, 40, 1], junction: [45, 40], end: [45, 65, 2], east: [70, 40, 3] }, lanes: ["west-junction", "junction-end", "junction-east"], vehicles: [1, 2] };
   await meeting(t, plant, async ({ client }) => {
     await ended(client, [await client.order("V1", [2])]);
     const way = (await client.events()).filter((event) => event.type === "vehicle.makes_way");
@@ -126,7 +130,7 @@ test("an idle platform backs out of a dead end for another", async (t) => {
 });
 
 test("a breakdown on the only road is waited for by name, and ends when it is mended", async (t) => {
-  const plant = { spots: { west: [20, 40, 1], middle: [70, 40, 2], east: [120, 40, 3], far: [145, 40, 4] }, lanes: ["west-middle", "middle-east", "east-far"], vehicles: [1, 2] };
+  const plant = { spots: { west: [20, 40, 1], middle: [45, 40, 2], east: [70, 40, 3], far: [95, 40, 4] }, lanes: ["west-middle", "middle-east", "east-far"], vehicles: [1, 2] };
   await meeting(t, plant, async ({ system, client }) => {
     await client.untilVehicle("V2", (v) => v.reason?.code === "wheel_fault", "is broken down");
     const order = await client.order("V1", [3]);
