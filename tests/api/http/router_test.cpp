@@ -83,7 +83,9 @@ const std::set<std::string> kForOperators = {"pauseVehicle",
                                              "createSchedule",
                                              "deleteSchedule",
                                              "pauseSchedule",
-                                             "resumeSchedule"};
+                                             "resumeSchedule",
+                                             "closeFloor",
+                                             "reopenFloor"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {
