@@ -9,7 +9,6 @@
 /// of 10.5 m that keeps to its row.
 namespace pulseline::fleet_judge {
 
-/// fleet::check_layout finds nothing in any of them.
 plant::Plant random_plant(std::mt19937_64& random);
 
 int pick(std::mt19937_64& random, int low, int high);
