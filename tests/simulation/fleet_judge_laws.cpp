@@ -81,9 +81,26 @@ void World::check_movement() {
 }
 
 void World::check_sent(const fleet::VehicleMessage& message) {
+    if (options_.trace && message.instant_actions) {
+        for (const auto& action : message.instant_actions->actions) {
+            std::printf("%9.1f -> %s %s %s\n", now_s_, message.vehicle.str().c_str(),
+                        action.type.c_str(), action.id.c_str());
+        }
+    }
     if (!message.order) return;
+    if (options_.trace) {
+        std::printf("%9.1f -> %s order %s update %lld from %lld\n", now_s_,
+                    message.vehicle.str().c_str(), message.order->order_id.c_str(),
+                    static_cast<long long>(message.order->order_update_id),
+                    static_cast<long long>(message.order->nodes.front().sequence_id));
+    }
     std::int64_t base = 0;
     for (const auto& node : message.order->nodes) {
+        if (options_.trace) {
+            std::printf("      %s%s %zu actions%s\n", node.node_id.c_str(),
+                        node.released ? "" : " horizon", node.actions.size(),
+                        text_of(node.pose).c_str());
+        }
         if (node.released) base = std::max(base, node.sequence_id);
     }
     auto& known = watch_[message.vehicle].base;
@@ -108,6 +125,7 @@ void World::check_records(const fleet::Records& records) {
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {
+        if (options_.trace) std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(), stop.method.c_str());
         if (!stop.inside) continue;
         if (!good_stops_.insert({stop.order, stop.step}).second) {
             violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +
