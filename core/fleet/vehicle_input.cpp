@@ -128,8 +128,8 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
     return nullptr;
 }
 
-/// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids are
-/// 32 bit and begin anew.
+/// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids
+/// are 32 bit and begin anew.
 bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
     if (state.header_id == 0 || run.newest_header == 0) return false;

@@ -107,12 +107,13 @@ int run(const Arguments& arguments) {
     for (std::uint64_t i = 0; i < arguments.seeds; ++i) judge(arguments.first + i, arguments, sums);
     const auto share =
         100.0 * static_cast<double>(sums.with_faults) / static_cast<double>(arguments.seeds);
-    std::printf("%llu seeds, %.0f simulated hours, %d to %d vehicles, %llu orders (at least %d a "
-                "seed), %llu ended, %llu seeds replayed\n",
-                static_cast<unsigned long long>(arguments.seeds), sums.hours, sums.least, sums.most,
-                static_cast<unsigned long long>(sums.orders), sums.fewest_orders,
-                static_cast<unsigned long long>(sums.ended),
-                static_cast<unsigned long long>(sums.replayed));
+    std::printf(
+        "%llu seeds, %.0f simulated hours, %d to %d vehicles, %llu orders (at least %d a "
+        "seed), %llu ended, %llu seeds replayed\n",
+        static_cast<unsigned long long>(arguments.seeds), sums.hours, sums.least, sums.most,
+        static_cast<unsigned long long>(sums.orders), sums.fewest_orders,
+        static_cast<unsigned long long>(sums.ended),
+        static_cast<unsigned long long>(sums.replayed));
     for (const auto& [name, counts] : sums.faults) {
         std::printf("  %-40s %8llu in %llu seeds\n", name.c_str(),
                     static_cast<unsigned long long>(counts.first),

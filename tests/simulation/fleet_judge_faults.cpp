@@ -133,6 +133,7 @@ void World::disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
 void World::push(const plant::VehicleId& id, Vehicle& vehicle) {
     const auto record = store_.vehicles.find(id);
     const bool has_leg = record != store_.vehicles.end() && record->second.has_leg;
+    if (vehicle.type().length_m() > 5) return;  // too heavy to be pushed
     if (vehicle.at_work() || has_leg || lines_[id].cut || unstored_) return;
     if (now_s_ < stalled_until_s_ || !lines_[id].server_knows) return;
     for (const auto& [other, body] : vehicles_) {
@@ -157,8 +158,7 @@ void World::disturb_orders() {
         if (!fleet::is_final(order.state)) open.push_back(order);
     }
     if (open.empty()) return;
-    const auto& order =
-        open[static_cast<std::size_t>(pick(0, static_cast<int>(open.size()) - 1))];
+    const auto& order = open[static_cast<std::size_t>(pick(0, static_cast<int>(open.size()) - 1))];
     if (chance(0.75)) {
         if (fleet_->pause_order(order.id, std::nullopt, "person", now())) {
             ++outcome_.faults["order paused"];

@@ -117,15 +117,16 @@ void World::check_sent(const fleet::VehicleMessage& message) {
 void World::check_records(const fleet::Records& records) {
     for (const auto& event : records.events) {
         if (event.seq != last_seq_ + 1) {
-            violate("event " + std::to_string(event.seq) + " follows " +
-                    std::to_string(last_seq_));
+            violate("event " + std::to_string(event.seq) + " follows " + std::to_string(last_seq_));
         }
         last_seq_ = event.seq;
         if (event.type == "traffic.violation") violate("traffic: " + text_of(event));
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {
-        if (options_.trace) std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(), stop.method.c_str());
+        if (options_.trace)
+            std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(),
+                        stop.method.c_str());
         if (!stop.inside) continue;
         if (!good_stops_.insert({stop.order, stop.step}).second) {
             violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +
@@ -183,7 +184,16 @@ void World::check_end() {
     for (const auto& view : fleet_->vehicles(now())) {
         violate("  " + view.id.str() + (view.leg ? " on leg " + view.leg->id.str() : "") +
                 (view.reason ? " " + view.reason->code + text_of(view.reason->params) : "") +
-                (view.pose ? text_of(*view.pose) : ""));
+                (view.pose ? text_of(*view.pose) : "") + " at node " +
+                std::to_string(view.state.last_node_sequence_id) + " update " +
+                std::to_string(view.state.order_update_id) + (view.state.paused ? " paused" : ""));
+        const auto& leg = store_.vehicles[view.id].leg_data;
+        if (view.leg) {
+            violate("    leg " + std::to_string(leg.nodes.size()) + " nodes, " +
+                    std::to_string(leg.released_nodes) + " released, " +
+                    std::to_string(leg.passed_nodes) + " passed, update " +
+                    std::to_string(leg.update_id));
+        }
     }
     for (const auto& wait : fleet_->traffic(now()).waits) {
         violate("  wait " + wait.vehicle.str() + " for " + wait.waits_for.str() + " " +
@@ -231,7 +241,8 @@ void World::take_in(const fleet::Outputs& out) {
             }
         }
         if (!message.instant_actions) continue;
-        for (const auto& action : message.instant_actions->actions) take_in(action.type + action.id);
+        for (const auto& action : message.instant_actions->actions)
+            take_in(action.type + action.id);
     }
 }
 

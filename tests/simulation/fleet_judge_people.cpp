@@ -91,8 +91,8 @@ void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     Watch& watch = watch_[id];
     const auto view = fleet_->vehicle(id, now());
     const bool lost = !view->pose_known && view->link == fleet::Link::kLive;
-    const bool waits = view->needs_resume || view->paused ||
-                       (view->state.paused && view->order.empty());
+    const bool waits =
+        view->needs_resume || view->paused || (view->state.paused && view->order.empty());
     if (!(lost || waits)) {
         watch.person_at_s = 0;
         return;

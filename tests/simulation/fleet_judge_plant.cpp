@@ -66,7 +66,8 @@ public:
         add_bays(rows_ - 1, 1);
         const auto most = std::min<int>(static_cast<int>(bays_.size()) - 1, 29);
         const int vehicles = pick(random_, 5, most);
-        for (std::size_t i = bays_.size(); i > 1; --i) std::swap(bays_[i - 1], bays_[random_() % i]);
+        for (std::size_t i = bays_.size(); i > 1; --i)
+            std::swap(bays_[i - 1], bays_[random_() % i]);
         for (int i = 0; i < vehicles; ++i) {
             // At least one of each type, or a seed would have one class only.
             const bool carrier = i == 0 || (i > 1 && pick(random_, 0, 2) == 0);
@@ -200,8 +201,6 @@ int pick(std::mt19937_64& random, int low, int high) {
     return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-Plant random_plant(std::mt19937_64& random) {
-    return Builder(random).build();
-}
+Plant random_plant(std::mt19937_64& random) { return Builder(random).build(); }
 
 }  // namespace pulseline::fleet_judge

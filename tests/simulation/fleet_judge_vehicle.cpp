@@ -40,7 +40,13 @@ Vehicle::~Vehicle() = default;
 void Vehicle::boot(const Pose2& pose) {
     executor_.reset();
     cameras_.reset();
-    motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_());
+    simulation::MotionErrors errors;
+    if (type_.length_m() > 5) {  // the platform follows marks on the floor of its row
+        errors.heading_rad_per_sqrt_m /= 10;
+        errors.steering_bias_rad /= 10;
+        errors.settle_rad /= 10;
+    }
+    motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
     cameras_ = std::make_unique<Cameras>(*motion_, random_);
     executor_ = std::make_unique<simulation::VehicleExecutor>(*motion_, *cameras_,
                                                               plant_.halls[0].id.str());

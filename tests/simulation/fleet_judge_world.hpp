@@ -58,8 +58,8 @@ private:
         double dead_until_s = 0;
         double manual_until_s = 0;
         double broken_until_s = 0;
-        double person_at_s = 0;           // when the person has time for it
-        bool restarted_on_leg = false;    // nobody has allowed it to move since
+        double person_at_s = 0;                    // when the person has time for it
+        bool restarted_on_leg = false;             // nobody has allowed it to move since
         std::map<std::string, std::int64_t> base;  // by leg: highest node released so far
     };
     struct Asked {
@@ -115,9 +115,7 @@ private:
     void take_in(const fleet::Outputs& out);
     void take_in(const std::string& text);
 
-    bool chance(double share) {
-        return static_cast<double>(random_() >> 11) * 0x1.0p-53 < share;
-    }
+    bool chance(double share) { return static_cast<double>(random_() >> 11) * 0x1.0p-53 < share; }
     int pick(int low, int high);
     Vehicle& any_vehicle(plant::VehicleId& id);
 
