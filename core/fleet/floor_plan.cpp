@@ -227,6 +227,13 @@ void follow_replans(FleetState& fleet, Time now) {
                   {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
                    {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
         fleet.store(*run);
+        if (leg.released_nodes > 1 && leg.nodes.size() == leg.released_nodes &&
+            !leg.nodes.back().actions.empty()) {
+            // The vehicle has that node without the stop: it gets a leg of its own for that.
+            leg.nodes.back().actions.clear();
+            cancel_leg(fleet, *run, now);
+            continue;
+        }
         if (leg.released_nodes > 1 && !run->record.needs_resume && run->leg_seen) {
             ++leg.update_id;
             send_order_update(fleet, *run, leg.released_nodes - 1, now);

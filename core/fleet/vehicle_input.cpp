@@ -186,6 +186,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         if (passed > leg.passed_nodes) {
             leg.passed_nodes = passed;
             pass_nodes(fleet, run, now);
+            // After a restart it would hold floor again that others were granted since.
+            fleet.store(run);
         }
     }
     if (run.cancelling) return;
