@@ -81,12 +81,10 @@ void World::crash(const char* how) {
     // The clock of the computer may have been set meanwhile; the core's never goes back.
     if (chance(0.3)) {
         ++outcome_.faults["clock step"];
-        const Time before = now();
         clock_step_ += from_seconds(chance(0.5) ? pick(-60, 60) : pick(600, 90000));
         if (!store_.events.empty() && now() < store_.events.back().at) {
             clock_step_ += store_.events.back().at - now();
         }
-        static_cast<void>(before);
     }
     stalled_until_s_ = now_s_ + pick(0, 15);
     start_server();
