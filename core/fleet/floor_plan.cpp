@@ -119,6 +119,8 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     Leg& leg = run.leg();
     const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
     const FloorClass& of_class = class_of(fleet, run);
+    // The stop is in the base: the vehicle makes it, whatever the plan would do before.
+    if (leg.released_nodes == leg.nodes.size() && !leg.nodes.back().actions.empty()) return false;
     const auto is_drive = [&](MoveNumber n) {
         return n <= plan.last() && plan.at(n).visit == kNoVisit;
     };
@@ -137,6 +139,12 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     }
     leg.nodes.resize(node);
     leg.edges.resize(node - 1);
+    // What was the stop may only be passed now, and is stopped at later.
+    for (std::size_t i = leg.released_nodes; i < node; ++i) {
+        if (leg.nodes[i].actions.empty()) continue;
+        leg.nodes[i].actions.clear();
+        leg.nodes[i].node_id = "p" + std::to_string(i);
+    }
     for (MoveNumber n = move_of_node(run, node); is_drive(n); ++n) {
         const traffic::PlaceIndex before = plan.place_after(n - 1);
         append_move(of_class, leg, plan.at(n).place,
@@ -225,6 +233,13 @@ void follow_replans(FleetState& fleet, Time now) {
                   {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
                    {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
         fleet.store(*run);
+        if (leg.released_nodes > 1 && leg.nodes.size() == leg.released_nodes &&
+            !leg.nodes.back().actions.empty()) {
+            // The vehicle has that node without the stop: it gets a leg of its own for that.
+            leg.nodes.back().actions.clear();
+            cancel_leg(fleet, *run, now);
+            continue;
+        }
         if (leg.released_nodes > 1 && !run->record.needs_resume && run->leg_seen) {
             ++leg.update_id;
             send_order_update(fleet, *run, leg.released_nodes - 1, now);

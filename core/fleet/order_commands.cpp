@@ -83,7 +83,8 @@ Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time
     }
     const bool was_paused = std::exchange(order.pause_requested, false);
     set_order_state(fleet, order, JobState::kRunning, {}, actor, now);
-    if (was_paused && run && run->has_leg()) pause_motion(fleet, *run, "stopPause", now);
+    // Also without a leg: the drive may have ended while the pause was on its way.
+    if (was_paused && run) pause_motion(fleet, *run, "stopPause", now);
     return {};
 }
 

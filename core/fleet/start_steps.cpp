@@ -36,7 +36,15 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
     if (run.leg().nodes.size() < 2 || cannot_move(fleet, run)) return;
     if (!run.leg_seen || run.update_sent) return;
+    const bool had_horizon = run.leg().nodes.size() > run.leg().released_nodes;
     const auto reason = plan_on_floor(fleet, run, now);
+    // It ends where its base ends. The vehicle waits for more, and nodes it has take no stop any
+    // more: it gives up the leg and gets one of its own for the rest.
+    if (!reason && had_horizon && run.leg().nodes.size() == run.leg().released_nodes) {
+        run.leg().nodes.back().actions.clear();
+        cancel_leg(fleet, run, now);
+        return;
+    }
     JobOrder* order = fleet.find(run.leg().order);
     if (order && order->state == JobState::kRunning) {
         set_order_reason(fleet, *order, reason.value_or(Reason{}), now);

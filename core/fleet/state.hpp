@@ -38,6 +38,7 @@ struct VehicleRun {
     std::optional<Time> last_heard;
     StateMessage state;
     std::optional<Time> state_at;
+    std::int64_t newest_header = 0;  // of the states on this connection; 0: none yet
     std::optional<Factsheet> factsheet;
 
     // The order message under way.

@@ -128,6 +128,15 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
     return nullptr;
 }
 
+/// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids
+/// are 32 bit and begin anew.
+bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
+    constexpr std::int64_t kHalf = std::int64_t{1} << 31;
+    if (state.header_id == 0 || run.newest_header == 0) return false;
+    const std::int64_t ahead = state.header_id - run.newest_header;
+    return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
+}
+
 /// When the order's last drive should end, now that this leg begins.
 void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now) {
     double left_s = run.leg().duration_s;
@@ -177,6 +186,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         if (passed > leg.passed_nodes) {
             leg.passed_nodes = passed;
             pass_nodes(fleet, run, now);
+            // After a restart it would hold floor again that others were granted since.
+            fleet.store(run);
         }
     }
     if (run.cancelling) return;
@@ -247,6 +258,7 @@ void hear(FleetState& fleet, VehicleRun& run, Time now) {
 void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.connected = true;
     run.reconciled = false;
+    run.newest_header = 0;
     add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
     hear(fleet, run, now);
 }
@@ -277,6 +289,8 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
 
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
     hear(fleet, run, now);
+    if (is_overtaken(run, state)) return;
+    run.newest_header = state.header_id;
     const std::vector<VehicleError> errors_before = std::move(run.state.errors);
     run.state = state;
     run.state_at = now;

@@ -270,6 +270,53 @@ TEST(TrafficScenarios, AnOrderWithoutAnyOtherWayWaitsForTheClosureByName) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
 }
 
+TEST(TrafficScenarios, AStateThatWasOvertakenChangesNothing) {
+    World world(corridor());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(1);
+    const auto id = VehicleId("V1");
+    StateMessage older = world.vehicle("V1").state;
+    older.header_id = 7;
+    world.run(1);
+    StateMessage newer = world.vehicle("V1").state;
+    newer.header_id = 8;
+    world.fleet->vehicle_state(id, newer, world.now);
+    const auto before = world.fleet->vehicle(id, world.now);
+    older.order_id.clear();  // from before it had the order
+
+    world.fleet->vehicle_state(id, older, world.now);
+
+    const auto after = world.fleet->vehicle(id, world.now);
+    EXPECT_FALSE(after->needs_resume);
+    EXPECT_EQ(after->state.header_id, 8);
+    EXPECT_EQ(after->pose->x_m, before->pose->x_m);
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kRunning);
+}
+
+TEST(TrafficScenarios, APauseThatOutlivedItsDriveEndsWithResume) {
+    World world;
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2, 3}));
+    const auto id = world.only_order().id;
+    auto& vehicle = world.vehicle("V1");
+    while (vehicle.state.last_node_id != "s2" && world.ticks < 5000) world.run(0.1);
+    ASSERT_EQ(world.stored(id).current_step, 0u);
+    // It makes its stop while the order to pause is on its way.
+    ASSERT_TRUE(world.fleet->pause_order(id, std::nullopt, "op", world.now));
+    for (int actions = 0; actions < 3; ++actions) vehicle.step();
+    world.fleet->vehicle_state(VehicleId("V1"), vehicle.state, world.now);
+    world.run(5);
+    ASSERT_EQ(world.stored(id).state, JobState::kInterrupted);
+    ASSERT_EQ(world.stored(id).current_step, 1u);
+    ASSERT_TRUE(vehicle.state.paused);
+
+    ASSERT_TRUE(world.fleet->resume_order(id, std::nullopt, "op", world.now));
+    world.run(600);
+
+    EXPECT_EQ(world.stored(id).state, JobState::kEnded) << world.stored(id).reason.code;
+}
+
 TEST(TrafficScenarios, WrongClosuresAreRefusedWithTheField) {
     World world(corridor());
     const auto refused = [&](NewClosure wanted) {

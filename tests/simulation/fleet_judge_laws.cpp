@@ -1,0 +1,249 @@
+#include <algorithm>
+#include <cstdio>
+
+#include "tests/simulation/fleet_judge_world.hpp"
+
+// What must hold, whatever goes wrong.
+namespace pulseline::fleet_judge {
+namespace {
+
+constexpr std::size_t kEventsShown = 60;
+
+bool meet(const Vehicle& a, const Vehicle& b) {
+    const double reach = (a.type().length_m() + b.type().length_m()) / 2 + 3;
+    if (geometry::distance(a.pose().position(), b.pose().position()) > reach) return false;
+    return geometry::intersects(geometry::transformed(a.pose(), a.type().footprint),
+                                geometry::transformed(b.pose(), b.type().footprint));
+}
+
+std::string text_of(const ParamValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<std::int64_t>(&value)) return std::to_string(*number);
+    char buffer[40];
+    std::snprintf(buffer, sizeof buffer, "%.17g", std::get<double>(value));
+    return buffer;
+}
+
+std::string text_of(const Params& params) {
+    std::string text;
+    for (const auto& param : params) text += " " + param.name + "=" + text_of(param.value);
+    return text;
+}
+
+std::string text_of(const Pose2& pose) {
+    char buffer[100];
+    std::snprintf(buffer, sizeof buffer, " (%.17g %.17g %.17g)", pose.x_m, pose.y_m,
+                  pose.heading_rad);
+    return buffer;
+}
+
+std::string text_of(const fleet::Event& event) {
+    return std::to_string(event.seq) + " " + std::to_string(to_ns(event.at)) + " " + event.type +
+           " " + event.vehicle.str() + " order " + event.order.str() + " leg " + event.leg.str() +
+           " " + event.actor + text_of(event.params);
+}
+
+}  // namespace
+
+void World::check_bodies() {
+    for (auto a = vehicles_.begin(); a != vehicles_.end(); ++a) {
+        if (!a->second.moved()) continue;
+        for (const auto& [other, body] : vehicles_) {
+            if (other == a->first || !meet(a->second, body)) continue;
+            violate(a->first.str() + " runs into " + other.str());
+        }
+    }
+}
+
+/// Nothing moves that was restarted on its way and that nobody has allowed to move again; nothing
+/// stands or drives beyond the base that the store knows.
+void World::check_movement() {
+    for (const auto& [id, vehicle] : vehicles_) {
+        if (!vehicle.moved()) continue;
+        if (watch_[id].restarted_on_leg) {
+            violate(id.str() + " moves after its restart without a person's act");
+        }
+        const auto& record = store_.vehicles[id];
+        const auto& executor = vehicle.executor();
+        if (!record.has_leg || record.leg.str() != executor.order_id()) {
+            violate(id.str() + " drives " + executor.order_id() + ", the store has " +
+                    (record.has_leg ? record.leg.str() : std::string("no leg")));
+            continue;
+        }
+        const auto released = 2 * (static_cast<std::int64_t>(record.leg_data.released_nodes) - 1);
+        if (executor.base_end_sequence_id() > released) {
+            violate(id.str() + " has a base up to " +
+                    std::to_string(executor.base_end_sequence_id()) + ", the store one up to " +
+                    std::to_string(released));
+        }
+    }
+}
+
+void World::check_sent(const fleet::VehicleMessage& message) {
+    if (options_.trace && message.instant_actions) {
+        for (const auto& action : message.instant_actions->actions) {
+            std::printf("%9.1f -> %s %s %s\n", now_s_, message.vehicle.str().c_str(),
+                        action.type.c_str(), action.id.c_str());
+        }
+    }
+    if (!message.order) return;
+    if (options_.trace) {
+        std::printf("%9.1f -> %s order %s update %lld from %lld\n", now_s_,
+                    message.vehicle.str().c_str(), message.order->order_id.c_str(),
+                    static_cast<long long>(message.order->order_update_id),
+                    static_cast<long long>(message.order->nodes.front().sequence_id));
+    }
+    std::int64_t base = 0;
+    for (const auto& node : message.order->nodes) {
+        if (options_.trace) {
+            std::printf("      %s%s %zu actions%s\n", node.node_id.c_str(),
+                        node.released ? "" : " horizon", node.actions.size(),
+                        text_of(node.pose).c_str());
+        }
+        if (node.released) base = std::max(base, node.sequence_id);
+    }
+    auto& known = watch_[message.vehicle].base;
+    const auto before = known.find(message.order->order_id);
+    const bool extends = before == known.end() || before->second < base;
+    if (!extends) return;
+    known[message.order->order_id] = base;
+    const auto& record = store_.vehicles[message.vehicle];
+    if (record.needs_resume || record.paused) {
+        violate(message.vehicle.str() + " is given floor while it waits for a person");
+    }
+}
+
+void World::check_records(const fleet::Records& records) {
+    for (const auto& event : records.events) {
+        if (event.seq != last_seq_ + 1) {
+            violate("event " + std::to_string(event.seq) + " follows " + std::to_string(last_seq_));
+        }
+        last_seq_ = event.seq;
+        if (event.type == "traffic.violation") violate("traffic: " + text_of(event));
+        if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
+    }
+    for (const auto& stop : records.stops) {
+        if (options_.trace)
+            std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(),
+                        stop.method.c_str());
+        if (!stop.inside) continue;
+        if (!good_stops_.insert({stop.order, stop.step}).second) {
+            violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +
+                    " was done twice");
+        }
+    }
+    for (const auto& order : records.orders) {
+        const auto known = store_.orders.find(order.id);
+        if (known != store_.orders.end() && fleet::is_final(known->second.state) &&
+            known->second.state != order.state) {
+            violate("order " + order.id.str() + " was over and is not any more");
+        }
+        if (order.state != fleet::JobState::kEnded || order.stop_requested) continue;
+        for (std::size_t i = 0; i < order.steps.size(); ++i) {
+            if (good_stops_.count({order.id, static_cast<int>(i)}) == 0) {
+                violate("order " + order.id.str() + " ended without step " + std::to_string(i));
+            }
+        }
+    }
+}
+
+void World::check_all() {
+    const auto every = static_cast<std::int64_t>(now_s_ * 5) % 25 == 0;
+    if (!every) return;
+    const auto traffic = fleet_->traffic(now());
+    if (traffic.stopped) violate("traffic stopped:" + text_of(traffic.stopped->params));
+    for (const auto& asked : asked_) {
+        if (asked.acknowledged && store_.orders.count(asked.id) == 0) {
+            violate("acknowledged order " + asked.id.str() + " is lost");
+        }
+    }
+}
+
+bool World::all_over() const {
+    if (static_cast<int>(asked_.size()) < wanted_orders_) return false;
+    const bool taken = std::all_of(asked_.begin(), asked_.end(),
+                                   [](const Asked& asked) { return asked.acknowledged; });
+    return taken && std::all_of(store_.orders.begin(), store_.orders.end(), [](const auto& entry) {
+               return fleet::is_final(entry.second.state);
+           });
+}
+
+void World::check_end() {
+    for (const auto& asked : asked_) {
+        if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");
+    }
+    if (store_.orders.size() > asked_.size()) violate("a doubled request made two orders");
+    for (const auto& [id, order] : store_.orders) {
+        if (fleet::is_final(order.state)) continue;
+        violate("order " + id.str() + " of " + order.assigned_vehicle.str() + " is still " +
+                fleet::to_string(order.state) + ": " + order.reason.code +
+                text_of(order.reason.params));
+    }
+    if (outcome_.violations.empty()) return;
+    for (const auto& view : fleet_->vehicles(now())) {
+        violate("  " + view.id.str() + (view.leg ? " on leg " + view.leg->id.str() : "") +
+                (view.reason ? " " + view.reason->code + text_of(view.reason->params) : "") +
+                (view.pose ? text_of(*view.pose) : "") + " at node " +
+                std::to_string(view.state.last_node_sequence_id) + " update " +
+                std::to_string(view.state.order_update_id) + (view.state.paused ? " paused" : ""));
+        const auto& leg = store_.vehicles[view.id].leg_data;
+        if (view.leg) {
+            violate("    leg " + std::to_string(leg.nodes.size()) + " nodes, " +
+                    std::to_string(leg.released_nodes) + " released, " +
+                    std::to_string(leg.passed_nodes) + " passed, update " +
+                    std::to_string(leg.update_id));
+        }
+    }
+    for (const auto& wait : fleet_->traffic(now()).waits) {
+        violate("  wait " + wait.vehicle.str() + " for " + wait.waits_for.str() + " " +
+                wait.reason.code + text_of(wait.reason.params));
+    }
+}
+
+void World::violate(const std::string& what) {
+    char at[32];
+    std::snprintf(at, sizeof at, "at %.1f s: ", now_s_);
+    outcome_.violations.push_back(at + what);
+    if (outcome_.violations.size() > 1) return;
+    const auto& events = store_.events;
+    const std::size_t from = events.size() > kEventsShown ? events.size() - kEventsShown : 0;
+    for (std::size_t i = from; i < events.size(); ++i) {
+        outcome_.last_events.push_back(text_of(events[i]));
+    }
+}
+
+void World::take_in(const std::string& text) {
+    for (const char c : text) {
+        outcome_.digest = (outcome_.digest ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+    }
+}
+
+void World::take_in(const fleet::Outputs& out) {
+    for (const auto& event : out.records.events) take_in(text_of(event));
+    for (const auto& order : out.records.orders) {
+        take_in(order.id.str() + fleet::to_string(order.state) + std::to_string(order.revision) +
+                order.reason.code + text_of(order.reason.params) +
+                std::to_string(order.current_step) + order.assigned_vehicle.str());
+    }
+    for (const auto& record : out.records.vehicles) {
+        take_in(record.id.str() + text_of(record.pose) + record.at_station.str() +
+                record.leg.str() + std::to_string(record.leg_data.released_nodes) +
+                std::to_string(record.leg_data.passed_nodes) + (record.needs_resume ? "!" : "."));
+    }
+    for (const auto& stop : out.records.stops) take_in(stop.id.str() + text_of(stop.measured));
+    for (const auto& message : out.messages) {
+        take_in(message.vehicle.str());
+        if (message.order) {
+            take_in(message.order->order_id + std::to_string(message.order->order_update_id));
+            for (const auto& node : message.order->nodes) {
+                take_in(node.node_id + (node.released ? "+" : "-") + text_of(node.pose));
+            }
+        }
+        if (!message.instant_actions) continue;
+        for (const auto& action : message.instant_actions->actions)
+            take_in(action.type + action.id);
+    }
+}
+
+}  // namespace pulseline::fleet_judge

@@ -1,0 +1,124 @@
+#include "tests/simulation/fleet_judge_vehicle.hpp"
+
+#include <utility>
+
+namespace pulseline::fleet_judge {
+
+namespace {
+constexpr int kUnreadable = 40;  // one stop in so many is not measured
+constexpr double kInView_m = 0.05;
+}  // namespace
+
+/// What the cameras find at a stop: the true pose, to a tenth of a millimetre.
+class Vehicle::Cameras : public simulation::StopSensing {
+public:
+    Cameras(const simulation::VehicleMotion& motion, std::mt19937_64& random)
+        : motion_(motion), random_(random) {}
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override {
+        if (random_() % kUnreadable == 0) {
+            return fail(Errc::kNotFound, "no_marker_in_view", "dirt on the code");
+        }
+        return fleet::StopMeasurement{
+            motion_.true_pose(), 1e-4, 1e-4, "dual_camera", {target.markers.front().payload}};
+    }
+
+private:
+    const simulation::VehicleMotion& motion_;
+    std::mt19937_64& random_;
+};
+
+Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::uint64_t seed)
+    : plant_(plant),
+      vehicle_(vehicle),
+      type_(*plant::find_vehicle_type(plant, vehicle.type)),
+      random_(seed) {
+    boot(plant::find_station(plant, vehicle.home)->pose);
+}
+
+Vehicle::~Vehicle() = default;
+
+void Vehicle::boot(const Pose2& pose) {
+    executor_.reset();
+    cameras_.reset();
+    simulation::MotionErrors errors;
+    if (type_.length_m() > 5) {  // the platform follows marks on the floor of its row
+        errors.heading_rad_per_sqrt_m /= 10;
+        errors.steering_bias_rad /= 10;
+        errors.settle_rad /= 10;
+    }
+    motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
+    cameras_ = std::make_unique<Cameras>(*motion_, random_);
+    executor_ = std::make_unique<simulation::VehicleExecutor>(*motion_, *cameras_,
+                                                              plant_.halls[0].id.str());
+}
+
+void Vehicle::restart() {
+    boot(Pose2(motion_->true_pose()));
+    header_id_ = 0;
+}
+
+void Vehicle::push(const Pose2& to) {
+    const bool known = knows_pose();
+    boot(to);
+    if (!known) return;
+    fleet::Action action;
+    action.type = "initPosition";
+    action.id = "pushed";
+    action.init_position = fleet::InitPosition{to, plant_.halls[0].id.str(), {}};
+    executor_->handle(fleet::InstantActionsMessage{{action}});
+}
+
+void Vehicle::receive(const fleet::VehicleMessage& message) {
+    if (message.instant_actions) executor_->handle(*message.instant_actions);
+    if (message.order) executor_->handle(*message.order);
+}
+
+void Vehicle::step(double dt_s) {
+    moved_ = false;
+    if (dead || manual || broken) return;
+    const Pose2 before = motion_->true_pose();
+    executor_->step(dt_s);
+    moved_ = !(before.x_m == pose().x_m && before.y_m == pose().y_m &&
+               before.heading_rad == pose().heading_rad);
+}
+
+std::vector<fleet::CameraReading> Vehicle::readings() const {
+    std::vector<fleet::CameraReading> found;
+    for (const auto& camera : type_.cameras) {
+        fleet::CameraReading reading;
+        reading.camera = camera.name;
+        for (const auto& marker : plant_.markers) {
+            const auto in_body = geometry::inverse(pose()) * marker.pose;
+            const auto off = in_body.position() - camera.body_from_camera.position();
+            if (norm(off) > kInView_m) continue;
+            reading.found = true;
+            reading.payload = marker.payload;
+            reading.code = in_body.position();
+            reading.angle_rad = in_body.heading_rad;
+            reading.sigma_m = 1e-5;
+        }
+        found.push_back(std::move(reading));
+    }
+    return found;
+}
+
+fleet::StateMessage Vehicle::state() {
+    fleet::StateMessage state;
+    executor_->write_state(state);
+    state.header_id = ++header_id_;
+    if (!knows_pose() && standing()) state.cameras = readings();
+    if (manual) state.operating_mode = "MANUAL";
+    if (broken) state.errors.push_back({"driveFault", true, "the drive is hot", {}});
+    if (manual || broken) {
+        state.driving = false;
+        state.velocity_mps = state.turn_rate_radps = 0;
+    }
+    return state;
+}
+
+bool Vehicle::take_changed() {
+    const bool is = manual || broken;
+    return executor_->take_changed() || std::exchange(was_, is) != is;
+}
+
+}  // namespace pulseline::fleet_judge

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <memory>
+#include <random>
+
+#include "core/fleet/ports.hpp"
+#include "core/simulation/vehicle_executor.hpp"
+
+/// A vehicle in the judge's hall: the real executor on a simulated platform, with what people and
+/// faults do to it.
+namespace pulseline::fleet_judge {
+
+using geometry::Pose2;
+
+class Vehicle {
+public:
+    Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::uint64_t seed);
+    ~Vehicle();
+
+    void receive(const fleet::VehicleMessage& message);
+    void step(double dt_s);
+    /// Power cycle: it knows neither order nor pose.
+    void restart();
+    /// Pushed by people; its own pose follows, as odometry does.
+    void push(const Pose2& to);
+    fleet::StateMessage state();
+    /// Something happened that is reported at once.
+    bool take_changed();
+
+    const plant::Vehicle& what() const { return vehicle_; }
+    const plant::VehicleType& type() const { return type_; }
+    const Pose2& pose() const { return motion_->true_pose(); }
+    bool moved() const { return moved_; }  // by its own drives, in the last step
+    bool standing() const { return motion_->standing(); }
+    bool knows_pose() const { return executor_->position_initialized(); }
+    bool at_work() const { return !motion_->idle() || executor_->acting(); }
+    const simulation::VehicleExecutor& executor() const { return *executor_; }
+
+    bool dead = false;    // without power: silent and standing
+    bool manual = false;  // a person has taken it over
+    bool broken = false;  // a fatal error; it stands
+
+private:
+    class Cameras;
+    void boot(const Pose2& pose);
+    std::vector<fleet::CameraReading> readings() const;
+
+    const plant::Plant& plant_;
+    const plant::Vehicle& vehicle_;
+    const plant::VehicleType& type_;
+    std::mt19937_64 random_;
+    std::unique_ptr<simulation::VehicleMotion> motion_;
+    std::unique_ptr<Cameras> cameras_;
+    std::unique_ptr<simulation::VehicleExecutor> executor_;
+    std::int64_t header_id_ = 0;
+    bool moved_ = false;
+    bool was_ = false;  // one of the three above, when last asked for changes
+};
+
+}  // namespace pulseline::fleet_judge

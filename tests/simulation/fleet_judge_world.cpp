@@ -1,0 +1,194 @@
+#include "tests/simulation/fleet_judge_world.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tests/simulation/fleet_judge_plant.hpp"
+
+namespace pulseline::fleet_judge {
+namespace {
+
+constexpr double kTick_s = 0.2;
+constexpr double kStateEvery_s = 1;
+constexpr double kDrain_s = 3600;  // at most, after the faults have stopped
+constexpr int kRounds = 4;         // of commits in one tick
+
+}  // namespace
+
+Outcome judge_seed(std::uint64_t seed, const Options& options) {
+    return World(seed, options).run();
+}
+
+World::World(std::uint64_t seed, const Options& options) : random_(seed), options_(options) {
+    plant_ = random_plant(random_);
+    for (const auto& vehicle : plant_.vehicles) {
+        vehicles_.emplace(std::piecewise_construct, std::forward_as_tuple(vehicle.id),
+                          std::forward_as_tuple(plant_, vehicle, random_()));
+        lines_[vehicle.id];
+        watch_[vehicle.id];
+    }
+    end_s_ = options.hours * 3600;
+    wanted_orders_ = std::max(1, static_cast<int>(pick(30, 60) * options.hours));
+    // One seed in ten has no faults: it must do as well.
+    const bool calm = pick(0, 9) == 0;
+    fault_rate_ = calm ? 0 : 1.0 / pick(20, 150);
+    bad_line_ = calm || chance(0.3) ? 0 : 0.001 * pick(1, 30);
+    disturbed_ = !calm;
+    outcome_.vehicles = static_cast<int>(vehicles_.size());
+    start_server();
+}
+
+int World::pick(int low, int high) { return fleet_judge::pick(random_, low, high); }
+
+Outcome World::run() {
+    while (now_s_ < end_s_ && outcome_.violations.empty()) step(kTick_s);
+    end_disturbances();
+    while (!all_over() && now_s_ < end_s_ + kDrain_s && outcome_.violations.empty()) step(kTick_s);
+    if (outcome_.violations.empty()) check_end();
+    outcome_.end_s = now_s_;
+    outcome_.orders = static_cast<int>(store_.orders.size());
+    for (const auto& [id, order] : store_.orders) {
+        outcome_.ended += order.state == fleet::JobState::kEnded ? 1 : 0;
+    }
+    return std::move(outcome_);
+}
+
+void World::step(double dt_s) {
+    now_s_ += dt_s;
+    end_faults();
+    if (disturbed_ && chance(fault_rate_ * dt_s)) disturb();
+    move_vehicles(dt_s);
+    check_bodies();
+    check_movement();
+    if (unstored_) retry_store();
+    // A stalled or read-only server takes nothing; vehicles go on.
+    if (now_s_ >= stalled_until_s_ && !unstored_) {
+        carry_messages();
+        if (!unstored_) fleet_->tick(now());
+        settle();
+        if (!unstored_) order_some();
+        if (!unstored_) let_person_act();
+    }
+    check_all();
+}
+
+void World::move_vehicles(double dt_s) {
+    for (auto& [id, vehicle] : vehicles_) {
+        Line& line = lines_[id];
+        if (!line.cut) {
+            for (std::size_t i = 0; i < line.down.size();) {
+                if (line.down[i].at_s > now_s_) {
+                    ++i;
+                    continue;
+                }
+                auto mail = std::move(line.down[i]);
+                line.down.erase(line.down.begin() + static_cast<std::ptrdiff_t>(i));
+                if (!vehicle.dead) vehicle.receive(mail.content);
+            }
+        }
+        vehicle.step(dt_s);
+        const bool due = now_s_ >= line.next_state_s;
+        if (vehicle.dead || line.cut || !(vehicle.take_changed() || due)) continue;
+        line.next_state_s = now_s_ + kStateEvery_s;
+        const int copies = !disturbed_ || !chance(bad_line_) ? 1 : pick(0, 2);
+        const auto state = vehicle.state();
+        for (int i = 0; i < copies; ++i) line.up.push_back({now_s_ + delay_s(), state});
+    }
+}
+
+void World::carry_messages() {
+    for (auto& [id, line] : lines_) {
+        if (line.cut || vehicles_.at(id).dead) continue;
+        if (!line.server_knows) {
+            line.server_knows = true;
+            fleet_->vehicle_connected(id, now());
+        }
+        for (std::size_t i = 0; i < line.up.size() && !unstored_;) {
+            if (line.up[i].at_s > now_s_) {
+                ++i;
+                continue;
+            }
+            auto mail = std::move(line.up[i]);
+            line.up.erase(line.up.begin() + static_cast<std::ptrdiff_t>(i));
+            fleet_->vehicle_state(id, mail.content, now());
+            // Mostly several reports become one commit, as in the server.
+            if (chance(0.1)) settle();
+        }
+    }
+}
+
+void World::start_server() {
+    fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now());
+    for (auto& [id, line] : lines_) {
+        line.server_knows = false;
+        line.up.clear();
+        line.down.clear();
+    }
+}
+
+void World::settle() {
+    for (int round = 0; round < kRounds && !unstored_; ++round) {
+        fleet::Outputs out = fleet_->take_outputs(now());
+        if (out.records.empty() && out.messages.empty()) return;
+        if (!commit(out)) return;
+        send(out);
+    }
+}
+
+/// False: the server died, or the store refused; nothing of it leaves the server.
+bool World::commit(fleet::Outputs& out) {
+    if (server_crashes_ && !out.records.empty() && chance(0.3)) {
+        server_crashes_ = false;
+        switch (pick(0, 2)) {
+            case 0:
+                crash("server dies before a commit");
+                return false;
+            case 1:
+                check_records(out.records);
+                store_.commit(out.records);
+                crash("server dies after a commit");
+                return false;
+            default:
+                ++outcome_.faults["commit fails"];
+                start_server();
+                fleet_->store_failed({"disk_full", now()}, now());
+                unstored_ = fleet_->take_outputs(now());
+                store_back_s_ = now_s_ + pick(1, 20);
+                return false;
+        }
+    }
+    check_records(out.records);
+    store_.commit(out.records);
+    take_in(out);
+    return true;
+}
+
+void World::retry_store() {
+    if (now_s_ < store_back_s_) return;
+    fleet::Outputs out = std::move(*unstored_);
+    unstored_.reset();
+    check_records(out.records);
+    store_.commit(out.records);
+    take_in(out);
+    fleet_->store_works_again(now());
+    send(out);
+}
+
+void World::send(const fleet::Outputs& out) {
+    for (const auto& message : out.messages) {
+        check_sent(message);
+        Line& line = lines_[message.vehicle];
+        if (line.cut) continue;
+        const int copies = !disturbed_ || !chance(bad_line_) ? 1 : pick(0, 2);
+        for (int i = 0; i < copies; ++i) line.down.push_back({now_s_ + delay_s(), message});
+    }
+}
+
+Vehicle& World::any_vehicle(plant::VehicleId& id) {
+    auto it = vehicles_.begin();
+    std::advance(it, pick(0, static_cast<int>(vehicles_.size()) - 1));
+    id = it->first;
+    return it->second;
+}
+
+}  // namespace pulseline::fleet_judge

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/fleet/fleet.hpp"
+#include "tests/core/fleet/fleet_world.hpp"
+#include "tests/simulation/fleet_judge_vehicle.hpp"
+
+/// One seed: a plant, the real fleet over a store in memory, vehicles, lines that lose and delay,
+/// a person, a client that orders, and what goes wrong; every law is checked at every step.
+namespace pulseline::fleet_judge {
+
+struct Outcome {
+    std::vector<std::string> violations;
+    std::vector<std::string> last_events;
+    std::map<std::string, int> faults;
+    int vehicles = 0;
+    int orders = 0;
+    int ended = 0;
+    double end_s = 0;
+    std::uint64_t digest = 0;
+};
+
+struct Options {
+    double hours = 1;
+    bool trace = false;
+};
+
+Outcome judge_seed(std::uint64_t seed, const Options& options);
+
+class World {
+public:
+    World(std::uint64_t seed, const Options& options);
+    Outcome run();
+
+private:
+    template <class T>
+    struct Mail {
+        double at_s = 0;
+        T content;
+    };
+    struct Line {
+        std::vector<Mail<fleet::StateMessage>> up;
+        std::vector<Mail<fleet::VehicleMessage>> down;
+        bool cut = false;
+        bool server_knows = false;  // that it is connected
+        double cut_until_s = 0;
+        double next_state_s = 0;
+    };
+    /// What the world remembers of a vehicle besides what it is.
+    struct Watch {
+        double dead_until_s = 0;
+        double manual_until_s = 0;
+        double broken_until_s = 0;
+        double person_at_s = 0;                    // when the person has time for it
+        bool restarted_on_leg = false;             // nobody has allowed it to move since
+        std::map<std::string, std::int64_t> base;  // by leg: highest node released so far
+    };
+    struct Asked {
+        fleet::NewOrder order;
+        fleet::JobOrderId id;  // once acknowledged
+        bool acknowledged = false;
+        double again_s = 0;  // when it is asked again
+    };
+    struct Closed {
+        fleet::ClosureId id;
+        double until_s = 0;
+    };
+
+    // fleet_judge_world.cpp
+    void step(double dt_s);
+    void move_vehicles(double dt_s);
+    void carry_messages();
+    void settle();
+    bool commit(fleet::Outputs& out);
+    void send(const fleet::Outputs& out);
+    void start_server();
+    void retry_store();
+    Time now() const { return base_ + from_seconds(now_s_) + clock_step_; }
+
+    // fleet_judge_faults.cpp: what goes wrong, and what ends it
+    void disturb();
+    void end_faults();
+    void cut_line(const plant::VehicleId& id, Line& line);
+    void crash(const char* how);
+    void end_disturbances();
+    void disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
+    void push(const plant::VehicleId& id, Vehicle& vehicle);
+    void disturb_orders();
+    void close_some();
+    double delay_s();
+
+    // fleet_judge_people.cpp: the client and the person
+    void order_some();
+    void ask(Asked& asked);
+    void let_person_act();
+    void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
+    void help_orders();
+
+    // fleet_judge_laws.cpp
+    void check_bodies();
+    void check_sent(const fleet::VehicleMessage& message);
+    void check_movement();
+    void check_records(const fleet::Records& records);
+    void check_all();
+    void check_end();
+    bool all_over() const;
+    void violate(const std::string& what);
+    void take_in(const fleet::Outputs& out);
+    void take_in(const std::string& text);
+
+    bool chance(double share) { return static_cast<double>(random_() >> 11) * 0x1.0p-53 < share; }
+    int pick(int low, int high);
+    Vehicle& any_vehicle(plant::VehicleId& id);
+
+    std::mt19937_64 random_;
+    Options options_;
+    plant::Plant plant_;
+    fleet::testing::MemoryStore store_;
+    std::unique_ptr<fleet::Fleet> fleet_;
+    std::map<plant::VehicleId, Vehicle> vehicles_;
+    std::map<plant::VehicleId, Line> lines_;
+    std::map<plant::VehicleId, Watch> watch_;
+    std::deque<Asked> asked_;
+    std::vector<Closed> closed_;
+    Time base_ = time_from_ns(1'800'000'000'000'000'000);
+    Duration clock_step_{0};
+    double now_s_ = 0;
+    double end_s_ = 0;
+    double fault_rate_ = 0;  // per second
+    double bad_line_ = 0;    // share of messages that something happens to
+    bool disturbed_ = true;
+    bool server_crashes_ = false;  // at one of the next commits
+    double stalled_until_s_ = 0;
+    std::optional<fleet::Outputs> unstored_;  // read-only: the store refuses
+    double store_back_s_ = 0;
+    double retry_s_ = 0;
+    double next_order_s_ = 0;
+    double next_person_s_ = 0;
+    int wanted_orders_ = 0;
+    std::uint64_t servers_ = 0;
+    std::int64_t last_seq_ = 0;
+    std::set<std::pair<fleet::JobOrderId, int>> good_stops_;
+    std::set<std::pair<plant::VehicleId, plant::VehicleId>> meeting_;
+    Outcome outcome_;
+};
+
+}  // namespace pulseline::fleet_judge
