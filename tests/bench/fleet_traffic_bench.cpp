@@ -141,11 +141,9 @@ int main(int argc, char** argv) {
         json["halls"] =
             measure(halls_world(), options, options.only == "halls" ? rest() : 0, totals);
     }
-#ifdef PULSELINE_FLEET_PLANT
     if (wanted("plant")) {
         json["plant"] = measure(plant_world(PULSELINE_FLEET_PLANT), options, 0, totals);
     }
-#endif
     if (wanted("warehouse")) {
         json["warehouse"] = measure(warehouse_world(), options, rest(), totals);
     }
