@@ -126,36 +126,66 @@ struct Way {
     }
 };
 
-/// Ways from `start` to all places as the end of the way. The search goes on through resting places
-/// in the way (0-1 breadth-first), so it knows which one to name.
-std::vector<Way> ways_from(const MoveGraph& graph, PlaceIndex start, const ClassMoves& moves) {
+/// Resting places on the floor where a way begins or ends.
+const std::vector<std::size_t>& rests_at(const MoveGraph& graph, const ClassMoves& moves,
+                                         PlaceIndex place) {
     static const std::vector<std::size_t> kNone;
-    const auto& own = graph.places[start].resting ? moves.own[start] : kNone;
-    std::vector<Way> through(graph.places.size());
-    std::vector<Way> to_end(graph.places.size());
+    return graph.places[place].resting ? moves.own[place] : kNone;
+}
+
+/// Places with a way from `start` that crosses nothing but the resting places of its first and last
+/// moves' ends.
+std::vector<bool> free_from(const MoveGraph& graph, PlaceIndex start, const ClassMoves& moves) {
+    static const std::vector<std::size_t> kNone;
+    const auto& own = rests_at(graph, moves, start);
+    std::vector<bool> passed(graph.places.size(), false);
+    std::vector<bool> arrived(graph.places.size(), false);
+    std::vector<PlaceIndex> open{start};
+    passed[start] = true;
+    while (!open.empty()) {
+        const PlaceIndex place = open.back();
+        open.pop_back();
+        for (const std::size_t m : moves.from[place]) {
+            const PlaceIndex to = graph.moves[m].to;
+            const auto& end = rests_at(graph, moves, to);
+            if (!arrived[to]) arrived[to] = !third(moves.crossed[m], own, end);
+            if (passed[to] || third(moves.crossed[m], own, kNone)) continue;
+            passed[to] = true;
+            open.push_back(to);
+        }
+    }
+    return arrived;
+}
+
+/// The way from `start` to `target`. The search goes on through resting places in the way (0-1
+/// breadth-first), so it knows which one to name. Those at the target are the vehicle's own on all
+/// of the way: it may arrive there and turn.
+Way way_between(const MoveGraph& graph, PlaceIndex start, PlaceIndex target,
+                const ClassMoves& moves) {
+    const auto& own = rests_at(graph, moves, start);
+    const auto& end = rests_at(graph, moves, target);
+    std::vector<Way> ways(graph.places.size());
     std::deque<std::pair<PlaceIndex, std::size_t>> open{{start, 0}};
-    through[start].crossings = 0;
+    ways[start].crossings = 0;
     while (!open.empty()) {
         const auto [place, crossings] = open.front();
         open.pop_front();
-        const Way here = through[place];
+        if (place == target) break;
+        const Way here = ways[place];
         if (crossings > here.crossings) continue;
         for (const std::size_t m : moves.from[place]) {
             const PlaceIndex to = graph.moves[m].to;
-            const auto& end = graph.places[to].resting ? moves.own[to] : kNone;
-            const Way arrived = here.onward(third(moves.crossed[m], own, end));
-            if (arrived.crossings < to_end[to].crossings) to_end[to] = arrived;
-            const Way passed = here.onward(third(moves.crossed[m], own, kNone));
-            if (passed.crossings >= through[to].crossings) continue;
-            through[to] = passed;
-            if (passed.crossings == here.crossings) {
-                open.emplace_front(to, passed.crossings);
+            const Way onward = here.onward(third(moves.crossed[m], own, end));
+            if (onward.crossings >= ways[to].crossings) continue;
+            ways[to] = onward;
+            if (onward.crossings == here.crossings) {
+                open.emplace_front(to, onward.crossings);
             } else {
-                open.emplace_back(to, passed.crossings);
+                open.emplace_back(to, onward.crossings);
             }
         }
     }
-    return to_end;
+    return ways[target];
 }
 
 /// What one class cannot do for one reason, told once with the first pair of places as an example.
@@ -176,10 +206,11 @@ void check_ways(const std::vector<LayoutClass>& classes, std::size_t c, const Cr
     }
     std::map<std::string, Unreachable> by_crossing;  // by its name, empty: no way at all
     for (const PlaceIndex start : targets) {
-        const auto ways = ways_from(graph, start, moves);
+        const auto free = free_from(graph, start, moves);
         for (const PlaceIndex target : targets) {
-            const Way& way = ways[target];
-            if (target == start || way.crossings == 0) continue;
+            if (target == start || free[target]) continue;
+            const Way way = way_between(graph, start, target, moves);
+            if (way.crossings == 0) continue;
             std::string crossing;
             if (way.crossings != Way{}.crossings) {
                 const Rest& rest = crossings.rests()[way.first_crossed];

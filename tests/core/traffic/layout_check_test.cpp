@@ -79,6 +79,21 @@ TEST(LayoutCheck, AClassWithoutVehiclesIsInNobodysWay) {
     EXPECT_EQ(text(found[0].reason, "crossing"), std::to_string(floor.place(2, 0)));
 }
 
+TEST(LayoutCheck, AVehicleMayTurnWhereItArrives) {
+    const Floor floor({"r r", "..."});
+    const PlaceIndex rest = floor.place(2, 0);
+    MoveGraph graph = floor.graph;
+    const auto other_heading = static_cast<PlaceIndex>(graph.places.size());
+    graph.places.push_back({graph.places[rest].stand, false});
+    for (Move& move : graph.moves) {
+        if (move.to == rest) move.to = other_heading;
+        if (move.from == rest) move.from = other_heading;
+    }
+    graph.moves.push_back({other_heading, rest, graph.places[rest].stand, kMove_s});
+    graph.moves.push_back({rest, other_heading, graph.places[rest].stand, kMove_s});
+    EXPECT_TRUE(check_layout({{"small", &graph, {}, 2, {}}}).empty());
+}
+
 TEST(LayoutCheck, NamesNoRestingPlaceWhereNoWayLeads) {
     const Floor floor({"r ."});
     const auto found = check(floor, {floor.place(2, 0)}, 1);
