@@ -66,9 +66,10 @@ public:
         ways_.resize(world.graphs.size());
         vehicles_.resize(world.vehicles.size());
         for (std::size_t v = 0; v < vehicles_.size(); ++v) {
-            const auto& [graph, start, zone] = world.vehicles[v];
-            vehicles_[v].place = start;
-            for (const auto tile : world.graphs[graph].places[start].stand) holder_[tile] = v;
+            const auto& vehicle = world.vehicles[v];
+            vehicles_[v].place = vehicle.start;
+            const auto& places = world.graphs[vehicle.graph].places;
+            for (const auto tile : places[vehicle.start].stand) holder_[tile] = v;
         }
     }
 

@@ -46,7 +46,7 @@ World plant_world(const std::string& path) {
         }
         const auto of_class = static_cast<std::size_t>(known - classes.begin());
         world.vehicles.push_back(
-            {static_cast<GraphIndex>(of_class), static_cast<PlaceIndex>(*start), of_class});
+            {static_cast<GraphIndex>(of_class), static_cast<PlaceIndex>(*start), of_class, loaded});
     }
     return world;
 }

@@ -79,6 +79,10 @@ private:
             if (new_orders && vehicles_[v].goal == traffic::kNoPlace) {
                 vehicles_[v].goal = orders_.next(v);
             }
+            // As the fleet does it: an idle platform with its load on it stays, others may leave.
+            const bool has_order = vehicles_[v].goal != traffic::kNoPlace;
+            traffic_.set_leaves_rest(
+                v, has_order ? !vehicles_[v].admitted : !world_.vehicles[v].loaded);
             admit(v);
             release(v);
         }

@@ -20,6 +20,7 @@ struct World {
         GraphIndex graph = 0;
         PlaceIndex start = 0;  // a resting place of that graph
         std::size_t zone = 0;  // whose orders it gets: its hall
+        bool loaded = false;   // does not leave its rest for others while it has no order
     };
     std::string name;
     std::vector<traffic::MoveGraph> graphs;
