@@ -119,7 +119,7 @@ nlohmann::json measure(const World& world, const Options& options, std::uint64_t
     std::fflush(stdout);
     totals.releases += ours.releases;
     totals.failures += ours.violations + static_cast<std::uint64_t>(ours.stuck) +
-                       (ours.rebuilt_same && world.well_formed ? 0 : 1);
+                       (ours.rebuilt_same && (world.well_formed || world.real_plant) ? 0 : 1);
     return json;
 }
 

@@ -192,6 +192,23 @@ private:
             vehicle.to_goal = true;
         } else if (vehicle.place != world_.vehicles[v].start) {
             try_leg(v, world_.vehicles[v].start);
+            if (vehicle.leg.empty() && world_.real_plant) hand_over(v);
+        } else if (world_.real_plant) {
+            hand_over(v);
+        }
+    }
+
+    /// As in the joint plan's run.
+    void hand_over(std::size_t v) {
+        const std::size_t count = vehicles_.size();
+        for (std::size_t i = 1; i < count; ++i) {
+            const std::size_t u = (v + 1 + (i + handed_over_) % (count - 1)) % count;
+            Vehicle& other = vehicles_[u];
+            const bool free = other.leg.empty() && !other.dwelling && other.busy_steps == 0;
+            if (world_.vehicles[u].zone != world_.vehicles[v].zone || !free) continue;
+            std::swap(other.wanted, vehicles_[v].wanted);
+            ++handed_over_;
+            return;
         }
     }
 
@@ -202,6 +219,7 @@ private:
     std::vector<std::unordered_map<std::uint64_t, std::vector<PlaceIndex>>> ways_;
     std::unordered_map<traffic::TileId, std::size_t> holder_;
     std::vector<Vehicle> vehicles_;
+    std::size_t handed_over_ = 0;
 };
 
 }  // namespace

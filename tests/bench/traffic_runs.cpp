@@ -18,7 +18,6 @@ using traffic::VehicleIndex;
 using Timer = std::chrono::steady_clock;
 
 constexpr double kDrain_s = 6 * 3600;
-constexpr double kRetry_s = 30;      // after a refused admission
 constexpr MoveNumber kAhead = 2;     // moves granted ahead
 constexpr std::size_t kCheck = 200;  // steps between the monitor's full checks
 
@@ -124,9 +123,25 @@ private:
         run_.admission_us.push_back(cpu_us() - begin_us);
         if (!vehicle.admitted) {
             ++run_.refused;
-            vehicle.retry_s = now_s_ + kRetry_s;
+            vehicle.retry_s = now_s_ + world_.retry_s;
+            if (world_.real_plant) hand_over(v);
         }
         settle();
+    }
+
+    /// Where the layout keeps a vehicle from a station for good, one on the other side serves it:
+    /// vehicles of a zone in turn, those whose own orders wait take over in exchange.
+    void hand_over(VehicleIndex v) {
+        const auto count = static_cast<VehicleIndex>(vehicles_.size());
+        for (VehicleIndex i = 1; i < count; ++i) {
+            const VehicleIndex u = (v + 1 + (i + handed_over_) % (count - 1)) % count;
+            if (world_.vehicles[u].zone != world_.vehicles[v].zone || vehicles_[u].admitted) {
+                continue;
+            }
+            std::swap(vehicles_[u].goal, vehicles_[v].goal);
+            ++handed_over_;
+            return;
+        }
     }
 
     void release(VehicleIndex v) {
@@ -178,6 +193,7 @@ private:
     std::vector<Vehicle> vehicles_;
     double now_s_ = 0;
     std::size_t steps_ = 0;
+    VehicleIndex handed_over_ = 0;
     Run run_;
 };
 

@@ -28,7 +28,10 @@ struct World {
     std::vector<std::vector<PlaceIndex>> goals;  // per zone
     double step_s = 3;                           // moves last a whole number of steps
     double dwell_s = 9;
+    double retry_s = 30;  // after a refused admission
     bool well_formed = false;
+    /// Its layout is as it is: an order that a vehicle cannot serve goes to another of its zone.
+    bool real_plant = false;
 
     int steps_of(double duration_s) const;
 };
