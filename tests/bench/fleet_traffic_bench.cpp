@@ -67,10 +67,14 @@ void print_times(const char* name, std::vector<double>& times_us, double limit_u
 }
 
 nlohmann::json print_throughput(const char* name, const Run& run) {
-    std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck)\n", name,
+    std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck", name,
                 run.orders_per_hour(), static_cast<unsigned long long>(run.orders), run.stuck);
-    return {
-        {"orders_per_hour", run.orders_per_hour()}, {"orders", run.orders}, {"stuck", run.stuck}};
+    if (run.longest_order_s > 0) std::printf(", longest order %.0f s", run.longest_order_s);
+    std::printf(")\n");
+    return {{"orders_per_hour", run.orders_per_hour()},
+            {"orders", run.orders},
+            {"stuck", run.stuck},
+            {"longest_order_s", run.longest_order_s}};
 }
 
 struct Totals {

@@ -15,6 +15,8 @@ namespace pulseline::bench {
 using traffic::GraphIndex;
 using traffic::PlaceIndex;
 
+constexpr double kHandOver_s = 120;
+
 struct World {
     struct Vehicle {
         GraphIndex graph = 0;
@@ -30,7 +32,8 @@ struct World {
     double dwell_s = 9;
     double retry_s = 30;  // after a refused admission
     bool well_formed = false;
-    /// Its layout is as it is: an order that a vehicle cannot serve goes to another of its zone.
+    /// Its layout is as it is: an order that a vehicle cannot begin for kHandOver_s goes to another
+    /// of its zone. Not sooner, or short orders would be picked and long ones put off.
     bool real_plant = false;
 
     int steps_of(double duration_s) const;
@@ -69,6 +72,8 @@ struct Run {
     double rebuild_ms = 0;
     bool rebuilt_same = false;
     int stuck = 0;
+    /// From an order's coming to its end or, if it was not served at all, to the end of the run.
+    double longest_order_s = 0;
     double orders_per_hour() const {
         return simulated_s > 0 ? static_cast<double>(orders) * 3600 / simulated_s : 0;
     }
