@@ -88,7 +88,7 @@ std::vector<Reason> check_layout(const plant::Plant& plant) {
     std::vector<traffic::LayoutClass> layout;
     for (std::size_t c = 0; c < classes.size(); ++c) {
         traffic::LayoutClass entry;
-        entry.name = classes[c].type->id.str();
+        entry.name = classes[c].type->id.str() + (classes[c].loaded ? " with load" : "");
         entry.graph = &graphs[c];
         entry.vehicles = vehicles[c];
         for (std::size_t p = 0; p < classes[c].motion.places.size(); ++p) {

@@ -35,7 +35,7 @@ FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& pl
 traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_class);
 
 /// What stands in the way of traffic's guarantee that every order can always be served (see
-/// traffic/layout_check.hpp): reasons unreachable {class, from, to, crossing?} and
+/// traffic/layout_check.hpp): reasons unreachable {class, from, to, count, crossing?} and
 /// too_few_resting_places {class, resting_places, vehicles}, with the stations' names.
 std::vector<Reason> check_layout(const plant::Plant& plant);
 

@@ -216,7 +216,7 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
         if (!is_stop(plan.at(n))) moves.push_back(plan.at(n));  // the old task's are not made
     }
     for (PlannedMove& move : found.moves) moves.push_back(std::move(move));
-    const auto old_blocked = count_blocked(now_s);
+    const auto old_blocked = before_others ? count_blocked(now_s) : 0;
     Undos own;
     if (!merge_plan(vehicle, std::move(moves),
                     before_others ? Placement::kFirst : Placement::kByTime, now_s, &own)) {

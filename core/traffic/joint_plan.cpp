@@ -22,11 +22,6 @@ std::vector<Use>& JointPlan::queue_for(TileIndex tile) {
     return queues_[tile];
 }
 
-const std::vector<Use>& JointPlan::queue(TileIndex tile) const {
-    static const std::vector<Use> kNobody;
-    return tile < queues_.size() ? queues_[tile] : kNobody;
-}
-
 std::optional<VehicleIndex> JointPlan::holder(TileIndex tile) const {
     const auto& uses = queue(tile);
     if (uses.empty() || uses.front().first > vehicles_[uses.front().vehicle].released) return {};
@@ -40,17 +35,6 @@ TileIndexes JointPlan::held_tiles(VehicleIndex vehicle) const {
         held = merge(held, plan.at(n).shape->swept);
     }
     return held;
-}
-
-double JointPlan::start_of(const Use& use) const {
-    const VehiclePlan& plan = vehicles_[use.vehicle];
-    return use.first <= plan.released ? -std::numeric_limits<double>::infinity()
-                                      : plan.at(use.first).start_s;
-}
-
-double JointPlan::end_of(const Use& use) const {
-    return use.last == kForever ? std::numeric_limits<double>::infinity()
-                                : vehicles_[use.vehicle].at(use.last).end_s;
 }
 
 double JointPlan::finish_s(VehicleIndex vehicle) const {

@@ -126,14 +126,25 @@ public:
 
     std::size_t vehicle_count() const { return vehicles_.size(); }
     const VehiclePlan& plan(VehicleIndex vehicle) const { return vehicles_[vehicle]; }
-    const std::vector<Use>& queue(TileIndex tile) const;
+    const std::vector<Use>& queue(TileIndex tile) const {
+        static const std::vector<Use> kNobody;
+        return tile < queues_.size() ? queues_[tile] : kNobody;
+    }
     std::size_t tile_count() const { return queues_.size(); }
     std::optional<VehicleIndex> holder(TileIndex tile) const;
     TileIndexes held_tiles(VehicleIndex vehicle) const;
     /// Predicted time at which the vehicle has reached its resting place.
     double finish_s(VehicleIndex vehicle) const;
-    double start_of(const Use& use) const;
-    double end_of(const Use& use) const;
+    // In the header, because searches ask them more than anything else.
+    double start_of(const Use& use) const {
+        const VehiclePlan& plan = vehicles_[use.vehicle];
+        return use.first <= plan.released ? -std::numeric_limits<double>::infinity()
+                                          : plan.at(use.first).start_s;
+    }
+    double end_of(const Use& use) const {
+        return use.last == kForever ? std::numeric_limits<double>::infinity()
+                                    : vehicles_[use.vehicle].at(use.last).end_s;
+    }
     /// Plan changes of others that the last `replace` brought: moves with new waits_for.
     const std::vector<MoveRef>& touched_moves() const { return touched_moves_; }
 

@@ -1,6 +1,8 @@
 #include "core/traffic/layout_check.hpp"
 
 #include <algorithm>
+#include <deque>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -25,6 +27,7 @@ class Crossings {
 public:
     explicit Crossings(const std::vector<LayoutClass>& classes) : classes_(classes) {
         for (std::size_t c = 0; c < classes.size(); ++c) {
+            if (classes[c].vehicles == 0) continue;  // nobody rests there
             const auto& places = classes[c].graph->places;
             for (PlaceIndex p = 0; p < places.size(); ++p) {
                 if (!places[p].resting) continue;
@@ -36,12 +39,17 @@ public:
 
     const std::vector<Rest>& rests() const { return rests_; }
 
-    /// Resting places whose floor the tiles touch, each once.
-    std::vector<std::size_t> touched(const TileSet& tiles) const {
+    /// Resting places whose floor the tiles touch and where another than the moving vehicle of
+    /// class `c` can rest, each once.
+    std::vector<std::size_t> touched(const TileSet& tiles, std::size_t c) const {
         std::set<std::size_t> found;
         for (const TileId tile : tiles) {
             const auto it = at_.find(tile);
-            if (it != at_.end()) found.insert(it->second.begin(), it->second.end());
+            if (it == at_.end()) continue;
+            for (const std::size_t rest : it->second) {
+                const std::size_t resting = rests_[rest].of_class;
+                if (resting != c || classes_[c].vehicles > 1) found.insert(rest);
+            }
         }
         return {found.begin(), found.end()};
     }
@@ -74,16 +82,19 @@ struct ClassMoves {
     std::vector<std::vector<std::size_t>> own;      // by place: resting places sharing its floor
 };
 
-ClassMoves moves_of(const LayoutClass& of_class, const Crossings& crossings) {
+ClassMoves moves_of(const LayoutClass& of_class, std::size_t c, const Crossings& crossings) {
     const MoveGraph& graph = *of_class.graph;
     ClassMoves result;
     result.from.resize(graph.places.size());
-    for (const Place& place : graph.places) result.own.push_back(crossings.touched(place.stand));
+    for (const Place& place : graph.places) {
+        result.own.push_back(crossings.touched(place.stand, c));
+    }
     for (std::size_t m = 0; m < graph.moves.size(); ++m) {
         const Move& move = graph.moves[m];
         result.from[move.from].push_back(m);
         TileSet tiles = merge(move.swept, graph.places[move.from].stand);
-        result.crossed.push_back(crossings.touched(merge(tiles, graph.places[move.to].stand)));
+        tiles = merge(tiles, graph.places[move.to].stand);
+        result.crossed.push_back(crossings.touched(tiles, c));
     }
     return result;
 }
@@ -102,46 +113,123 @@ std::optional<std::size_t> third(const std::vector<std::size_t>& crossed,
     return std::nullopt;
 }
 
-void check_from(const std::vector<LayoutClass>& classes, std::size_t c, PlaceIndex start,
-                const ClassMoves& moves, const Crossings& crossings,
-                const std::set<PlaceIndex>& targets, std::vector<LayoutViolation>& found) {
-    const MoveGraph& graph = *classes[c].graph;
+/// The way to a place with the fewest moves that cross a third resting place.
+struct Way {
+    std::size_t crossings = std::numeric_limits<std::size_t>::max();  // none leads there
+    std::size_t first_crossed = 0;  // the resting place, when there are crossings
+
+    /// The same way with one more move, which crosses `rest` or nothing.
+    Way onward(const std::optional<std::size_t>& rest) const {
+        Way way = *this;
+        if (rest && way.crossings++ == 0) way.first_crossed = *rest;
+        return way;
+    }
+};
+
+/// Resting places on the floor where a way begins or ends.
+const std::vector<std::size_t>& rests_at(const MoveGraph& graph, const ClassMoves& moves,
+                                         PlaceIndex place) {
     static const std::vector<std::size_t> kNone;
-    const bool from_goal = !graph.places[start].resting;
-    const auto& own = from_goal ? kNone : moves.own[start];
-    std::vector<bool> reached(graph.places.size(), false);
-    std::vector<bool> arrived(graph.places.size(), false);  // as the end of the way
-    std::map<PlaceIndex, std::size_t> crossing;             // what kept it from a target
+    return graph.places[place].resting ? moves.own[place] : kNone;
+}
+
+/// Places with a way from `start` that crosses nothing but the resting places of its first and last
+/// moves' ends.
+std::vector<bool> free_from(const MoveGraph& graph, PlaceIndex start, const ClassMoves& moves) {
+    static const std::vector<std::size_t> kNone;
+    const auto& own = rests_at(graph, moves, start);
+    std::vector<bool> passed(graph.places.size(), false);
+    std::vector<bool> arrived(graph.places.size(), false);
     std::vector<PlaceIndex> open{start};
-    reached[start] = true;
+    passed[start] = true;
     while (!open.empty()) {
         const PlaceIndex place = open.back();
         open.pop_back();
         for (const std::size_t m : moves.from[place]) {
             const PlaceIndex to = graph.moves[m].to;
-            if (targets.count(to) != 0 && !arrived[to]) {
-                const auto& end = graph.places[to].resting ? moves.own[to] : kNone;
-                if (const auto rest = third(moves.crossed[m], own, end)) {
-                    crossing.emplace(to, *rest);
-                } else {
-                    arrived[to] = true;
-                }
-            }
-            if (reached[to] || third(moves.crossed[m], own, kNone)) continue;
-            reached[to] = true;
+            const auto& end = rests_at(graph, moves, to);
+            if (!arrived[to]) arrived[to] = !third(moves.crossed[m], own, end);
+            if (passed[to] || third(moves.crossed[m], own, kNone)) continue;
+            passed[to] = true;
             open.push_back(to);
         }
     }
-    for (const PlaceIndex target : targets) {
-        if (target == start || arrived[target]) continue;
-        Reason reason{"unreachable",
-                      {{"class", classes[c].name},
-                       {"from", place_name(classes[c], start)},
-                       {"to", place_name(classes[c], target)}}};
-        if (const auto it = crossing.find(target); it != crossing.end()) {
-            const Rest& rest = crossings.rests()[it->second];
-            reason.params.push_back({"crossing", place_name(classes[rest.of_class], rest.place)});
+    return arrived;
+}
+
+/// The way from `start` to `target`. The search goes on through resting places in the way (0-1
+/// breadth-first), so it knows which one to name. Those at the target are the vehicle's own on all
+/// of the way: it may arrive there and turn.
+Way way_between(const MoveGraph& graph, PlaceIndex start, PlaceIndex target,
+                const ClassMoves& moves) {
+    const auto& own = rests_at(graph, moves, start);
+    const auto& end = rests_at(graph, moves, target);
+    std::vector<Way> ways(graph.places.size());
+    std::deque<std::pair<PlaceIndex, std::size_t>> open{{start, 0}};
+    ways[start].crossings = 0;
+    while (!open.empty()) {
+        const auto [place, crossings] = open.front();
+        open.pop_front();
+        if (place == target) break;
+        const Way here = ways[place];
+        if (crossings > here.crossings) continue;
+        for (const std::size_t m : moves.from[place]) {
+            const PlaceIndex to = graph.moves[m].to;
+            const Way onward = here.onward(third(moves.crossed[m], own, end));
+            if (onward.crossings >= ways[to].crossings) continue;
+            ways[to] = onward;
+            if (onward.crossings == here.crossings) {
+                open.emplace_front(to, onward.crossings);
+            } else {
+                open.emplace_back(to, onward.crossings);
+            }
         }
+    }
+    return ways[target];
+}
+
+/// What one class cannot do for one reason, told once with the first pair of places as an example.
+struct Unreachable {
+    PlaceIndex from = kNoPlace;
+    PlaceIndex to = kNoPlace;
+    std::int64_t count = 0;
+};
+
+void check_ways(const std::vector<LayoutClass>& classes, std::size_t c, const Crossings& crossings,
+                std::vector<LayoutViolation>& found) {
+    const LayoutClass& of_class = classes[c];
+    const MoveGraph& graph = *of_class.graph;
+    const ClassMoves moves = moves_of(of_class, c, crossings);
+    std::set<PlaceIndex> targets(of_class.goals.begin(), of_class.goals.end());
+    for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
+        if (graph.places[p].resting) targets.insert(p);
+    }
+    std::map<std::string, Unreachable> by_crossing;  // by its name, empty: no way at all
+    for (const PlaceIndex start : targets) {
+        const auto free = free_from(graph, start, moves);
+        for (const PlaceIndex target : targets) {
+            if (target == start || free[target]) continue;
+            const Way way = way_between(graph, start, target, moves);
+            if (way.crossings == 0) continue;
+            std::string crossing;
+            if (way.crossings != Way{}.crossings) {
+                const Rest& rest = crossings.rests()[way.first_crossed];
+                crossing = place_name(classes[rest.of_class], rest.place);
+            }
+            Unreachable& group = by_crossing[crossing];
+            if (group.count++ == 0) {
+                group.from = start;
+                group.to = target;
+            }
+        }
+    }
+    for (const auto& [crossing, group] : by_crossing) {
+        Reason reason{"unreachable",
+                      {{"class", of_class.name},
+                       {"from", place_name(of_class, group.from)},
+                       {"to", place_name(of_class, group.to)},
+                       {"count", group.count}}};
+        if (!crossing.empty()) reason.params.push_back({"crossing", crossing});
         found.push_back({std::move(reason)});
     }
 }
@@ -177,15 +265,7 @@ std::vector<LayoutViolation> check_layout(const std::vector<LayoutClass>& classe
     const Crossings crossings(classes);
     check_counts(classes, crossings, found);
     for (std::size_t c = 0; c < classes.size(); ++c) {
-        if (classes[c].vehicles == 0) continue;
-        const ClassMoves moves = moves_of(classes[c], crossings);
-        std::set<PlaceIndex> targets(classes[c].goals.begin(), classes[c].goals.end());
-        for (PlaceIndex p = 0; p < classes[c].graph->places.size(); ++p) {
-            if (classes[c].graph->places[p].resting) targets.insert(p);
-        }
-        for (const PlaceIndex start : targets) {
-            check_from(classes, c, start, moves, crossings, targets, found);
-        }
+        if (classes[c].vehicles > 0) check_ways(classes, c, crossings, found);
     }
     return found;
 }

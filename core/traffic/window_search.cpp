@@ -214,13 +214,18 @@ WindowSearch::Range WindowSearch::free_windows(const TileIndexes& tiles) {
             if (std::find(recent, seen_.end(), use) != seen_.end()) continue;
             seen_.push_back(use);
             const double end_s = joint_->end_of(use);
+            if (end_s <= task_->start_s) continue;  // over before anything begins
             if (task_->only_lasting && end_s < task_->now_s + kBlocked_s / 2) continue;
             blocked_.push_back({joint_->start_of(use), end_s});
         }
     }
-    std::sort(blocked_.begin(), blocked_.end(), [](const Window& a, const Window& b) {
+    const auto sooner = [](const Window& a, const Window& b) {
         return a.from_s != b.from_s ? a.from_s < b.from_s : a.to_s < b.to_s;
-    });
+    };
+    // One queue's stays are in order already.
+    if (!std::is_sorted(blocked_.begin(), blocked_.end(), sooner)) {
+        std::sort(blocked_.begin(), blocked_.end(), sooner);
+    }
     Range range{static_cast<std::uint32_t>(pool_.size()), 0, stamp_};
     double free_from_s = task_->start_s;
     for (const Window& busy : blocked_) {

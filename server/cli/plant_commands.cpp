@@ -7,6 +7,7 @@
 #include "api/plant/plant_file.hpp"
 #include "core/plant/validate.hpp"
 #include "db/plant_store.hpp"
+#include "server/cli/layout_warnings.hpp"
 
 namespace pulseline::server::cli {
 namespace {
@@ -26,7 +27,24 @@ int unreadable(const std::string& what, bool as_json, std::ostream& out) {
     return kPlantUnreadable;
 }
 
-/// The plant when it has no fault; prints what is wrong otherwise.
+void print_faults(const std::vector<plant::Fault>& faults, const std::string& severity,
+                  bool as_json, std::ostream& out) {
+    for (const plant::Fault& fault : faults) {
+        if (as_json) {
+            print_line({{"severity", severity},
+                        {"element", fault.element},
+                        {"code", fault.code},
+                        {"what", fault.what},
+                        {"remedy", fault.remedy}},
+                       out);
+        } else {
+            out << (severity == "warning" ? "warning: " : "") << fault.element << ": " << fault.what
+                << " " << fault.remedy << "\n";
+        }
+    }
+}
+
+/// The plant when it has no fault, with warnings about its layout; prints what is wrong otherwise.
 int read_sound_plant(const std::string& file, bool as_json, std::ostream& out,
                      plant::Plant& plant) {
     auto read = plant::read_plant_file(file);
@@ -43,17 +61,8 @@ int read_sound_plant(const std::string& file, bool as_json, std::ostream& out,
         return kPlantUnreadable;
     }
     const auto faults = plant::validate(*read);
-    for (const plant::Fault& fault : faults) {
-        if (as_json) {
-            print_line({{"element", fault.element},
-                        {"code", fault.code},
-                        {"what", fault.what},
-                        {"remedy", fault.remedy}},
-                       out);
-        } else {
-            out << fault.element << ": " << fault.what << " " << fault.remedy << "\n";
-        }
-    }
+    print_faults(faults, "fault", as_json, out);
+    if (faults.empty()) print_faults(layout_warnings(*read), "warning", as_json, out);
     plant = std::move(*read);
     return faults.empty() ? kPlantSound : kPlantFaults;
 }

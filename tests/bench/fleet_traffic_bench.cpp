@@ -67,10 +67,14 @@ void print_times(const char* name, std::vector<double>& times_us, double limit_u
 }
 
 nlohmann::json print_throughput(const char* name, const Run& run) {
-    std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck)\n", name,
+    std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck", name,
                 run.orders_per_hour(), static_cast<unsigned long long>(run.orders), run.stuck);
-    return {
-        {"orders_per_hour", run.orders_per_hour()}, {"orders", run.orders}, {"stuck", run.stuck}};
+    if (run.longest_order_s > 0) std::printf(", longest order %.0f s", run.longest_order_s);
+    std::printf(")\n");
+    return {{"orders_per_hour", run.orders_per_hour()},
+            {"orders", run.orders},
+            {"stuck", run.stuck},
+            {"longest_order_s", run.longest_order_s}};
 }
 
 struct Totals {
@@ -119,7 +123,7 @@ nlohmann::json measure(const World& world, const Options& options, std::uint64_t
     std::fflush(stdout);
     totals.releases += ours.releases;
     totals.failures += ours.violations + static_cast<std::uint64_t>(ours.stuck) +
-                       (ours.rebuilt_same && world.well_formed ? 0 : 1);
+                       (ours.rebuilt_same && (world.well_formed || world.real_plant) ? 0 : 1);
     return json;
 }
 
@@ -141,11 +145,9 @@ int main(int argc, char** argv) {
         json["halls"] =
             measure(halls_world(), options, options.only == "halls" ? rest() : 0, totals);
     }
-#ifdef PULSELINE_FLEET_PLANT
     if (wanted("plant")) {
         json["plant"] = measure(plant_world(PULSELINE_FLEET_PLANT), options, 0, totals);
     }
-#endif
     if (wanted("warehouse")) {
         json["warehouse"] = measure(warehouse_world(), options, rest(), totals);
     }

@@ -15,8 +15,12 @@ constexpr double kStuck_s = 600;
 /// Neighbours and distances in moves for the baselines.
 class Grid {
 public:
-    explicit Grid(const traffic::MoveGraph& graph) : graph_(graph), next_(graph.places.size()) {
-        for (const auto& move : graph.moves) next_[move.from].push_back(move.to);
+    explicit Grid(const traffic::MoveGraph& graph)
+        : graph_(graph), next_(graph.places.size()), before_(graph.places.size()) {
+        for (const auto& move : graph.moves) {
+            next_[move.from].push_back(move.to);
+            before_[move.to].push_back(move.from);  // roads may lead one way only
+        }
     }
     const std::vector<PlaceIndex>& next(PlaceIndex place) const { return next_[place]; }
 
@@ -29,7 +33,7 @@ public:
         for (std::size_t i = 0; i < open.size(); ++i) {
             const PlaceIndex place = open[i];
             if (!cross_rests && place != goal && graph_.places[place].resting) continue;
-            for (const PlaceIndex other : next_[place]) {
+            for (const PlaceIndex other : before_[place]) {
                 if (distance[other] != std::numeric_limits<std::uint16_t>::max()) continue;
                 const bool wall = !cross_rests && graph_.places[other].resting && other != own;
                 if (wall) continue;
@@ -49,12 +53,13 @@ public:
 private:
     const traffic::MoveGraph& graph_;
     std::vector<std::vector<PlaceIndex>> next_;
+    std::vector<std::vector<PlaceIndex>> before_;
     std::unordered_map<PlaceIndex, std::vector<std::uint16_t>> tables_;
 };
 
 /// One vehicle per resource: a leg is driven when all its tiles are free at once, and frees them as
-/// the vehicle passes, as openTCS users secure whole routes. Routes lead around resting places and
-/// ignore other vehicles.
+/// the vehicle passes, as openTCS users secure whole routes. Routes lead around resting places,
+/// where there is a way, and ignore other vehicles.
 class ExclusiveLegs {
 public:
     explicit ExclusiveLegs(const World& world) : world_(world), orders_(world) {
@@ -66,9 +71,10 @@ public:
         ways_.resize(world.graphs.size());
         vehicles_.resize(world.vehicles.size());
         for (std::size_t v = 0; v < vehicles_.size(); ++v) {
-            const auto& [graph, start, zone] = world.vehicles[v];
-            vehicles_[v].place = start;
-            for (const auto tile : world.graphs[graph].places[start].stand) holder_[tile] = v;
+            const auto& vehicle = world.vehicles[v];
+            vehicles_[v].place = vehicle.start;
+            const auto& places = world.graphs[vehicle.graph].places;
+            for (const auto tile : places[vehicle.start].stand) holder_[tile] = v;
         }
     }
 
@@ -84,8 +90,9 @@ public:
                 vehicle.dwelling = vehicle.to_goal = false;
                 vehicle.wanted = traffic::kNoPlace;
                 ++done;
+                longest_done_s_ = std::max(longest_done_s_, now_s - vehicle.given_s);
             }
-            choose_leg(v);
+            choose_leg(v, now_s);
         }
     }
 
@@ -93,6 +100,15 @@ public:
         return static_cast<int>(
             std::count_if(vehicles_.begin(), vehicles_.end(),
                           [&](const Vehicle& v) { return now_s - v.moved_s > kStuck_s; }));
+    }
+
+    double longest_order_s(double now_s) const {
+        double longest_s = longest_done_s_;
+        for (const Vehicle& vehicle : vehicles_) {
+            if (vehicle.wanted == traffic::kNoPlace) continue;
+            longest_s = std::max(longest_s, now_s - vehicle.given_s);
+        }
+        return longest_s;
     }
 
     std::uint64_t done = 0;
@@ -106,6 +122,8 @@ private:
         bool to_goal = false;
         PlaceIndex wanted = traffic::kNoPlace;
         double moved_s = 0;
+        double since_s = 0;  // it has this order
+        double given_s = 0;  // to the zone
     };
 
     static std::uint64_t key(PlaceIndex from, PlaceIndex to) {
@@ -118,13 +136,15 @@ private:
     const std::vector<PlaceIndex>& way(GraphIndex graph, PlaceIndex from, PlaceIndex to) {
         auto& leg = ways_[graph][key(from, to)];
         if (!leg.empty() || from == to) return leg;
-        const auto distance = grids_[graph].distances(to, false, from);
+        auto distance = grids_[graph].distances(to, false, from);
+        const bool through_rests = distance[from] == std::numeric_limits<std::uint16_t>::max();
+        if (through_rests) distance = grids_[graph].distances(to, true, from);
+        if (distance[from] == std::numeric_limits<std::uint16_t>::max()) return leg;
         for (PlaceIndex place = from; place != to;) {
             PlaceIndex best = traffic::kNoPlace;
             for (const PlaceIndex other : grids_[graph].next(place)) {
                 if (distance[other] < distance[place]) best = other;
             }
-            if (best == traffic::kNoPlace) break;
             leg.push_back(place = best);
         }
         std::reverse(leg.begin(), leg.end());
@@ -182,15 +202,36 @@ private:
     }
 
     /// From a stop straight to the next one when that leg is free, else home.
-    void choose_leg(std::size_t v) {
+    void choose_leg(std::size_t v, double now_s) {
         Vehicle& vehicle = vehicles_[v];
-        if (vehicle.wanted == traffic::kNoPlace) vehicle.wanted = orders_.next(v);
+        if (vehicle.wanted == traffic::kNoPlace) {
+            vehicle.wanted = orders_.next(v);
+            vehicle.since_s = vehicle.given_s = now_s;
+        }
         if (vehicle.wanted == vehicle.place) {
             dwell(vehicle);
         } else if (try_leg(v, vehicle.wanted)) {
             vehicle.to_goal = true;
-        } else if (vehicle.place != world_.vehicles[v].start) {
-            try_leg(v, world_.vehicles[v].start);
+        } else {
+            if (vehicle.place != world_.vehicles[v].start) try_leg(v, world_.vehicles[v].start);
+            const bool waits = vehicle.leg.empty() && now_s - vehicle.since_s >= kHandOver_s;
+            if (waits && world_.real_plant) hand_over(v, now_s);
+        }
+    }
+
+    /// As in the joint plan's run.
+    void hand_over(std::size_t v, double now_s) {
+        const std::size_t count = vehicles_.size();
+        for (std::size_t i = 1; i < count; ++i) {
+            const std::size_t u = (v + 1 + (i + handed_over_) % (count - 1)) % count;
+            Vehicle& other = vehicles_[u];
+            const bool free = other.leg.empty() && !other.dwelling && other.busy_steps == 0;
+            if (world_.vehicles[u].zone != world_.vehicles[v].zone || !free) continue;
+            std::swap(other.wanted, vehicles_[v].wanted);
+            std::swap(other.given_s, vehicles_[v].given_s);
+            other.since_s = vehicles_[v].since_s = now_s;
+            ++handed_over_;
+            return;
         }
     }
 
@@ -201,6 +242,8 @@ private:
     std::vector<std::unordered_map<std::uint64_t, std::vector<PlaceIndex>>> ways_;
     std::unordered_map<traffic::TileId, std::size_t> holder_;
     std::vector<Vehicle> vehicles_;
+    std::size_t handed_over_ = 0;
+    double longest_done_s_ = 0;
 };
 
 }  // namespace
@@ -210,6 +253,7 @@ Run run_exclusive_legs(const World& world, double seconds) {
     Run run;
     for (; run.simulated_s < seconds; run.simulated_s += world.step_s) legs.step(run.simulated_s);
     run.orders = legs.done;
+    run.longest_order_s = legs.longest_order_s(run.simulated_s);
     run.stuck = legs.stuck(run.simulated_s);
     return run;
 }

@@ -19,6 +19,8 @@ World plant_world(const std::string& path) {
     world.name = plant->id;
     world.step_s = 1;
     world.dwell_s = 60;
+    world.retry_s = 1;
+    world.real_plant = true;
     world.well_formed = fleet::check_layout(*plant).empty();
     const planning::LegPlanner planner(*plant);
     std::vector<fleet::FloorClass> classes;
@@ -46,7 +48,7 @@ World plant_world(const std::string& path) {
         }
         const auto of_class = static_cast<std::size_t>(known - classes.begin());
         world.vehicles.push_back(
-            {static_cast<GraphIndex>(of_class), static_cast<PlaceIndex>(*start), of_class});
+            {static_cast<GraphIndex>(of_class), static_cast<PlaceIndex>(*start), of_class, loaded});
     }
     return world;
 }

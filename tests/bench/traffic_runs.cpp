@@ -18,7 +18,6 @@ using traffic::VehicleIndex;
 using Timer = std::chrono::steady_clock;
 
 constexpr double kDrain_s = 6 * 3600;
-constexpr double kRetry_s = 30;      // after a refused admission
 constexpr MoveNumber kAhead = 2;     // moves granted ahead
 constexpr std::size_t kCheck = 200;  // steps between the monitor's full checks
 
@@ -52,13 +51,18 @@ public:
     Run run(double seconds, std::uint64_t releases) {
         for (; now_s_ < seconds || run_.releases < releases; now_s_ += world_.step_s) step(true);
         run_.simulated_s = now_s_;
+        for (const Vehicle& vehicle : vehicles_) {
+            if (vehicle.goal == traffic::kNoPlace) continue;
+            run_.longest_order_s = std::max(run_.longest_order_s, now_s_ - vehicle.given_s);
+        }
         measure_memory();
         measure_rebuild();
-        const auto orders = run_.orders;
+        const auto [orders, longest_order_s] = std::pair(run_.orders, run_.longest_order_s);
         for (; now_s_ < run_.simulated_s + kDrain_s && !at_rest(); now_s_ += world_.step_s) {
             step(false);
         }
         run_.orders = orders;  // those that count for the throughput
+        run_.longest_order_s = longest_order_s;
         run_.drained_s = now_s_ - run_.simulated_s;
         run_.violations += monitor_.check_all().size();
         for (VehicleIndex v = 0; v < vehicles_.size(); ++v) run_.stuck += ended(v) ? 0 : 1;
@@ -71,6 +75,8 @@ private:
         PlaceIndex goal = traffic::kNoPlace;
         bool admitted = false;
         double retry_s = 0;
+        double since_s = 0;  // it has this order
+        double given_s = 0;  // to the zone
     };
 
     void step(bool new_orders) {
@@ -78,7 +84,12 @@ private:
             drive(v);
             if (new_orders && vehicles_[v].goal == traffic::kNoPlace) {
                 vehicles_[v].goal = orders_.next(v);
+                vehicles_[v].since_s = vehicles_[v].given_s = now_s_;
             }
+            // As the fleet does it: an idle platform with its load on it stays, others may leave.
+            const bool has_order = vehicles_[v].goal != traffic::kNoPlace;
+            traffic_.set_leaves_rest(
+                v, has_order ? !vehicles_[v].admitted : !world_.vehicles[v].loaded);
             admit(v);
             release(v);
         }
@@ -99,6 +110,7 @@ private:
             vehicle.admitted = false;
             vehicle.goal = traffic::kNoPlace;
             ++run_.orders;
+            run_.longest_order_s = std::max(run_.longest_order_s, now_s_ - vehicle.given_s);
         }
         if (plan.released > plan.passed) begin_move(v);
     }
@@ -120,9 +132,27 @@ private:
         run_.admission_us.push_back(cpu_us() - begin_us);
         if (!vehicle.admitted) {
             ++run_.refused;
-            vehicle.retry_s = now_s_ + kRetry_s;
+            vehicle.retry_s = now_s_ + world_.retry_s;
+            if (world_.real_plant && now_s_ - vehicle.since_s >= kHandOver_s) hand_over(v);
         }
         settle();
+    }
+
+    /// Where the layout keeps a vehicle from a station for good, one on the other side serves it:
+    /// vehicles of a zone in turn, those whose own orders wait take over in exchange.
+    void hand_over(VehicleIndex v) {
+        const auto count = static_cast<VehicleIndex>(vehicles_.size());
+        for (VehicleIndex i = 1; i < count; ++i) {
+            const VehicleIndex u = (v + 1 + (i + handed_over_) % (count - 1)) % count;
+            if (world_.vehicles[u].zone != world_.vehicles[v].zone || vehicles_[u].admitted) {
+                continue;
+            }
+            std::swap(vehicles_[u].goal, vehicles_[v].goal);
+            std::swap(vehicles_[u].given_s, vehicles_[v].given_s);
+            vehicles_[u].since_s = vehicles_[v].since_s = now_s_;
+            ++handed_over_;
+            return;
+        }
     }
 
     void release(VehicleIndex v) {
@@ -174,6 +204,7 @@ private:
     std::vector<Vehicle> vehicles_;
     double now_s_ = 0;
     std::size_t steps_ = 0;
+    VehicleIndex handed_over_ = 0;
     Run run_;
 };
 

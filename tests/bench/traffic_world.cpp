@@ -95,7 +95,7 @@ void add_hall(World& world, std::size_t hall) {
                     world.goals[hall].push_back(bay);
                 } else {
                     ++rests;
-                    world.vehicles.push_back({0, bay, hall});
+                    world.vehicles.push_back({0, bay, hall, false});
                 }
             }
         }

@@ -15,11 +15,14 @@ namespace pulseline::bench {
 using traffic::GraphIndex;
 using traffic::PlaceIndex;
 
+constexpr double kHandOver_s = 120;
+
 struct World {
     struct Vehicle {
         GraphIndex graph = 0;
         PlaceIndex start = 0;  // a resting place of that graph
         std::size_t zone = 0;  // whose orders it gets: its hall
+        bool loaded = false;   // does not leave its rest for others while it has no order
     };
     std::string name;
     std::vector<traffic::MoveGraph> graphs;
@@ -27,7 +30,11 @@ struct World {
     std::vector<std::vector<PlaceIndex>> goals;  // per zone
     double step_s = 3;                           // moves last a whole number of steps
     double dwell_s = 9;
+    double retry_s = 30;  // after a refused admission
     bool well_formed = false;
+    /// Its layout is as it is: an order that a vehicle cannot begin for kHandOver_s goes to another
+    /// of its zone. Not sooner, or short orders would be picked and long ones put off.
+    bool real_plant = false;
 
     int steps_of(double duration_s) const;
 };
@@ -65,6 +72,8 @@ struct Run {
     double rebuild_ms = 0;
     bool rebuilt_same = false;
     int stuck = 0;
+    /// From an order's coming to its end or, if it was not served at all, to the end of the run.
+    double longest_order_s = 0;
     double orders_per_hour() const {
         return simulated_s > 0 ? static_cast<double>(orders) * 3600 / simulated_s : 0;
     }

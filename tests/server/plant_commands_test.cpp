@@ -55,6 +55,32 @@ TEST_F(PlantCommands, ValidateWritesJsonLines) {
     EXPECT_EQ(codes, (std::vector<std::string>{"not_positive", "duplicate_number"}));
 }
 
+TEST_F(PlantCommands, WarnsOfStationsWhereRestingVehiclesAreInTheWay) {
+    plant::Plant plant = plant::load_plant_file(kPulseLine).value();
+    plant::Vehicle second = plant.vehicles[0];
+    second.id = plant::VehicleId("TP-02");
+    second.serial_number = "TP-02";
+    second.home = plant.stations[3].id;
+    plant.vehicles.push_back(second);
+    const std::string file = folder_.file("two.json");
+    ASSERT_TRUE(plant::save_plant_file(plant, file));
+
+    EXPECT_EQ(plant_validate(file, false, out_), kPlantSound) << out_.str();
+    EXPECT_NE(out_.str().find("warning: /stations/"), std::string::npos) << out_.str();
+    EXPECT_NE(out_.str().find("rests at st0"), std::string::npos) << out_.str();
+    EXPECT_NE(out_.str().find("no fault"), std::string::npos) << out_.str();
+    out_.str("");
+    EXPECT_EQ(plant_import(database(), file, true, out_), kPlantSound) << out_.str();
+    const auto first = nlohmann::json::parse(out_.str().substr(0, out_.str().find('\n')));
+    EXPECT_EQ(first.at("severity"), "warning");
+    EXPECT_EQ(first.at("code"), "unreachable");
+}
+
+TEST_F(PlantCommands, AVehicleAloneIsWarnedOfNothing) {
+    EXPECT_EQ(plant_validate(kPulseLine, false, out_), kPlantSound);
+    EXPECT_EQ(out_.str().find("warning"), std::string::npos) << out_.str();
+}
+
 TEST_F(PlantCommands, UnreadableFilesExitWithTwo) {
     std::ofstream(folder_.file("text.json")) << "{";
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 #include "tests/core/traffic/traffic_floor.hpp"
 
 namespace pulseline::traffic {
@@ -19,6 +21,13 @@ std::string text(const Reason& reason, const std::string& name) {
     return {};
 }
 
+std::int64_t count(const Reason& reason) {
+    for (const auto& param : reason.params) {
+        if (param.name == "count") return std::get<std::int64_t>(param.value);
+    }
+    return 0;
+}
+
 TEST(LayoutCheck, BaysBesideALaneAreWellFormed) {
     const Floor floor({"r r r", "....."});
     EXPECT_TRUE(check(floor, {floor.place(1, 1), floor.place(4, 1)}, 3).empty());
@@ -27,14 +36,70 @@ TEST(LayoutCheck, BaysBesideALaneAreWellFormed) {
 TEST(LayoutCheck, NamesTheRestingPlaceInTheWay) {
     const Floor floor({"..r..r"});
     const auto found = check(floor, {floor.place(0, 0)}, 2);
-    ASSERT_FALSE(found.empty());
-    bool named = false;
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].reason.code, "unreachable");
+    EXPECT_EQ(text(found[0].reason, "crossing"), std::to_string(floor.place(2, 0)));
+    // From (5, 0) to the goal and back; the rest in the middle can leave to both sides.
+    EXPECT_EQ(count(found[0].reason), 2);
+}
+
+TEST(LayoutCheck, NamesARestingPlaceFarFromTheGoal) {
+    const Floor floor({"r.r....."});
+    const auto found = check(floor, {floor.place(7, 0)}, 2);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(text(found[0].reason, "crossing"), std::to_string(floor.place(2, 0)));
+}
+
+TEST(LayoutCheck, TellsEachRestingPlaceInTheWayOnce) {
+    const Floor floor({"rrrr", ".  ."});  // rests in a row, goals below both ends
+    const auto found = check(floor, {floor.place(0, 1), floor.place(3, 1)}, 4);
+    std::set<std::string> crossings;
+    std::int64_t pairs = 0;
     for (const auto& violation : found) {
-        named |= violation.reason.code == "unreachable" &&
-                 text(violation.reason, "from") == std::to_string(floor.place(5, 0)) &&
-                 text(violation.reason, "to") == std::to_string(floor.place(0, 0));
+        EXPECT_TRUE(crossings.insert(text(violation.reason, "crossing")).second);
+        pairs += count(violation.reason);
     }
-    EXPECT_TRUE(named);
+    EXPECT_EQ(crossings.size(), 4u);
+    EXPECT_GT(pairs, 4);
+}
+
+TEST(LayoutCheck, TheOnlyVehicleOfAClassIsNotInItsOwnWay) {
+    const Floor floor({"..r..r"});
+    EXPECT_TRUE(check(floor, {floor.place(0, 0)}, 1).empty());
+}
+
+TEST(LayoutCheck, AClassWithoutVehiclesIsInNobodysWay) {
+    const Floor floor({"..r..r"});
+    MoveGraph small = floor.graph;
+    small.places[floor.place(2, 0)].resting = false;
+    const std::vector<PlaceIndex> goal{floor.place(0, 0)};
+    EXPECT_TRUE(check_layout({{"a", &small, goal, 1, {}}, {"b", &floor.graph, {}, 0, {}}}).empty());
+    const auto found = check_layout({{"a", &small, goal, 1, {}}, {"b", &floor.graph, {}, 1, {}}});
+    ASSERT_FALSE(found.empty());
+    EXPECT_EQ(text(found[0].reason, "crossing"), std::to_string(floor.place(2, 0)));
+}
+
+TEST(LayoutCheck, AVehicleMayTurnWhereItArrives) {
+    const Floor floor({"r r", "..."});
+    const PlaceIndex rest = floor.place(2, 0);
+    MoveGraph graph = floor.graph;
+    const auto other_heading = static_cast<PlaceIndex>(graph.places.size());
+    graph.places.push_back({graph.places[rest].stand, false});
+    for (Move& move : graph.moves) {
+        if (move.to == rest) move.to = other_heading;
+        if (move.from == rest) move.from = other_heading;
+    }
+    graph.moves.push_back({other_heading, rest, graph.places[rest].stand, kMove_s});
+    graph.moves.push_back({rest, other_heading, graph.places[rest].stand, kMove_s});
+    EXPECT_TRUE(check_layout({{"small", &graph, {}, 2, {}}}).empty());
+}
+
+TEST(LayoutCheck, NamesNoRestingPlaceWhereNoWayLeads) {
+    const Floor floor({"r ."});
+    const auto found = check(floor, {floor.place(2, 0)}, 1);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(text(found[0].reason, "crossing"), "");
+    EXPECT_EQ(count(found[0].reason), 2);
 }
 
 TEST(LayoutCheck, CountsRestingPlaces) {

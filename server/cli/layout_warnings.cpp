@@ -1,0 +1,71 @@
+#include "server/cli/layout_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/fleet/floor_graph.hpp"
+
+namespace pulseline::server::cli {
+namespace {
+
+template <class Value>
+Value value_of(const Reason& reason, const char* name) {
+    const auto found = std::find_if(reason.params.begin(), reason.params.end(),
+                                    [&](const Param& param) { return param.name == name; });
+    return found == reason.params.end() ? Value{} : std::get<Value>(found->value);
+}
+
+std::string pairs(std::int64_t count) {
+    return count == 1 ? std::string("this pair of stations")
+                      : fmt::format("{} pairs of stations like this", count);
+}
+
+std::string station_pointer(const plant::Plant& plant, const std::string& station) {
+    for (std::size_t i = 0; i < plant.stations.size(); ++i) {
+        if (plant.stations[i].id.str() == station) return fmt::format("/stations/{}", i);
+    }
+    return "/stations";
+}
+
+plant::Fault unreachable(const plant::Plant& plant, const Reason& reason) {
+    const auto text = [&](const char* name) { return value_of<std::string>(reason, name); };
+    const std::string crossing = text("crossing");
+    const std::string concerned = pairs(value_of<std::int64_t>(reason, "count"));
+    if (crossing.empty()) {
+        return {station_pointer(plant, text("to")), reason.code,
+                fmt::format("Vehicles of type {} have no way from {} to {} even on an empty floor "
+                            "({}).",
+                            text("class"), text("from"), text("to"), concerned),
+                "Join the stations by roads or free floor, or exclude the type from one of them."};
+    }
+    return {station_pointer(plant, crossing), reason.code,
+            fmt::format("A vehicle that rests at {} keeps vehicles of type {} from driving from {} "
+                        "to {} ({}).",
+                        crossing, text("class"), text("from"), text("to"), concerned),
+            fmt::format("Make {} no resting place, move it out of the way, or add a way past it.",
+                        crossing)};
+}
+
+plant::Fault too_few_resting_places(const Reason& reason) {
+    const auto of_class = value_of<std::string>(reason, "class");
+    return {"/stations", reason.code,
+            fmt::format("{} {} can rest at {} places that share no floor.",
+                        value_of<std::int64_t>(reason, "vehicles"),
+                        of_class.empty() ? "vehicles" : "vehicles of type " + of_class,
+                        value_of<std::int64_t>(reason, "resting_places")),
+            "Add stations with resting_place for them, apart from each other."};
+}
+
+}  // namespace
+
+std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
+    std::vector<plant::Fault> warnings;
+    for (const Reason& reason : fleet::check_layout(plant)) {
+        warnings.push_back(reason.code == "unreachable" ? unreachable(plant, reason)
+                                                        : too_few_resting_places(reason));
+    }
+    return warnings;
+}
+
+}  // namespace pulseline::server::cli
