@@ -245,14 +245,17 @@ export class LoadHall {
     for (const [key, known] of this.orders) {
       if (known.outcome === "unknown") await this.create(key);
     }
-    await until(() => `${this.name}: every order ends`, async () => {
+    let left = [];
+    await until(() => `${this.name}: every order ends; left ${left.join("; ")}`, async () => {
       let open = 0;
+      left = [];
       for (const known of this.orders.values()) {
         if (known.outcome !== "accepted" || known.final) continue;
         ++open;
         await this.ask("POST", `/api/v1/job-orders/${known.id}/resume`, { body: {} });
         const order = (await this.ask("GET", `/api/v1/job-orders/${known.id}`))?.body;
         if (FINAL.includes(order?.state)) known.final = true;
+        else left.push(`${order?.name} ${order?.state} ${order?.vehicle ?? ""} ${JSON.stringify(order?.reason)}`);
       }
       return open === 0;
     }, { timeout_s: 60, every_ms: 100 });
