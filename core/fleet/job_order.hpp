@@ -10,7 +10,6 @@
 #include "core/base/time.hpp"
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
-#include "core/traffic/tile_map.hpp"
 
 namespace pulseline::fleet {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/traffic/record.hpp"
-#include "core/traffic/tile_map.hpp"
+#include "core/traffic/tiles.hpp"
 
 /// What vehicles of one class can do on the floor: places to stand and moves between them.
 namespace pulseline::traffic {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/traffic/tile_map.hpp"
+#include "core/traffic/tiles.hpp"
 
 /// Plain data about traffic: what a snapshot keeps and what the monitor is told.
 namespace pulseline::traffic {

@@ -1,9 +1,9 @@
+#include "core/traffic/tiles.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
-
-#include "core/traffic/tile_map.hpp"
 
 // A piece grown by the margin (a polygon around the rounded shape) is convex, so its tiles in one
 // row are one run: between the least and the greatest x of the piece within the row.

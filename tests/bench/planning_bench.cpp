@@ -15,7 +15,7 @@
 #include "core/planning/grid_search.hpp"
 #include "core/planning/leg_planner.hpp"
 #include "core/planning/roadmap_index.hpp"
-#include "core/traffic/tile_map.hpp"
+#include "core/traffic/tiles.hpp"
 #include "tests/bench/grid_bench.hpp"
 #include "tests/bench/road_bench.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/traffic/tile_map.hpp"
+#include "core/traffic/tiles.hpp"
 
 namespace pulseline::traffic {
 namespace {
