@@ -258,7 +258,7 @@ export class LoadHall {
         else left.push(`${order?.name} ${order?.state} ${order?.vehicle ?? ""} ${JSON.stringify(order?.reason)}`);
       }
       return open === 0;
-    }, { timeout_s: 60, every_ms: 100 });
+    }, { timeout_s: 180, every_ms: 100 });
     this.loading = false;
     await person;
     await this.system.kill(this.system.server);
