@@ -230,6 +230,7 @@ void VehicleRow::set(const fleet::VehicleRecord& v) {
     last_stop = stored_id(v.last_stop);
     last_stop_station = v.last_stop_station.str();
     last_stop_inside = v.last_stop_inside;
+    integration = stored(v.integration);
 }
 
 fleet::VehicleRecord VehicleRow::get() const {
@@ -247,6 +248,7 @@ fleet::VehicleRecord VehicleRow::get() const {
     read_id(last_stop, v.last_stop);
     v.last_stop_station = plant::StationId(last_stop_station);
     v.last_stop_inside = last_stop_inside != 0;
+    read(integration, v.integration);
     return v;
 }
 

@@ -192,6 +192,7 @@ Leg decode_leg(const Json& j) {
     leg.duration_s = j.at("duration");
     leg.attempt = j.at("attempt");
     leg.actions_only = j.value("actions_only", false);  // older rows do not say
+    leg.charges = j.value("charges", false);
     return leg;
 }
 
@@ -247,7 +248,8 @@ std::string leg_to_json(const Leg& leg) {
                     {"passed_nodes", leg.passed_nodes},
                     {"duration", number(leg.duration_s)},
                     {"attempt", leg.attempt},
-                    {"actions_only", leg.actions_only}});
+                    {"actions_only", leg.actions_only},
+                    {"charges", leg.charges}});
 }
 
 Leg leg_from_json(const std::string& text) {

@@ -24,6 +24,10 @@ constexpr std::array kStepStates = {
 constexpr std::array kStepPhases = {std::pair{fleet::StepPhase::kBefore, "before"},
                                     std::pair{fleet::StepPhase::kDrive, "drive"},
                                     std::pair{fleet::StepPhase::kAfter, "after"}};
+constexpr std::array kIntegrations = {std::pair{fleet::Integration::kIgnore, "ignore"},
+                                      std::pair{fleet::Integration::kNotice, "notice"},
+                                      std::pair{fleet::Integration::kRespect, "respect"},
+                                      std::pair{fleet::Integration::kUtilise, "utilise"}};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw Error(Error::Kind::kBadValue,
@@ -65,11 +69,13 @@ void find_plain(std::initializer_list<T> values, const std::string& name, T& to)
 const char* stored(JobState state) { return name_of(kJobStates, state); }
 const char* stored(StepState state) { return name_of(kStepStates, state); }
 const char* stored(fleet::StepPhase phase) { return name_of(kStepPhases, phase); }
+const char* stored(fleet::Integration level) { return name_of(kIntegrations, level); }
 const char* stored(plant::Tolerance::Shape shape) { return plant::to_string(shape); }
 
 void read(const std::string& name, JobState& to) { find(kJobStates, name, to); }
 void read(const std::string& name, StepState& to) { find(kStepStates, name, to); }
 void read(const std::string& name, fleet::StepPhase& to) { find(kStepPhases, name, to); }
+void read(const std::string& name, fleet::Integration& to) { find(kIntegrations, name, to); }
 void read(const std::string& name, plant::Tolerance::Shape& to) {
     find_plain({plant::Tolerance::Shape::kBox, plant::Tolerance::Shape::kEllipse}, name, to);
 }

@@ -12,10 +12,12 @@ namespace pulseline::db {
 const char* stored(fleet::JobState state);
 const char* stored(fleet::StepState state);
 const char* stored(fleet::StepPhase phase);
+const char* stored(fleet::Integration level);
 const char* stored(plant::Tolerance::Shape shape);
 void read(const std::string& name, fleet::JobState& to);
 void read(const std::string& name, fleet::StepState& to);
 void read(const std::string& name, fleet::StepPhase& to);
+void read(const std::string& name, fleet::Integration& to);
 void read(const std::string& name, plant::Tolerance::Shape& to);
 void read(const std::string& name, plant::MotionMode& to);
 void read(const std::string& name, plant::Kinematics& to);

@@ -137,6 +137,7 @@ void StationRow::set(const plant::Station& station) {
     markers = keys_to_json(station.markers);
     node = station.node.str();
     resting_place = station.resting_place;
+    charger = station.charger;
     vehicle_types = keys_to_json(station.vehicle_types);
 }
 
@@ -148,6 +149,7 @@ plant::Station StationRow::get() const {
     station.markers = keys_from_json<plant::MarkerId>(markers);
     station.node = plant::NodeId(node);
     station.resting_place = resting_place != 0;
+    station.charger = charger != 0;
     station.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
     return station;
 }

@@ -76,7 +76,8 @@ struct VehicleTypeRow {
     static constexpr const char* kColumns =
         "position, id, name, kinematics, footprint, load_footprint, max_speed_mps, max_accel_mps2, "
         "max_turn_rate_radps, max_turn_accel_radps2, min_turn_radius_m, max_arc_radius_m, "
-        "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg";
+        "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg, "
+        "battery_critical_percent, battery_low_percent, battery_enough_percent";
     std::int64_t position = 0;
     std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets;
     plant::VehicleType element;
@@ -87,7 +88,8 @@ struct VehicleTypeRow {
                         t.max_speed_mps, t.max_accel_mps2, t.max_turn_rate_radps,
                         t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
                         t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
-                        t.max_load_kg);
+                        t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
+                        t.battery.enough_percent);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;
@@ -126,17 +128,19 @@ struct StationRow {
     static constexpr const char* kTable = "stations";
     static constexpr const char* kColumns =
         "position, id, number, name, hall, x_m, y_m, heading_rad, tolerance_shape, tolerance_dx_m, "
-        "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types";
+        "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types, "
+        "charger";
     std::int64_t position = 0;
     std::string id, hall, tolerance_shape, markers, node, vehicle_types;
-    int resting_place = 0;
+    int resting_place = 0, charger = 0;
     plant::Station element;
 
     auto fields() {
         auto& s = element;
         return std::tie(position, id, s.number, s.name, hall, s.pose.x_m, s.pose.y_m,
                         s.pose.heading_rad, tolerance_shape, s.tolerance.dx_m, s.tolerance.dy_m,
-                        s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types);
+                        s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types,
+                        charger);
     }
     void set(const plant::Station& station);
     plant::Station get() const;

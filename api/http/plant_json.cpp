@@ -29,6 +29,7 @@ Json station_json(const plant::Station& station) {
             {"markers", keys_json(station.markers)},
             {"node", station.node.str()},
             {"resting_place", station.resting_place},
+            {"charger", station.charger},
             {"vehicle_types", keys_json(station.vehicle_types)}};
 }
 
@@ -91,7 +92,11 @@ Json vehicle_type_json(const plant::VehicleType& type) {
             {"cameras", list_json(type.cameras, camera_json)},
             {"brackets", list_json(type.brackets, bracket_json)},
             {"mass_kg", type.mass_kg},
-            {"max_load_kg", type.max_load_kg}};
+            {"max_load_kg", type.max_load_kg},
+            {"battery",
+             {{"critical_percent", type.battery.critical_percent},
+              {"low_percent", type.battery.low_percent},
+              {"enough_percent", type.battery.enough_percent}}}};
 }
 
 Json plant_vehicle_json(const plant::Vehicle& vehicle) {

@@ -189,6 +189,17 @@ Result<geometry::Pose2> read_pose(const Request& request) {
     });
 }
 
+Result<IntegrationRequest> read_integration(const Request& request) {
+    return read_object<IntegrationRequest>(request, [](ObjectReader& in) {
+        using fleet::Integration;
+        IntegrationRequest wanted;
+        wanted.level = in.one_of("level", {Integration::kIgnore, Integration::kNotice,
+                                           Integration::kRespect, Integration::kUtilise});
+        wanted.off_floor = in.boolean_or("off_floor", false);
+        return wanted;
+    });
+}
+
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request) {
     return read_object<std::vector<plant::VehicleId>>(request, [](ObjectReader& in) {
         std::vector<plant::VehicleId> vehicles;

@@ -32,6 +32,11 @@ Status read_asker_of_instance(const Request& request, fleet::NewOrder& order);
 Result<fleet::ControlRequest> read_job_control(const Request& request);
 Result<fleet::NewSchedule> read_new_schedule(const Request& request);
 Result<geometry::Pose2> read_pose(const Request& request);
+struct IntegrationRequest {
+    fleet::Integration level = fleet::Integration::kUtilise;
+    bool off_floor = false;
+};
+Result<IntegrationRequest> read_integration(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 
 Result<fleet::NewClosure> read_new_closure(const Request& request);

@@ -46,6 +46,12 @@ std::span<const Route> routes() {
          kOperator,
          {},
          init_position},
+        {"PUT",
+         "/api/v1/vehicles/{id}/integration",
+         "integrateVehicle",
+         kOperator,
+         {},
+         integrate_vehicle},
 
         {"GET", "/api/v1/fleet", "getFleet", kViewer, {}, get_fleet},
         {"POST", "/api/v1/fleet/pause", "pauseFleet", kOperator, {}, pause_fleet},

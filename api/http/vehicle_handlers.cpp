@@ -83,6 +83,15 @@ FleetAnswer init_position(FleetContext& context, const Request& request) {
                                                       request.identity.name, context.now));
 }
 
+FleetAnswer integrate_vehicle(FleetContext& context, const Request& request) {
+    const auto wanted = read_integration(request);
+    if (!wanted) return {problem(400, wanted.error(), request)};
+    return vehicle_answer(
+        context, request,
+        context.fleet.integrate(plant::VehicleId(request.param("id")), wanted->level,
+                                wanted->off_floor, request.identity.name, context.now));
+}
+
 Response get_camera_image(const InlineContext& context, const Request& request) {
     const plant::VehicleId id(request.param("id"));
     if (plant::find_vehicle(context.plant, id) == nullptr) {

@@ -8,6 +8,7 @@ FleetAnswer list_vehicles(FleetContext& context, const Request& request);
 FleetAnswer get_vehicle(FleetContext& context, const Request& request);
 FleetAnswer pause_vehicle(FleetContext& context, const Request& request);
 FleetAnswer init_position(FleetContext& context, const Request& request);
+FleetAnswer integrate_vehicle(FleetContext& context, const Request& request);
 Response get_camera_image(const InlineContext& context, const Request& request);
 
 FleetAnswer get_fleet(FleetContext& context, const Request& request);

@@ -18,6 +18,7 @@ constexpr TextLimits kName{0, 200};
 constexpr json::NumberLimits kMetres{-1e6, 1e6};
 constexpr json::NumberLimits kHeading{-6.2832, 6.2832};
 constexpr json::NumberLimits kQuantity{-1e9, 1e9};
+constexpr json::NumberLimits kPercent{0, 100};
 constexpr json::IntegerLimits kNumber{0, 1'000'000};
 constexpr json::IntegerLimits kPixels{0, 100'000};
 constexpr CountLimits kRingPoints{0, 1000};
@@ -110,6 +111,7 @@ Station decode_station(ObjectReader& in) {
     station.markers = decode_keys<MarkerId>(in, "markers");
     station.node = decode_key<NodeId>(in, "node");
     station.resting_place = in.boolean_or("resting_place", false);
+    station.charger = in.boolean_or("charger", false);
     station.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
     return station;
 }
@@ -182,6 +184,15 @@ void decode_limits(ObjectReader& in, VehicleType& type) {
     type.max_load_kg = in.number("max_load_kg", kQuantity);
 }
 
+BatteryLimits decode_battery(ObjectReader& in) {
+    BatteryLimits limits;
+    limits.critical_percent = in.number("critical_percent", kPercent);
+    limits.low_percent = in.number("low_percent", kPercent);
+    limits.enough_percent = in.number("enough_percent", kPercent);
+    in.refuse_unknown();
+    return limits;
+}
+
 VehicleType decode_vehicle_type(ObjectReader& in) {
     VehicleType type;
     type.id = decode_key<VehicleTypeId>(in, "id");
@@ -191,6 +202,7 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     type.footprint = decode_ring(in, "footprint");
     type.load_footprint = decode_ring(in, "load_footprint", false);
     decode_limits(in, type);
+    if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
     in.items("motion_modes", kFew, [&](const Json& item, const std::string& at) {
         const auto mode = parse_motion_mode(json::read_text(item, at, in.errors(), kId));
         if (mode) {

@@ -51,6 +51,7 @@ Json encode(const Station& s) {
             {"markers", encode(s.markers)},
             {"node", s.node.str()},
             {"resting_place", s.resting_place},
+            {"charger", s.charger},
             {"vehicle_types", encode(s.vehicle_types)}};
 }
 
@@ -123,7 +124,11 @@ Json encode(const VehicleType& t) {
             {"cameras", encode_all(t.cameras)},
             {"brackets", encode_all(t.brackets)},
             {"mass_kg", t.mass_kg},
-            {"max_load_kg", t.max_load_kg}};
+            {"max_load_kg", t.max_load_kg},
+            {"battery",
+             {{"critical_percent", t.battery.critical_percent},
+              {"low_percent", t.battery.low_percent},
+              {"enough_percent", t.battery.enough_percent}}}};
 }
 
 Json encode(const Vehicle& v) {

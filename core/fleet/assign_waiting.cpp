@@ -36,7 +36,8 @@ bool is_free(const FleetState& fleet, const VehicleRun& run) {
 NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
     NewOrder request;
     request.vehicle = run.record.id;
-    for (const auto& step : order.steps) {
+    for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
+        const Step& step = order.steps[i];
         if (const auto* station = plant::find_station(fleet.plant, step.station)) {
             request.steps.push_back({station->number, step.mode});
         }
@@ -76,14 +77,26 @@ Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
         return busy;
     }
     if (auto reason = not_ready(fleet, *run, now)) return *reason;
+    if (auto reason = battery_bar(*run)) return *reason;
     return {"no_free_vehicle", {}};
+}
+
+/// Orders without a vehicle, those first whose vehicle was taken out under way.
+std::vector<JobOrder*> waiting(FleetState& fleet) {
+    std::vector<JobOrder*> orders;
+    for (JobOrder* order : by_urgency(fleet, JobState::kInterrupted)) {
+        if (order->assigned_vehicle.empty()) orders.push_back(order);
+    }
+    const auto fresh = by_urgency(fleet, JobState::kAllowedToStart);
+    orders.insert(orders.end(), fresh.begin(), fresh.end());
+    return orders;
 }
 
 }  // namespace
 
 void assign_waiting(FleetState& fleet, Time now) {
     std::vector<JobOrder*> orders;
-    for (JobOrder* order : by_urgency(fleet, JobState::kAllowedToStart)) {
+    for (JobOrder* order : waiting(fleet)) {
         if (auto waits = waits_for_condition(fleet, *order, now)) {
             set_order_reason(fleet, *order, std::move(*waits), now);
         } else {
@@ -93,7 +106,9 @@ void assign_waiting(FleetState& fleet, Time now) {
     if (orders.empty()) return;
     std::vector<VehicleRun*> free;
     for (auto& [id, run] : fleet.vehicles) {
-        if (is_free(fleet, run) && !not_ready(fleet, run, now)) free.push_back(&run);
+        if (is_free(fleet, run) && !not_ready(fleet, run, now) && !battery_bar(run)) {
+            free.push_back(&run);
+        }
     }
     const std::size_t looked_at = free.empty() ? 0 : std::min(orders.size(), kMostOrders);
     CostMatrix matrix{looked_at, free.size(), {}};
@@ -111,7 +126,9 @@ void assign_waiting(FleetState& fleet, Time now) {
         JobOrder& order = *orders[row];
         VehicleRun* run = row < chosen.size() && chosen[row] ? free[*chosen[row]] : nullptr;
         if (!run) {
-            set_order_reason(fleet, order, why_it_waits(fleet, order, now), now);
+            if (order.state == JobState::kAllowedToStart) {
+                set_order_reason(fleet, order, why_it_waits(fleet, order, now), now);
+            }
             continue;
         }
         if (const auto plan = plan_order(fleet, as_request(fleet, order, *run), now); !plan) {

@@ -24,6 +24,9 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
         params.insert(params.end(), more.begin(), more.end());
         return Reason{std::move(code), std::move(params)};
     };
+    if (run.record.integration != Integration::kUtilise) {
+        return because("not_integrated", {{"level", to_string(run.record.integration)}});
+    }
     if (!run.connected || run.link != Link::kLive) {
         return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}});
     }
@@ -52,6 +55,7 @@ std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run
     const auto because = [&](const char* code) {
         return Reason{code, {{"vehicle", run.record.id.str()}}};
     };
+    if (run.record.integration != Integration::kUtilise) return because("not_integrated");
     if (run.link == Link::kNever || run.link == Link::kLost || run.link == Link::kGone) {
         return because("vehicle_silent");
     }
@@ -87,9 +91,11 @@ void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
 
 void dispatch(FleetState& fleet, Time now) {
     halt_those_that_cannot_move(fleet, now);
-    extend_bases(fleet, now);    // vehicles at work
+    extend_bases(fleet, now);  // vehicles at work
+    release_withdrawn(fleet, now);
     assign_waiting(fleet, now);  // vehicles free
     start_steps(fleet, now);
+    charge_low(fleet, now);  // vehicles without an order
     park_idle(fleet, now);
     improve_floor(fleet, now);  // vehicles that wait
     check_whole_floor(fleet, now);

@@ -18,6 +18,10 @@ void assign_waiting(FleetState& fleet, Time now);
 /// Assigned orders start their next step, and legs without a plan get one (start_steps.cpp).
 void start_steps(FleetState& fleet, Time now);
 void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now);
+/// Vehicles without an order whose battery is low go to chargers (charging.cpp).
+void charge_low(FleetState& fleet, Time now);
+/// Orders of vehicles that were taken out wait for others (integration.cpp).
+void release_withdrawn(FleetState& fleet, Time now);
 /// Idle vehicles leave where they may not stay, and floor that others wait for (park_idle.cpp).
 void park_idle(FleetState& fleet, Time now);
 

@@ -41,6 +41,7 @@ void Fleet::vehicle_heard(const plant::VehicleId& id, Time now) {
 void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now) {
     VehicleRun* run = state_->find(id);
     if (!run) return;
+    if (run->record.integration == Integration::kIgnore) return hear(*state_, *run, now);
     take_state(*state_, *run, state, now);
     dispatch_for(*state_, *run, now);
 }

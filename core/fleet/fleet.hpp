@@ -85,6 +85,11 @@ public:
 
     Result<VehicleView> pause_vehicle(const plant::VehicleId& id, const std::string& actor,
                                       Time now);
+    /// Takes a vehicle out or in. Below `respect` it holds no floor: `off_floor` confirms that it
+    /// is out of the hall. Its order is given to another where that is possible. Errors:
+    /// unknown_vehicle, off_floor_unconfirmed, vehicle_busy.
+    Result<VehicleView> integrate(const plant::VehicleId& id, Integration level, bool off_floor,
+                                  const std::string& actor, Time now);
     Result<VehicleView> init_position(const plant::VehicleId& id, const Pose2& pose,
                                       const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);

@@ -43,6 +43,7 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     row.name = run.record.id.str();
     row.graph = fleet.floor.classes[run.floor.of_class].graph;
     std::optional<Pose2> pose;
+    if (run.record.integration < Integration::kRespect) return row;
     if (run.has_leg()) {
         pose = run.leg().nodes[run.leg().passed_nodes - 1].pose;
     } else if (run.record.pose_known) {
@@ -137,6 +138,7 @@ void open_floor(FleetState& fleet, Time now) {
 
 void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
     if (run.has_leg() || !run.record.pose_known) return;
+    if (run.record.integration < Integration::kRespect) return;
     auto& traffic = fleet.floor.traffic;
     const auto& plan = traffic.plan(run.floor.vehicle);
     const auto place = place_at(fleet, run, run.record.pose);
@@ -171,6 +173,13 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
         add_event(fleet, now, "vehicle.floor_conflict", {}, {}, run.record.id, {}, who);
     }
     halt_or_resume(fleet, run, now);
+}
+
+void leave_floor(FleetState& fleet, VehicleRun& run, Time now) {
+    static_cast<void>(fleet.floor.traffic.found_at(run.floor.vehicle, {}, traffic::kNoPlace, now));
+    run.floor.pose.reset();
+    run.floor.conflict.reset();
+    run.floor.leg_planned = false;
 }
 
 void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target, Time now) {

@@ -53,6 +53,8 @@ traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
 /// A vehicle without a leg stands where its record says. It keeps its plan when that is where the
 /// plan has it, unless `give_up_plan`.
 void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan = false);
+/// The vehicle is out of the hall: it holds no floor.
+void leave_floor(FleetState& fleet, VehicleRun& run, Time now);
 /// The last approach was not successful enough to move on: floor for a correction in place.
 void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target, Time now);
 

@@ -153,12 +153,8 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     const auto* station = plant::find_station(fleet.plant, leg.station);
     if (has_stop || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
-        leg.nodes.back().actions = stop_actions(fleet, run, *station, leg.id);
-        // Making way is no stop to keep, but the codes take away what odometry has gathered.
-        if (leg.order.empty()) {
-            std::erase_if(leg.nodes.back().actions,
-                          [](const Action& action) { return action.type == "measureStop"; });
-        }
+        leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, run, *station, leg)
+                                                     : stop_actions(fleet, run, *station, leg.id);
     }
     leg.duration_s = 0;
     for (const auto& edge : leg.edges) leg.duration_s += edge.segment.duration_s;
@@ -295,9 +291,9 @@ void give_up_task(FleetState& fleet, VehicleRun& run, Time now) {
 void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now) {
     // Who has an order wants to leave anyway. An idle platform with an aircraft on it stays.
     const JobOrder* order = fleet.orders.of(run.record.id);
-    fleet.floor.traffic.set_leaves_rest(
-        run.floor.vehicle,
-        order ? order->state == JobState::kRunning && !run.has_leg() : !is_loaded(run));
+    fleet.floor.traffic.set_leaves_rest(run.floor.vehicle,
+                                        order ? order->state == JobState::kRunning && !run.has_leg()
+                                              : !is_loaded(run) && !charges_on(run));
     const bool can_move = !run.floor.conflict && run.floor.pose && !cannot_move(fleet, run);
     if (can_move) {
         fleet.floor.traffic.resume(run.floor.vehicle, now);

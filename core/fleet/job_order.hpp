@@ -155,7 +155,14 @@ struct Leg {
     double duration_s = 0;
     int attempt = 1;
     bool actions_only = false;  // one node, where it stands: the actions before or after a step
+    bool charges = false;       // to a charger, of the fleet's own accord: no order
 };
+
+/// How far a vehicle takes part. Ignored: not listened to. Noticed: shown where it says it is. Both
+/// hold no floor, so they are out of the hall. Respected: holds its floor and is planned around.
+/// Utilised: gets orders.
+enum class Integration { kIgnore, kNotice, kRespect, kUtilise };
+const char* to_string(Integration level);  // "utilise"
 
 /// What survives a restart about a vehicle.
 struct VehicleRecord {
@@ -168,7 +175,8 @@ struct VehicleRecord {
     Leg leg_data;
     bool needs_resume = false;  // a person must allow it to move again
     Reason needs_resume_reason;
-    bool paused = false;     // by a person, through the server
+    bool paused = false;  // by a person, through the server
+    Integration integration = Integration::kUtilise;
     StopRecordId last_stop;  // newest measured stop, empty before the first
     plant::StationId last_stop_station;
     bool last_stop_inside = false;

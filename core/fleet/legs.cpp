@@ -89,6 +89,20 @@ std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
     return actions;
 }
 
+std::vector<Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
+                                 const plant::Station& station, const Leg& leg) {
+    std::vector<Action> actions = stop_actions(fleet, run, station, leg.id);
+    // It is no stop to keep.
+    std::erase_if(actions, [](const Action& action) { return action.type == "measureStop"; });
+    if (leg.charges) {
+        Action action;
+        action.type = "startCharging";
+        action.id = leg.id.str() + "-startCharging";
+        actions.push_back(std::move(action));
+    }
+    return actions;
+}
+
 planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run, const Pose2& start,
                                  const plant::StationId& target, plant::MotionMode mode) {
     planning::LegRequest request;
@@ -149,6 +163,17 @@ Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant
     leg.nodes.front().node_id = station.id.str();
     leg.nodes.front().actions = stop_actions(fleet, run, station, id);
     return leg;
+}
+
+void take_leg(VehicleRun& run, Leg leg) {
+    run.record.has_leg = true;
+    run.record.leg = leg.id;
+    run.record.leg_data = std::move(leg);
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.update_sends = 0;
+    run.leg_started.reset();
+    run.floor.idle_since.reset();
 }
 
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {

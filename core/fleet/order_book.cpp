@@ -57,6 +57,11 @@ void OrderBook::assign(JobOrder& order, const plant::VehicleId& vehicle) {
     }
 }
 
+void OrderBook::release(JobOrder& order) {
+    of_vehicle_.erase(order.assigned_vehicle);
+    order.assigned_vehicle = {};
+}
+
 void OrderBook::join_sequence(JobOrder& order) {
     if (order.sequence.empty()) return;
     Sequence& sequence = sequences_[order.sequence];

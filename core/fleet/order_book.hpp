@@ -28,6 +28,8 @@ public:
     const JobOrder* of(const plant::VehicleId& vehicle) const;
     /// Also binds what is open of the order's sequence to the vehicle.
     void assign(JobOrder& order, const plant::VehicleId& vehicle);
+    /// An open order has no vehicle any more.
+    void release(JobOrder& order);
 
     /// Open orders of a sequence, oldest first; empty when there is none of that name. A sequence
     /// is over, and its name free, when all of its orders are final.

@@ -74,6 +74,12 @@ Status pause(FleetState& fleet, JobOrder& order, const std::string& actor, Time 
 
 Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time now) {
     if (order.cancel_requested) return end_under_way(order);
+    if (order.assigned_vehicle.empty()) {
+        return fail(Errc::kConflict, "waits_for_vehicle",
+                    "The order's vehicle was taken out. It goes on by itself with the next free "
+                    "one.",
+                    {}, {{"state", to_string(order.state)}});
+    }
     VehicleRun* run = fleet.find(order.assigned_vehicle);
     if (run && (run->record.needs_resume || run->record.paused)) {
         return fail(Errc::kConflict, "needs_person",

@@ -141,6 +141,15 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
                         {{"vehicle", order.vehicle.str()},
                          {"silent_s", seconds(silence(fleet, *run, now))}});
         }
+        if (run->record.integration != Integration::kUtilise) {
+            return fail(
+                Errc::kConflict, "not_integrated",
+                "Vehicle " + order.vehicle.str() + " is taken out (" +
+                    to_string(run->record.integration) +
+                    "). Set its integration to utilise or choose another.",
+                "/vehicle",
+                {{"vehicle", order.vehicle.str()}, {"level", to_string(run->record.integration)}});
+        }
         return plan_with(fleet, order, *run);
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
@@ -149,6 +158,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     std::optional<Error> why_not;
     for (const auto& [id, run] : fleet.vehicles) {
         if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
+        if (run.record.integration != Integration::kUtilise) continue;
         auto plan = plan_with(fleet, order, run);
         if (!plan) {
             if (!why_not) why_not = plan.error();

@@ -31,12 +31,9 @@ void leave(FleetState& fleet, VehicleRun& run, const plant::StationId& station, 
     leg.mode = plant::MotionMode::kLinear;
     leg.hall = hall_of(fleet, run);
     leg.nodes.push_back(start_node(run.record.pose, leg.hall));
-    run.record.has_leg = true;
-    run.record.leg = leg.id;
-    run.record.leg_data = std::move(leg);
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
+    const auto idle_since = run.floor.idle_since;
+    take_leg(run, std::move(leg));
+    run.floor.idle_since = idle_since;
     take_plan_as_leg(fleet, run);
     fleet.store(run);
     add_event(fleet, now, "vehicle.makes_way", {}, run.leg().id, run.record.id, {},
@@ -63,7 +60,8 @@ void park_idle(FleetState& fleet, Time now) {
             if (wanted_away->count(run.floor.vehicle) == 0) continue;
         }
         const auto station = last_station(fleet, run);
-        if (!station.empty()) leave(fleet, run, station, now);
+        if (station.empty() || ends_charging(fleet, run, now)) continue;
+        leave(fleet, run, station, now);
     }
 }
 

@@ -9,8 +9,6 @@ namespace pulseline::fleet {
 namespace {
 
 constexpr double kWarmWheel_c = 65;
-constexpr double kLowBattery = 20;
-constexpr double kEmptyBattery = 5;
 constexpr double kGravity = 9.80665;
 
 Check check(std::string code, Check::Result result, Params params) {
@@ -124,10 +122,14 @@ std::optional<Check> wheels_check(const VehicleRun& run) {
 
 Check battery_check(const VehicleRun& run) {
     const double percent = run.state.battery_percent;
-    const auto result = percent < kEmptyBattery ? Check::Result::kFail
-                        : percent < kLowBattery ? Check::Result::kNote
-                                                : Check::Result::kPass;
-    return check("battery", result, {{"percent", percent}, {"limit_percent", kLowBattery}});
+    const plant::BatteryLimits& limits = run.type->battery;
+    const bool critical = percent < limits.critical_percent;
+    const auto result = critical                       ? Check::Result::kFail
+                        : percent < limits.low_percent ? Check::Result::kNote
+                                                       : Check::Result::kPass;
+    return check("battery", result,
+                 {{"percent", percent},
+                  {"limit_percent", critical ? limits.critical_percent : limits.low_percent}});
 }
 
 Check safety_check(const VehicleRun& run) {

@@ -16,17 +16,6 @@ Result<Leg> leg_to(FleetState& fleet, const VehicleRun& run, const Step& step, L
     return build_leg(fleet, run, *plan, *station, run.record.pose, id);
 }
 
-void take_leg(VehicleRun& run, Leg leg) {
-    run.record.has_leg = true;
-    run.record.leg = leg.id;
-    run.record.leg_data = std::move(leg);
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
-    run.leg_started.reset();
-    run.floor.idle_since.reset();
-}
-
 bool waits_to_try(const VehicleRun& run, Time now) {
     return run.floor.next_try && now < *run.floor.next_try;
 }
@@ -55,6 +44,10 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
 
 void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     if (waits_to_try(run, now)) return;
+    if (ends_charging(fleet, run, now)) {
+        set_order_reason(fleet, order, {"ends_charging", {{"vehicle", run.record.id.str()}}}, now);
+        return;
+    }
     Step& step = order.steps[order.current_step];
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
     const LegId id(fleet.ids.next(now));

@@ -110,6 +110,7 @@ std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
     std::vector<planning::StandingBody> bodies;
     for (const auto& [id, run] : fleet.vehicles) {
         if (id == except || !run.record.pose_known) continue;
+        if (run.record.integration < Integration::kRespect) continue;
         bodies.push_back({id, outline_at(run, run.record.pose)});
     }
     return bodies;

@@ -50,6 +50,8 @@ struct VehicleRun {
     FloorStand floor;
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
+    std::optional<Reason> charge_wait;  // why it should charge and does not
+    std::optional<Time> charge_retry;
 
     /// Outlines of the floor of the leg; they cost some milliseconds and change only with the base.
     struct Areas {
@@ -161,6 +163,12 @@ Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant
 /// What the vehicle does at the station node: correct the stop, then measure it.
 std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
                                  const plant::Station& station, const LegId& leg);
+/// What it does where it only rests: it takes away what odometry has gathered, and charges if the
+/// leg is for that.
+std::vector<Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
+                                 const plant::Station& station, const Leg& leg);
+/// Makes it the vehicle's leg; nothing is sent.
+void take_leg(VehicleRun& run, Leg leg);
 /// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
 void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
@@ -225,6 +233,15 @@ void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
 std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
 /// Why it would not obey a release of floor, whatever its order; others are planned around it.
 std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run);
+
+// --- charging (charging.cpp) ---
+/// Whether it stays on its charger, whoever waits.
+bool charges_on(const VehicleRun& run);
+/// Why its battery bars it from new orders; none: it does not.
+std::optional<Reason> battery_bar(const VehicleRun& run);
+/// Before a drive: whether it has to be waited for that the vehicle stops charging.
+bool ends_charging(FleetState& fleet, VehicleRun& run, Time now);
+void charge_failed(FleetState& fleet, VehicleRun& run, const std::string& why, Time now);
 
 // --- localisation from codes (code_pose.cpp) ---
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,

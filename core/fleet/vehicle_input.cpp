@@ -92,7 +92,9 @@ void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
         fleet.store(run);
     }
     const plant::StationId station =
-        known && !state.driving ? station_at(fleet, run, run.record.pose) : plant::StationId{};
+        known && !state.driving && run.record.integration >= Integration::kRespect
+            ? station_at(fleet, run, run.record.pose)
+            : plant::StationId{};
     if (station != run.record.at_station && (known || state.driving)) {
         for (const auto& changed : {station, run.record.at_station}) {
             if (!changed.empty()) fleet.changed_stations.insert(changed);
@@ -107,6 +109,7 @@ void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     if (state.position_initialized || state.driving) return;
+    if (run.record.integration < Integration::kRespect) return;
     const bool pending = std::any_of(run.actions.begin(), run.actions.end(),
                                      [](const auto& p) { return p.action.type == "initPosition"; });
     if (pending) return;
@@ -221,6 +224,9 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         for (const auto& action : leg.nodes.back().actions) {
             const ActionState* found = find_action(state, action.id);
             if (found && !is_final(found->status)) return;
+            if (found && found->status == ActionStatus::kFailed && action.type == "startCharging") {
+                charge_failed(fleet, run, found->result_description, now);
+            }
         }
         add_event(fleet, now, "leg.ended", {}, leg.id, leg.vehicle, {});
         drop_leg(fleet, run, now, true);

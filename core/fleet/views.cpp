@@ -79,6 +79,9 @@ struct Doing {
 
 Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     const JobOrder* order = fleet.orders.of(run.record.id);
+    if (run.record.integration == Integration::kIgnore) {
+        return {Activity::kUnknown, not_ready(fleet, run, now)};
+    }
     if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
     if (run.link == Link::kLost || run.link == Link::kGone) {
         return {Activity::kUnknown,
@@ -106,12 +109,14 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
             if (auto wait = floor_wait(fleet, run); wait && !moving) {
                 return {Activity::kWaiting, std::move(wait)};
             }
-            return {Activity::kMoving, Reason{"makes_way", {{"station", run.leg().station.str()}}}};
+            const char* code = run.leg().charges ? "goes_charging" : "makes_way";
+            return {Activity::kMoving, Reason{code, {{"station", run.leg().station.str()}}}};
         }
         return {Activity::kMoving, std::nullopt};
     }
     if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
     if (run.state.charging) return {Activity::kCharging, std::nullopt};
+    if (run.charge_wait) return {Activity::kStanding, run.charge_wait};
     return {Activity::kStanding, Reason{"no_order", {}}};
 }
 
@@ -211,6 +216,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     }
     if (run.has_leg()) view.leg = leg_view(run);
     view.paused = run.record.paused;
+    view.integration = run.record.integration;
     view.needs_resume = run.record.needs_resume;
     view.needs_resume_reason = run.record.needs_resume_reason;
     view.state = run.state;

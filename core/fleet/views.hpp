@@ -58,6 +58,7 @@ struct VehicleView {
     JobOrderId order;  // empty: none
     std::optional<LegView> leg;
     bool paused = false;
+    Integration integration = Integration::kUtilise;
     bool needs_resume = false;
     Reason needs_resume_reason;
     StateMessage state;  // as last reported; all defaults before the first

@@ -61,6 +61,7 @@ struct Station {
     std::vector<MarkerId> markers;  // codes below the cameras of a vehicle standing there
     NodeId node;                    // its roadmap node
     bool resting_place = false;     // vehicles may be sent there to wait
+    bool charger = false;           // a vehicle standing there can charge; also a resting place
     std::vector<VehicleTypeId> vehicle_types;  // who may stop there; empty: everybody
 };
 
@@ -115,6 +116,13 @@ struct Bracket {
     Point2 position;   // body frame
 };
 
+/// When the fleet sends a vehicle of its own accord to a charger, and takes it away again.
+struct BatteryLimits {
+    double critical_percent = 15;  // below: it is given no order any more
+    double low_percent = 30;       // below: it goes to charge when it has no order
+    double enough_percent = 60;    // from here on it may be taken off the charger
+};
+
 struct VehicleType {
     VehicleTypeId id;
     std::string name;
@@ -135,6 +143,7 @@ struct VehicleType {
     std::vector<Bracket> brackets;
     double mass_kg = 0;
     double max_load_kg = 0;
+    BatteryLimits battery;
 };
 
 struct Vehicle {

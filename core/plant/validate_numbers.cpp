@@ -65,6 +65,14 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     n.not_negative("/clearance_m", t.clearance_m);
     n.not_negative("/mass_kg", t.mass_kg);
     n.not_negative("/max_load_kg", t.max_load_kg);
+    n.not_negative("/battery/critical_percent", t.battery.critical_percent);
+    n.finite("/battery/low_percent", t.battery.low_percent);
+    n.finite("/battery/enough_percent", t.battery.enough_percent);
+    if (t.battery.critical_percent > t.battery.low_percent ||
+        t.battery.low_percent >= t.battery.enough_percent || t.battery.enough_percent > 100) {
+        n.fault("/battery", "battery_limits", "The battery's limits are not in order.",
+                "Give critical_percent <= low_percent < enough_percent <= 100.");
+    }
     if (t.max_arc_radius_m <= t.min_turn_radius_m) {
         n.fault("/max_arc_radius_m", "arc_radii", "No arc lies between least and largest radius.",
                 "Make max_arc_radius_m greater than min_turn_radius_m.");

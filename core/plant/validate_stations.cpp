@@ -102,6 +102,12 @@ void check_view(const Station& station, std::size_t i, const VehicleType& type, 
 
 void check_room(const Plant& plant, const Station& station, std::size_t i, const Index& index,
                 Faults& faults) {
+    if (station.charger && !station.resting_place) {
+        faults.add(at("stations", i, "/charger"), "charger_no_resting_place",
+                   "Station " + std::to_string(station.number) +
+                       " is a charger and no resting place; a vehicle that charges rests there.",
+                   "Set resting_place of the station, or leave charger out.");
+    }
     const auto* hall = look_up(index.halls, station.hall);
     if (hall == nullptr) return;
     if (!geometry::contains((*hall)->outline, station.pose.position())) {

@@ -55,7 +55,9 @@ std::optional<VehicleError> malformed(const OrderMessage& order) {
 }
 
 std::optional<VehicleError> unusable(const OrderMessage& order, const OrderContext& context) {
-    const auto& known = node_action_types();
+    const auto has = [](const std::vector<std::string>& types, const std::string& type) {
+        return std::find(types.begin(), types.end(), type) != types.end();
+    };
     for (const auto& node : order.nodes) {
         if (node.map_id != context.map_id) {
             auto error = order_error(
@@ -65,8 +67,9 @@ std::optional<VehicleError> unusable(const OrderMessage& order, const OrderConte
             return error;
         }
         for (const auto& action : node.actions) {
-            const bool can = std::find(known.begin(), known.end(), action.type) != known.end();
-            const bool complete = action.stop_target.has_value() && !action.id.empty();
+            const bool stops = has(stop_action_types(), action.type);
+            const bool can = stops || has(context.node_actions, action.type);
+            const bool complete = (!stops || action.stop_target) && !action.id.empty();
             if (can && complete) continue;
             auto error = order_error("orderError",
                                      can ? "action " + action.type + " lacks its actionId or target"
@@ -165,15 +168,15 @@ OrderDecision decide_order(const OrderMessage& order, const OrderContext& contex
     return decision;
 }
 
-const std::vector<std::string>& node_action_types() {
+const std::vector<std::string>& stop_action_types() {
     static const std::vector<std::string> types{"adjustToMarker", "measureStop"};
     return types;
 }
 
 const std::vector<std::string>& instant_action_types() {
     static const std::vector<std::string> types{
-        "cancelOrder",      "startPause",   "stopPause",      "stateRequest",
-        "factsheetRequest", "initPosition", "adjustToMarker", "measureStop"};
+        "cancelOrder",  "startPause",     "stopPause",   "stateRequest", "factsheetRequest",
+        "initPosition", "adjustToMarker", "measureStop", "stopCharging"};
     return types;
 }
 

@@ -22,6 +22,7 @@ struct OrderContext {
     std::int64_t stitch_sequence_id = 0;
     std::optional<Pose2> pose;  // believed; nullopt while it is not initialised
     std::string map_id;
+    std::vector<std::string> node_actions;  // that it runs besides measuring
 };
 
 struct OrderDecision {
@@ -32,8 +33,8 @@ struct OrderDecision {
 
 OrderDecision decide_order(const fleet::OrderMessage& order, const OrderContext& context);
 
-/// Types of action the vehicle can run at a node, and as instant actions.
-const std::vector<std::string>& node_action_types();
+/// Types of action every vehicle runs at a node, and as instant actions. The first need a target.
+const std::vector<std::string>& stop_action_types();
 const std::vector<std::string>& instant_action_types();
 
 fleet::VehicleError order_error(std::string type, std::string description,

@@ -16,8 +16,12 @@ constexpr double kAskForBase_s = 1.0;
 
 }  // namespace
 
-VehicleExecutor::VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id)
-    : motion_(motion), procedure_(motion, sensing), map_id_(std::move(map_id)) {
+VehicleExecutor::VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id,
+                                 VehicleEquipment* equipment)
+    : motion_(motion),
+      procedure_(motion, sensing),
+      equipment_(equipment),
+      map_id_(std::move(map_id)) {
     segments_seen_ = motion.segments_done();
 }
 
@@ -32,6 +36,7 @@ OrderContext VehicleExecutor::context() const {
     context.stitch_sequence_id = base_end_.sequence_id;
     if (position_initialized_) context.pose = motion_.believed_pose();
     context.map_id = map_id_;
+    if (equipment_ != nullptr) context.node_actions = equipment_->action_types();
     return context;
 }
 
@@ -138,6 +143,7 @@ void VehicleExecutor::take_traversals() {
 /// Hands the motion all released edges up to the next node where it has to stop for actions.
 void VehicleExecutor::queue_edges() {
     if (!waiting_.empty() || procedure_.running() || !cancel_id_.empty()) return;
+    if (equipment_ != nullptr && equipment_->holds_vehicle()) return;
     const auto stops_at = [&](std::size_t i) { return !nodes_[i].actions.empty(); };
     if (queued_edges_ > 0 && stops_at(queued_edges_ - 1)) return;
     while (queued_edges_ < edges_.size() && edges_[queued_edges_].released) {
@@ -156,9 +162,26 @@ void VehicleExecutor::run_actions(double dt_s) {
     }
     if (waiting_.empty() || paused_ || !cancel_id_.empty() || !motion_.idle()) return;
     const Action& action = waiting_.front();
+    if (!action.stop_target) return run_equipment();
     running_stop_ = action.id;
     set_action(action.id, ActionStatus::kRunning);
     procedure_.start(*action.stop_target, action.type == "adjustToMarker");
+}
+
+void VehicleExecutor::run_equipment() {
+    const Action& action = waiting_.front();
+    if (running_equipment_ != action.id) {
+        running_equipment_ = action.id;
+        set_action(action.id, ActionStatus::kRunning);
+        if (auto why_not = equipment_->begin(action.type, motion_.true_pose())) {
+            set_action(action.id, ActionStatus::kFailed, std::move(*why_not));
+            waiting_.pop_front();
+            return;
+        }
+    }
+    if (equipment_->busy()) return;
+    set_action(action.id, ActionStatus::kFinished);
+    waiting_.pop_front();
 }
 
 void VehicleExecutor::finish_stop(const StopProcedure::Outcome& outcome) {

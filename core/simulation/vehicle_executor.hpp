@@ -7,6 +7,7 @@
 
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/simulation/vehicle_acceptance.hpp"
+#include "core/simulation/vehicle_equipment.hpp"
 #include "core/simulation/vehicle_motion.hpp"
 #include "core/simulation/vehicle_stop.hpp"
 
@@ -17,7 +18,9 @@ namespace pulseline::simulation {
 /// vehicle knows no order and no pose. Thread safety: none. No clock: time passes by step().
 class VehicleExecutor {
 public:
-    VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id);
+    /// `equipment` may be null: it measures and drives only.
+    VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id,
+                    VehicleEquipment* equipment = nullptr);
 
     void handle(const fleet::OrderMessage& order);
     void handle(const fleet::InstantActionsMessage& message);
@@ -48,6 +51,7 @@ private:
     void take_traversals();
     void queue_edges();
     void run_actions(double dt_s);
+    void run_equipment();
     void finish_stop(const StopProcedure::Outcome& outcome);
     void finish_cancel();
     void finish_pause();
@@ -57,6 +61,7 @@ private:
     void cancel_order(const fleet::Action& action);
     void init_position(const fleet::Action& action);
     void instant_stop(const fleet::Action& action);
+    void instant_equipment(const fleet::Action& action);
 
     OrderContext context() const;
     bool order_done() const { return nodes_.empty() && waiting_.empty(); }
@@ -68,6 +73,7 @@ private:
 
     VehicleMotion& motion_;
     StopProcedure procedure_;
+    VehicleEquipment* equipment_;
     std::string map_id_;
 
     std::string order_id_;
@@ -83,6 +89,7 @@ private:
 
     std::deque<fleet::Action> waiting_;  // of the node it stands on, first one running
     std::string running_stop_;           // id of the action in the procedure
+    std::string running_equipment_;      // id of the action that the equipment is at
     std::string cancel_id_;              // of the cancelOrder at work
     bool cancelled_ = false;
     std::string pause_id_;

@@ -69,6 +69,7 @@ void VehicleExecutor::handle_instant(const Action& action) {
     if (action.type == "measureStop" || action.type == "adjustToMarker") {
         return instant_stop(action);
     }
+    if (equipment_ != nullptr && action.type == "stopCharging") return instant_equipment(action);
     if (action.type == "startPause") {
         paused_ = true;
         // An earlier startPause still braking is answered by the same standstill.
@@ -118,6 +119,10 @@ void VehicleExecutor::cancel_order(const Action& action) {
     }
     waiting_.clear();
     procedure_.abort();
+    if (equipment_ != nullptr && equipment_->busy()) {
+        equipment_->abort();
+        set_action(running_equipment_, ActionStatus::kFailed, "cancelled");
+    }
     add_action(action, ActionStatus::kRunning);
 }
 
@@ -149,6 +154,12 @@ void VehicleExecutor::instant_stop(const Action& action) {
     add_action(action, ActionStatus::kRunning);
     running_stop_ = action.id;
     procedure_.start(*action.stop_target, corrects);
+}
+
+void VehicleExecutor::instant_equipment(const Action& action) {
+    auto why_not = equipment_->begin(action.type, motion_.true_pose());
+    add_action(action, why_not ? ActionStatus::kFailed : ActionStatus::kFinished,
+               why_not.value_or(""));
 }
 
 }  // namespace pulseline::simulation

@@ -14,9 +14,6 @@ constexpr double kForceNoise = 0.002;
 constexpr double kAmbient_c = 22;
 constexpr double kHeat_c = 18;  // above ambient at full speed for long
 constexpr double kHeatTime_s = 600;
-constexpr double kBatteryPerMetre = 5e-4;
-constexpr double kBatteryLow = 20;  // people charge it then
-constexpr const char* kFeet[] = {"front left", "front right", "back left", "back right"};
 
 struct Twist {
     double vx_mps = 0;
@@ -61,13 +58,10 @@ BodyStatus::BodyStatus(const plant::Vehicle& vehicle, const simulation::VehicleM
     for (const auto& wheel : motion.type().wheels) {
         wheels_.push_back({wheel.name, 0, 0, kAmbient_c, ""});
     }
-    battery_percent_ = std::uniform_real_distribution<double>(82, 98)(random_);
 }
 
 void BodyStatus::step(double dt_s) {
     const Twist twist = twist_of(motion_);
-    const double way_m = std::hypot(twist.vx_mps, twist.vy_mps) * dt_s;
-    battery_percent_ = std::max(kBatteryLow, battery_percent_ - way_m * kBatteryPerMetre);
     const auto& wheels = motion_.type().wheels;
     const double full_mps = motion_.type().max_speed_mps * motion_.time_factor();
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
@@ -94,12 +88,7 @@ void BodyStatus::write_state(fleet::StateMessage& state) {
                                   weight_n * bracket_share_[2 * i + 1] * noise(random_)});
     }
     state.wheels = wheels_;
-    state.parking_feet.clear();
-    if (!brackets.empty()) {
-        for (const char* name : kFeet) state.parking_feet.push_back({name, 0});
-    }
     state.load_kg = load_kg_;
-    state.battery_percent = battery_percent_;
     if (!broken_wheel_.empty()) {
         state.errors.push_back({"wheelFault",
                                 false,

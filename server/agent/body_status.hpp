@@ -10,7 +10,7 @@
 
 namespace pulseline::agent {
 
-/// What the rest of the machine reports: brackets, wheels, parking feet, battery.
+/// What the rest of the machine reports: brackets and wheels.
 class BodyStatus {
 public:
     BodyStatus(const plant::Vehicle& vehicle, const simulation::VehicleMotion& motion,
@@ -27,7 +27,6 @@ private:
     std::vector<double> bracket_share_;  // of the load, two sensors each
     std::vector<fleet::WheelStatus> wheels_;
     std::string broken_wheel_;
-    double battery_percent_;
 };
 
 }  // namespace pulseline::agent

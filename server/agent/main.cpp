@@ -60,6 +60,7 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     VehicleSettings settings;
     settings.seed = options.seed;
     settings.time_factor = options.time_factor;
+    settings.battery_percent = options.battery_percent;
     settings.rendered = options.rendered;
     settings.vehicles = static_cast<int>(options.vehicles.size());
     settings.faults = options.faults;

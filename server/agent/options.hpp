@@ -36,6 +36,7 @@ struct Options {
     std::uint64_t seed = 1;
     double time_factor = 1;
     bool rendered = true;
+    std::optional<double> battery_percent;  // of every vehicle at start; absent: by the seed
     bool insecure = false;
     std::string ca_file;
     std::vector<Fault> faults;

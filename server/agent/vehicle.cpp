@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <utility>
 
 #include "api/vehicle/connection.hpp"
@@ -38,6 +39,21 @@ Time utc_now() {
                             .count());
 }
 
+/// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
+std::vector<geometry::Pose2> chargers(const plant::Plant& plant) {
+    std::vector<geometry::Pose2> poses;
+    for (const auto& station : plant.stations) {
+        if (station.charger) poses.push_back(station.pose);
+    }
+    return poses;
+}
+
+double first_charge(const plant::Vehicle& vehicle, const VehicleSettings& settings) {
+    if (settings.battery_percent) return *settings.battery_percent;
+    std::mt19937_64 random(simulation::seed_for(settings.seed, "battery " + vehicle.id.str()));
+    return std::uniform_real_distribution<double>(82, 98)(random);
+}
+
 }  // namespace
 
 Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
@@ -49,7 +65,10 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
               settings.time_factor),
       sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, motion_,
                settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
-      executor_(motion_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str()),
+      equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
+                 settings.time_factor),
+      executor_(motion_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
+                &equipment_),
       body_(vehicle, motion_, simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
@@ -59,7 +78,9 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
     executor_.step(dt_s);
     body_.step(dt_s);
-    way_since_fix_m_ += std::abs(motion_.velocity_mps()) * dt_s;
+    const double way_m = std::abs(motion_.velocity_mps()) * dt_s;
+    equipment_.step(dt_s, way_m);
+    way_since_fix_m_ += way_m;
     if (!motion_.standing()) stood_since_ = now;
     write_truth(now);
     if (sensing_.take_fresh()) {
@@ -115,6 +136,7 @@ fleet::StateMessage Vehicle::state() {
     fleet::StateMessage state;
     executor_.write_state(state);
     body_.write_state(state);
+    equipment_.write_state(state);
     state.cameras = sensing_.readings();
     state.deviation_range_m = kFixed_m + kDriftPerMetre * way_since_fix_m_;
     state.localization_score = std::clamp(1 - 10 * state.deviation_range_m, 0.0, 1.0);
@@ -155,7 +177,9 @@ void Vehicle::send_factsheet() {
     vda5050::FactsheetSource source;
     source.type = &type_;
     source.time_factor = settings_.time_factor;
-    source.node_actions = simulation::node_action_types();
+    source.node_actions = simulation::stop_action_types();
+    source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
+                               equipment_.action_types().end());
     source.instant_actions = simulation::instant_action_types();
     outbox_.put_event(vda5050::encode_frame(
         Topic::kFactsheet, true,

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,7 @@ struct VehicleSettings {
     std::uint64_t seed = 1;
     double time_factor = 1;
     bool rendered = true;
+    std::optional<double> battery_percent;  // absent: by the seed
     int vehicles = 1;  // in this process: they share one processor for rendering
     std::vector<Fault> faults;
 };
@@ -61,6 +63,7 @@ private:
     VehicleSettings settings_;
     simulation::VehicleMotion motion_;
     CameraSensing sensing_;
+    simulation::VehicleEquipment equipment_;
     simulation::VehicleExecutor executor_;
     BodyStatus body_;
     TruthLog* truth_;

@@ -109,7 +109,7 @@ class Plant:
         self.markers.append({"id": ident, "kind": kind, "payload": payload, "size_m": size, "hall": self.hall,
                              "pose": pose(x, y, heading), "sigma_xy_m": sigma, "sigma_heading_rad": 0.0005})
 
-    def station(self, number, name, p, vehicle_type, rest=True):
+    def station(self, number, name, p, vehicle_type, rest=True, charger=False):
         ident = f"st{number:02d}"
         markers = []
         if vehicle_type is PLATFORM:
@@ -126,6 +126,8 @@ class Plant:
             "id": ident, "number": number, "name": name, "hall": self.hall, "pose": pose(*p),
             "tolerance": {"shape": "box", "dx_m": 0.025, "dy_m": 0.025, "dheading_rad": 0.2 * DEG},
             "markers": markers, "node": ident, "resting_place": rest, "vehicle_types": [vehicle_type["id"]]})
+        if charger:
+            self.stations[-1]["charger"] = True
         self.node(ident, p[0], p[1])
 
     def node(self, ident, x, y):
@@ -292,17 +294,17 @@ def final_assembly(folder):
 
     # A: the pulse line
     for n, where in {**TANG, 8: (107, 30, PI), 9: (107, 14, PI / 2)}.items():
-        p.station(n, WORK[n], where, PLATFORM)
+        p.station(n, WORK[n], where, PLATFORM, charger=n == 6)
     p.station(10, "Kit drop", (114.6, 20, PI / 2), DELIVERY)
     # B: measuring hall, C: iGPS cell, D: landmark lab, and the parking bays
     xs = (8.5, 15.3, 22.1, 28.9, 35.7, 42.5)
     for i, x in enumerate(xs):
-        p.station(11 + i, f"Tracker north {i + 1}", (x, 57.0, 0), MEASURING)
+        p.station(11 + i, f"Tracker north {i + 1}", (x, 57.0, 0), MEASURING, charger=i == 5)
     for i, x in enumerate(xs):
-        p.station(17 + i, f"Tracker south {i + 1}", (x, 44.0, 0), MEASURING)
+        p.station(17 + i, f"Tracker south {i + 1}", (x, 44.0, 0), MEASURING, charger=i == 5)
     jigs = (55, 63, 71, 79)
     for i, x in enumerate(jigs):
-        p.station(23 + i, f"Jig north {i + 1}", (x, 53.0, -PI / 2), OMNI)
+        p.station(23 + i, f"Jig north {i + 1}", (x, 53.0, -PI / 2), OMNI, charger=i == 3)
     for i, x in enumerate(jigs):
         p.station(27 + i, f"Jig south {i + 1}", (x, 47.4, PI / 2), OMNI)
     shelves = (92, 102, 112)
@@ -312,7 +314,7 @@ def final_assembly(folder):
         p.station(34 + i, f"Shelf south {i + 1}", (x, 46, PI), DELIVERY)
     bays = (66, 72, 78, 84)
     for i, x in enumerate(bays):
-        p.station(37 + i, f"Bay {i + 1}", (x, 1.5, PI), DELIVERY)
+        p.station(37 + i, f"Bay {i + 1}", (x, 1.5, PI), DELIVERY, charger=True)
 
     p.area("zone-a", "zone", "A Pulse line", box(4.6, 5.6, 115.6, 36.4))
     p.area("zone-b", "zone", "B Measuring hall", box(2.5, 42, 47.5, 58.6))

@@ -67,25 +67,16 @@ std::string code_of(Request request) {
 
 // Written by hand, apart from the table: who may do what is decided here a second time.
 const std::set<std::string> kForEverybody = {"signIn", "getOpenApi", "health", "ready"};
-const std::set<std::string> kForOperators = {"pauseVehicle",
-                                             "initPosition",
-                                             "pauseFleet",
-                                             "resumeFleet",
-                                             "createJobOrder",
-                                             "pauseJobOrder",
-                                             "resumeJobOrder",
-                                             "cancelJobOrder",
-                                             "findRoutes",
-                                             "controlJobOrder",
-                                             "createTemplate",
-                                             "deleteTemplate",
-                                             "createJobOrderOfTemplate",
-                                             "createSchedule",
-                                             "deleteSchedule",
-                                             "pauseSchedule",
-                                             "resumeSchedule",
-                                             "closeFloor",
-                                             "reopenFloor"};
+const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
+                                             "integrateVehicle", "pauseFleet",
+                                             "resumeFleet",      "createJobOrder",
+                                             "pauseJobOrder",    "resumeJobOrder",
+                                             "cancelJobOrder",   "findRoutes",
+                                             "controlJobOrder",  "createTemplate",
+                                             "deleteTemplate",   "createJobOrderOfTemplate",
+                                             "createSchedule",   "deleteSchedule",
+                                             "pauseSchedule",    "resumeSchedule",
+                                             "closeFloor",       "reopenFloor"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

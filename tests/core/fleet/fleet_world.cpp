@@ -165,6 +165,7 @@ void FakeVehicle::receive(const VehicleMessage& message) {
                 {action.id, action.type, ActionStatus::kFinished, {}, {}});
             if (action.type == "startPause") state.paused = true;
             if (action.type == "stopPause") state.paused = false;
+            if (action.type == "stopCharging") state.charging = false;
             if (action.type == "initPosition") {
                 state.pose = action.init_position->pose;
                 state.position_initialized = true;
@@ -243,6 +244,7 @@ bool FakeVehicle::step() {
         }
         action.status = ActionStatus::kFinished;
         actions_done.push_back(action.type);
+        if (action.type == "startCharging") state.charging = true;
         if (action.type == "measureStop") {
             const Pose2 station = order_->nodes.back().actions.back().stop_target->target;
             action.measurement = StopMeasurement{};

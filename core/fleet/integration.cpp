@@ -1,0 +1,121 @@
+#include <utility>
+
+#include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/state.hpp"
+
+// How far a vehicle takes part, and what becomes of its order when it is taken out.
+namespace pulseline::fleet {
+namespace {
+
+bool is_bound_to(const FleetState& fleet, const JobOrder& order, const plant::VehicleId& id) {
+    return order.wanted_vehicle == id || fleet.orders.vehicle_of_sequence(order.sequence) == id;
+}
+
+/// The order waits for another vehicle; the step under way begins anew with that one.
+void give_back(FleetState& fleet, JobOrder& order) {
+    fleet.orders.release(order);
+    if (order.current_step < order.steps.size()) {
+        Step& step = order.steps[order.current_step];
+        step.state = StepState::kPending;
+        step.phase = StepPhase::kBefore;
+        step.actions_done = 0;
+        step.leg = {};
+    }
+    fleet.store(order);
+}
+
+void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now) {
+    JobOrder* order = fleet.orders.of(run.record.id);
+    if (!order || order->state != JobState::kRunning) return;
+    const char* code = is_loaded(run) ? "load_on_withdrawn_vehicle" : "vehicle_withdrawn";
+    set_order_state(fleet, *order, JobState::kInterrupted,
+                    {code, {{"vehicle", run.record.id.str()}}}, actor, now);
+}
+
+/// It is carried or driven out of the hall: nobody waits for what it was told, its floor is free.
+void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
+    run.actions.clear();
+    if (!run.record.at_station.empty()) fleet.changed_stations.insert(run.record.at_station);
+    run.record.at_station = {};
+    run.record.pose_known = false;
+    JobOrder* order = fleet.orders.of(run.record.id);
+    drop_leg(fleet, run, now);
+    leave_floor(fleet, run, now);
+    if (order && order->cancel_requested) abort_order(fleet, *order, order->reason, {}, now);
+}
+
+}  // namespace
+
+const char* to_string(Integration level) {
+    switch (level) {
+        case Integration::kIgnore:
+            return "ignore";
+        case Integration::kNotice:
+            return "notice";
+        case Integration::kRespect:
+            return "respect";
+        case Integration::kUtilise:
+            return "utilise";
+    }
+    return "utilise";
+}
+
+void release_withdrawn(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) {
+        if (run.record.integration == Integration::kUtilise || run.has_leg()) continue;
+        interrupt(fleet, run, {}, now);  // resumed by a person meanwhile
+        JobOrder* order = fleet.orders.of(id);
+        if (!order || order->cancel_requested || is_loaded(run)) continue;
+        if (order->reason.code != "vehicle_withdrawn" || is_bound_to(fleet, *order, id)) continue;
+        give_back(fleet, *order);
+    }
+}
+
+Result<VehicleView> Fleet::integrate(const plant::VehicleId& id, Integration level, bool off_floor,
+                                     const std::string& actor, Time now) {
+    FleetState& fleet = *state_;
+    VehicleRun* run = fleet.find(id);
+    if (!run) {
+        return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},
+                    {{"vehicle", id.str()}});
+    }
+    const Integration before = run->record.integration;
+    if (level == before) return view_of(fleet, *run, now);
+    const bool leaves = level < Integration::kRespect && before >= Integration::kRespect;
+    if (leaves && !off_floor) {
+        return fail(Errc::kConflict, "off_floor_unconfirmed",
+                    "The floor under " + id.str() +
+                        " becomes free for others. Take it out of the hall first, then confirm it "
+                        "with off_floor.",
+                    "/off_floor", {{"vehicle", id.str()}});
+    }
+    if (leaves && run->connected && run->state.driving) {
+        return fail(Errc::kConflict, "vehicle_busy",
+                    "Vehicle " + id.str() + " drives. Pause it and wait until it stands.", {},
+                    {{"vehicle", id.str()}});
+    }
+    run->record.integration = level;
+    fleet.store(*run);
+    fleet.out.fleet_changed = true;
+    add_event(fleet, now, "vehicle.integration", {}, run->record.leg, id, actor,
+              {{"from", to_string(before)}, {"to", to_string(level)}});
+    if (level != Integration::kUtilise) {
+        interrupt(fleet, *run, actor, now);
+        if (!leaves) cancel_leg(fleet, *run, now);
+    }
+    if (leaves) take_off_floor(fleet, *run, now);
+    if (level == Integration::kIgnore) {
+        run->state = {};
+        run->state_at.reset();
+    }
+    if (before < Integration::kRespect && level >= Integration::kRespect) {
+        // Somebody put it there by hand: it moves when a person has seen where it stands.
+        require_person(fleet, *run, {"integrated_again", {}}, now);
+        run->reconciled = false;  // its next report says where it stands
+    }
+    halt_or_resume(fleet, *run, now);
+    dispatch(fleet, now);
+    return view_of(fleet, *run, now);
+}
+
+}  // namespace pulseline::fleet

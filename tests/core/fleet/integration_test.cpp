@@ -1,0 +1,227 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/fleet/fleet_world.hpp"
+
+namespace pulseline::fleet::testing {
+namespace {
+
+const plant::VehicleId kV1("V1");
+const plant::VehicleId kV2("V2");
+
+plant::Plant resting_plant(bool loaded = false) {
+    plant::Plant plant = small_plant();
+    for (auto& station : plant.stations) station.resting_place = true;
+    if (loaded) plant.vehicles[0].load_name = "A-101";
+    return plant;
+}
+
+struct IntegrationLevels : ::testing::Test {
+    explicit IntegrationLevels(plant::Plant plant = resting_plant()) : world(std::move(plant)) {
+        world.connect_all();
+    }
+    Result<VehicleView> set(const plant::VehicleId& id, Integration level, bool off = false) {
+        auto done = world.fleet->integrate(id, level, off, "chief", world.now);
+        world.settle();
+        return done;
+    }
+    Result<Created> order_for_anybody(int station) {
+        NewOrder order;
+        order.steps = {{station}};
+        return world.order(std::move(order));
+    }
+    JobOrder stored(const Result<Created>& made) { return world.stored(made->order.id); }
+    VehicleView view(const plant::VehicleId& id) { return *world.fleet->vehicle(id, world.now); }
+    World world;
+};
+
+struct LoadedVehicle : IntegrationLevels {
+    LoadedVehicle() : IntegrationLevels(resting_plant(true)) {}
+};
+
+TEST_F(IntegrationLevels, ARespectedVehicleKeepsItsFloorAndGetsNothing) {
+    ASSERT_TRUE(set(kV1, Integration::kRespect));
+    EXPECT_EQ(view(kV1).reason.value().code, "not_integrated");
+    const auto refused = world.order("V1", {2});
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().reason.code, "not_integrated");
+    EXPECT_EQ(refused.error().field, "/vehicle");
+
+    const auto order = order_for_anybody(1);
+    ASSERT_TRUE(order);
+    world.run(60);
+    EXPECT_EQ(stored(order).assigned_vehicle, kV2);
+    EXPECT_EQ(stored(order).state, JobState::kRunning);
+    EXPECT_EQ(stored(order).reason.code, "floor_held") << "V1 stands on station 1";
+    EXPECT_EQ(world.vehicle("V1").orders_received, 0) << "it is not asked to make way";
+}
+
+TEST_F(IntegrationLevels, TheOrderOfAVehicleTakenOutUnderWayIsGivenToAnother) {
+    world.vehicles_move = false;
+    const auto order = order_for_anybody(2);
+    ASSERT_TRUE(order);
+    world.run(2);
+    ASSERT_EQ(stored(order).assigned_vehicle, kV1);
+    ASSERT_TRUE(view(kV1).leg);
+
+    ASSERT_TRUE(set(kV1, Integration::kRespect));
+    EXPECT_EQ(stored(order).state, JobState::kInterrupted);
+    EXPECT_EQ(stored(order).reason.code, "vehicle_withdrawn");
+    EXPECT_EQ(stored(order).assigned_vehicle, kV1) << "until it has confirmed and stands";
+
+    world.vehicles_move = true;
+    world.run(90);
+    EXPECT_EQ(stored(order).assigned_vehicle, kV2);
+    EXPECT_EQ(stored(order).state, JobState::kEnded);
+    EXPECT_EQ(world.store.stops.size(), 1u) << "done once";
+}
+
+TEST_F(IntegrationLevels, AnOrderForThatVehicleByNameWaitsForIt) {
+    const auto order = world.order("V1", {2});
+    ASSERT_TRUE(order);
+    world.run(2);
+    ASSERT_TRUE(set(kV1, Integration::kRespect));
+    world.run(20);
+    EXPECT_EQ(stored(order).state, JobState::kInterrupted);
+    EXPECT_EQ(stored(order).assigned_vehicle, kV1);
+
+    ASSERT_TRUE(set(kV1, Integration::kUtilise));
+    world.run(5);
+    EXPECT_EQ(stored(order).state, JobState::kInterrupted) << "nothing goes on by itself";
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.settle();
+    world.run(60);
+    EXPECT_EQ(stored(order).state, JobState::kEnded);
+}
+
+TEST_F(LoadedVehicle, KeepsItsOrderBecauseTheLoadIsOnIt) {
+    const auto order = order_for_anybody(2);
+    ASSERT_TRUE(order);
+    world.run(2);
+    ASSERT_EQ(stored(order).assigned_vehicle, kV1);
+    ASSERT_TRUE(set(kV1, Integration::kRespect));
+    world.run(60);
+    EXPECT_EQ(stored(order).assigned_vehicle, kV1);
+    EXPECT_EQ(stored(order).reason.code, "load_on_withdrawn_vehicle");
+}
+
+TEST_F(IntegrationLevels, OffTheFloorIsToBeConfirmedAndFreesIt) {
+    const auto unsure = set(kV1, Integration::kNotice);
+    ASSERT_FALSE(unsure);
+    EXPECT_EQ(unsure.error().reason.code, "off_floor_unconfirmed");
+    EXPECT_EQ(unsure.error().field, "/off_floor");
+    EXPECT_EQ(view(kV1).integration, Integration::kUtilise);
+
+    ASSERT_TRUE(set(kV1, Integration::kNotice, true));
+    const auto order = order_for_anybody(1);
+    ASSERT_TRUE(order);
+    world.run(90);
+    EXPECT_EQ(stored(order).state, JobState::kEnded) << "V2 drives to where V1 was drawn";
+    EXPECT_TRUE(view(kV1).at_station.empty());
+}
+
+TEST_F(IntegrationLevels, ASilentVehicleTakenOffTheFloorGivesItsOrderAwayAtOnce) {
+    const auto order = order_for_anybody(2);
+    ASSERT_TRUE(order);
+    world.run(2);
+    ASSERT_EQ(stored(order).assigned_vehicle, kV1);
+    world.connected[kV1] = false;
+    world.fleet->vehicle_disconnected(kV1, world.now);
+    world.run(20);
+    EXPECT_EQ(stored(order).assigned_vehicle, kV1) << "its floor may not be free";
+
+    ASSERT_TRUE(set(kV1, Integration::kIgnore, true));
+    world.run(1);
+    // A loss is for a person to judge; the order goes on with another only when he says so.
+    EXPECT_EQ(stored(order).state, JobState::kInterrupted);
+}
+
+TEST_F(IntegrationLevels, AnIgnoredVehicleIsNotListenedTo) {
+    ASSERT_TRUE(set(kV1, Integration::kIgnore, true));
+    world.vehicle("V1").state.errors.push_back({"motorFault", true, "smoke", {}});
+    world.run(5);
+    EXPECT_EQ(world.count_events("vehicle.error"), 0);
+    EXPECT_EQ(view(kV1).activity, Activity::kUnknown);
+    EXPECT_FALSE(view(kV1).pose_known);
+}
+
+TEST_F(IntegrationLevels, PutInAgainItHoldsItsFloorAndWaitsForAPerson) {
+    ASSERT_TRUE(set(kV1, Integration::kNotice, true));
+    world.run(2);
+    ASSERT_TRUE(set(kV1, Integration::kUtilise));
+    world.run(2);
+    EXPECT_EQ(view(kV1).needs_resume_reason.code, "integrated_again");
+    EXPECT_EQ(view(kV1).at_station, plant::StationId("s1"));
+    const auto order = world.order("V1", {2});
+    ASSERT_TRUE(order);
+    world.run(10);
+    EXPECT_EQ(stored(order).state, JobState::kAllowedToStart);
+
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.settle();
+    world.run(60);
+    EXPECT_EQ(stored(order).state, JobState::kEnded);
+}
+
+TEST_F(IntegrationLevels, SurvivesARestart) {
+    ASSERT_TRUE(set(kV1, Integration::kNotice, true));
+    world.run(1);
+    world.crash_server();
+    world.run(1);
+    EXPECT_EQ(view(kV1).integration, Integration::kNotice);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV2}, "op", world.now));
+    const auto order = order_for_anybody(1);
+    ASSERT_TRUE(order);
+    world.run(90);
+    EXPECT_EQ(stored(order).state, JobState::kEnded) << "it still holds no floor";
+}
+
+TEST_F(IntegrationLevels, AnOrderWithoutAVehicleIsNotResumedByHand) {
+    world.vehicles_move = false;
+    const auto order = order_for_anybody(2);
+    ASSERT_TRUE(order);
+    world.run(1);
+    ASSERT_TRUE(set(kV2, Integration::kRespect));
+    ASSERT_TRUE(set(kV1, Integration::kRespect));
+    world.run(5);
+    ASSERT_TRUE(stored(order).assigned_vehicle.empty());
+    const auto resumed = world.fleet->resume_order(order->order.id, std::nullopt, "op", world.now);
+    ASSERT_FALSE(resumed);
+    EXPECT_EQ(resumed.error().reason.code, "waits_for_vehicle");
+
+    ASSERT_TRUE(world.fleet->cancel_order(order->order.id, std::nullopt, "op", world.now));
+    world.settle();
+    EXPECT_EQ(stored(order).state, JobState::kAborted);
+}
+
+TEST(ManualMode, NoBaseIsExtendedAndALostOrderWaitsForAPerson) {
+    World world(resting_plant());
+    world.connect_all();
+    const auto order = world.order("V1", {3});
+    ASSERT_TRUE(order);
+    world.run(2);
+    FakeVehicle& v1 = world.vehicle("V1");
+    v1.state.operating_mode = "MANUAL";
+    world.run(1);
+    const int before = v1.orders_received;
+    world.run(20);
+    EXPECT_EQ(v1.orders_received, before) << "no base is extended";
+    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->reason.value().code, "not_automatic");
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kRunning);
+
+    v1.restart();  // the hand terminal took its order away
+    v1.state.position_initialized = true;
+    v1.state.operating_mode = "MANUAL";
+    world.run(5);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kInterrupted);
+    v1.state.operating_mode = "AUTOMATIC";
+    world.run(10);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kInterrupted)
+        << "nothing moves by itself";
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.settle();
+    world.run(60);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kEnded);
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing
