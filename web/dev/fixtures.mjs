@@ -54,6 +54,7 @@ export function snapshot(model, now = Date.now()) {
       paused: false,
       pause_confirmed: false,
       needs_resume: false,
+      integration: "utilise",
       operating_mode: "AUTOMATIC",
       battery_percent: 81,
       e_stop: "NONE",

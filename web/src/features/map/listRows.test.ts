@@ -11,6 +11,7 @@ const vehicle = (name: string, over: Partial<Vehicle> = {}): Vehicle => ({
   pose_known: true,
   paused: false,
   needs_resume: false,
+  integration: "utilise",
   battery_percent: 64.4,
   operating_mode: "AUTOMATIC",
   errors: [],

@@ -20,6 +20,7 @@ import { useWords } from "@/shared/words/useWords";
 import { CameraCard } from "./CameraCard";
 import { feetDown } from "./faceplate";
 import { InitPositionCard } from "./InitPositionCard";
+import { IntegrationCard } from "./IntegrationCard";
 import { summarise } from "./loads";
 import { PlatformDrawing } from "./PlatformDrawing";
 import { PoseCard } from "./PoseCard";
@@ -93,6 +94,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
       {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
+      <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
     </>
   );
   const last = <StopsCard stops={stops} now={now} />;
@@ -201,6 +203,9 @@ function Chips({ vehicle }: { vehicle: Vehicle }) {
             ? t("chip.at_station", { number: words.stationNumber(vehicle.at_station) })
             : t(`words:activity.${vehicle.activity}`)}
       </Chip>
+      {vehicle.integration !== "utilise" && (
+        <Chip symbol="a-2">{t(`integration.level.${vehicle.integration}`)}</Chip>
+      )}
       {!vehicle.pose_known && <Chip symbol="a-2">{t("chip.pose_unknown")}</Chip>}
       {vehicle.link !== "never" && (
         <>

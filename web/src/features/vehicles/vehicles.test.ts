@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
 import { footCorner, onSheet, sheetOf } from "./faceplate";
+import { canApply } from "./integration";
 import { emptyDraft, parseNumber, readDraft } from "./initPosition";
 import { centreOfLoad, summarise } from "./loads";
 import { newest } from "./useHeard";
@@ -105,6 +106,7 @@ describe("why it stands", () => {
     id: "TP-01",
     link: "live",
     needs_resume: false,
+  integration: "utilise",
     errors: [],
     brackets: [],
     wheels: [],
@@ -153,5 +155,17 @@ describe("newest word", () => {
     const heard = newest(vehicle, { x_m: 2, y_m: 2, heading_rad: 0, speed_mps: 0.3, age_s: 60 }, now);
 
     expect(heard).toMatchObject({ pose: { x_m: 1 }, pose_s: 5, heard_s: 4 });
+  });
+});
+
+describe("taking a vehicle out", () => {
+  it("asks for a word that it is out of the hall before its floor is freed", () => {
+    expect(canApply("utilise", "notice", false)).toBe("confirm_first");
+    expect(canApply("respect", "ignore", true)).toBe("yes");
+    expect(canApply("ignore", "notice", false)).toBe("yes");
+  });
+  it("needs nothing more for what keeps the floor", () => {
+    expect(canApply("utilise", "respect", false)).toBe("yes");
+    expect(canApply("respect", "respect", false)).toBe("same");
   });
 });

@@ -42,6 +42,7 @@ const kCodes: Readonly<Record<string, string>> = {
   mode: "words:mode.",
   motion_mode: "words:mode.",
   state: "words:job.",
+  level: "words:integration.",
 };
 
 function shown(params: Params, t: Translate): Record<string, string> {

@@ -12,6 +12,7 @@ const vehicle = (id: string, over: Partial<Vehicle> = {}): Vehicle => ({
   pose_known: true,
   paused: false,
   needs_resume: false,
+  integration: "utilise",
   battery_percent: 50,
   operating_mode: "AUTOMATIC",
   errors: [],
