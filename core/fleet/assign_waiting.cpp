@@ -76,7 +76,7 @@ Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
         }
         return busy;
     }
-    if (auto reason = not_ready(fleet, *run, now)) return *reason;
+    if (auto reason = not_ready_for(fleet, order, *run, now)) return *reason;
     if (auto reason = battery_bar(*run)) return *reason;
     return {"no_free_vehicle", {}};
 }
@@ -106,9 +106,9 @@ void assign_waiting(FleetState& fleet, Time now) {
     if (orders.empty()) return;
     std::vector<VehicleRun*> free;
     for (auto& [id, run] : fleet.vehicles) {
-        if (is_free(fleet, run) && !not_ready(fleet, run, now) && !battery_bar(run)) {
-            free.push_back(&run);
-        }
+        const auto reason = not_ready(fleet, run, now);
+        const bool ready = !reason || reason->code == "parking_feet_down";
+        if (is_free(fleet, run) && ready && !battery_bar(run)) free.push_back(&run);
     }
     const std::size_t looked_at = free.empty() ? 0 : std::min(orders.size(), kMostOrders);
     CostMatrix matrix{looked_at, free.size(), {}};
@@ -118,6 +118,7 @@ void assign_waiting(FleetState& fleet, Time now) {
         for (std::size_t column = 0; column < free.size(); ++column) {
             const VehicleRun& run = *free[column];
             if (!vehicle_fits(fleet, order, run)) continue;
+            if (not_ready_for(fleet, order, run, now)) continue;
             matrix.at(row, column) = way_s(fleet, order, run) - urgency_s(order, now);
         }
     }

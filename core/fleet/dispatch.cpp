@@ -4,6 +4,22 @@
 #include "core/fleet/interlocks.hpp"
 
 namespace pulseline::fleet {
+namespace {
+
+/// The next thing it does, standing, is to raise its feet.
+bool raises_feet_first(const JobOrder& order) {
+    if (order.current_step >= order.steps.size()) return false;
+    const Step& step = order.steps[order.current_step];
+    if (step.phase != StepPhase::kBefore) return false;
+    const auto todo =
+        step.before.begin() +
+        static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
+    return std::any_of(todo, step.before.end(),
+                       [](const StepAction& action) { return action.type == "raiseParking"; });
+}
+
+}  // namespace
+
 
 std::vector<JobOrder*> by_urgency(FleetState& fleet, JobState state) {
     std::vector<JobOrder*> orders;
@@ -45,10 +61,19 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     for (const auto& error : run.state.errors) {
         if (error.fatal) return because("vehicle_error", {{"type", error.type}});
     }
-    if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
     if (run.state.paused) return because("vehicle_paused");
     if (run.cancelling || run.state.driving) return because("vehicle_busy");
+    if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
     return std::nullopt;
+}
+
+std::optional<Reason> not_ready_for(const FleetState& fleet, const JobOrder& order,
+                                    const VehicleRun& run, Time now) {
+    auto reason = not_ready(fleet, run, now);
+    if (reason && reason->code == "parking_feet_down" && raises_feet_first(order)) {
+        return std::nullopt;
+    }
+    return reason;
 }
 
 std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run) {
@@ -86,7 +111,7 @@ void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
     JobOrder* order = fleet.orders.of(run.record.id);
     if (run.has_leg() || !order || order->state != JobState::kRunning) return;
     if (order->current_step >= order->steps.size()) return;
-    if (!not_ready(fleet, run, now)) start_step(fleet, *order, run, now);
+    if (!not_ready_for(fleet, *order, run, now)) start_step(fleet, *order, run, now);
 }
 
 void dispatch(FleetState& fleet, Time now) {

@@ -101,7 +101,7 @@ void start_steps(FleetState& fleet, Time now) {
     for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
         VehicleRun* run = fleet.find(order->assigned_vehicle);
         if (!run || run->has_leg() || order->current_step >= order->steps.size()) continue;
-        if (const auto reason = not_ready(fleet, *run, now)) {
+        if (const auto reason = not_ready_for(fleet, *order, *run, now)) {
             set_order_reason(fleet, *order, *reason, now);
             continue;
         }

@@ -231,6 +231,9 @@ void dispatch(FleetState& fleet, Time now);
 void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
 /// Why this vehicle may not start a move now; nullopt: it may.
 std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+/// The same for an order's next step: feet that are down do not bar what raises them.
+std::optional<Reason> not_ready_for(const FleetState& fleet, const JobOrder& order,
+                                    const VehicleRun& run, Time now);
 /// Why it would not obey a release of floor, whatever its order; others are planned around it.
 std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run);
 

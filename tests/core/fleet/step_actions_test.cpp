@@ -148,5 +148,30 @@ TEST(StepActionsOf, AVehicleThatSaidNothingAreRefused) {
     EXPECT_EQ(refused.error().field, "/steps/0/before/0/type");
 }
 
+TEST_F(StepActions, FeetThatAreDownBarADriveAndNotWhatRaisesThem) {
+    v1().state.parking_feet = {{"front left", 0.12}};
+    world.run(0.2);
+    NewOrder drive;
+    drive.vehicle = kV1;
+    drive.steps = {{2}};
+    const auto barred = world.order(drive);
+    ASSERT_TRUE(barred);
+    world.run(5);
+    EXPECT_EQ(world.stored(barred->order.id).reason.code, "parking_feet_down");
+    ASSERT_TRUE(world.fleet->cancel_order(barred->order.id, std::nullopt, "op", world.now));
+    world.settle();
+
+    const auto raised = world.order(with_actions());
+    ASSERT_TRUE(raised);
+    world.run(2);
+    EXPECT_EQ(v1().actions_done, (std::vector<std::string>{"raiseParking", "setBracketHeight"}));
+    world.run(5);
+    EXPECT_EQ(v1().node_steps, 0) << "they are still reported as down";
+    EXPECT_EQ(world.stored(raised->order.id).reason.code, "parking_feet_down");
+    v1().state.parking_feet = {{"front left", 0}};
+    world.run(60);
+    EXPECT_EQ(world.stored(raised->order.id).state, JobState::kEnded);
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing
