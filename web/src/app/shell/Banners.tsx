@@ -1,5 +1,6 @@
 import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
+import type { Fleet } from "@/shared/api/types";
 import { age, timeOfDay } from "@/shared/i18n/format";
 import {
   alarms,
@@ -36,11 +37,14 @@ export function Banners({ onResume }: { onResume: () => void }) {
   const vehicles = useVehicles();
   const all = useMemo(() => alarms(vehicles), [vehicles]);
   const urgent = all.find((alarm) => alarm.priority !== "low");
+  const readOnly = useFleet()?.read_only;
   const lost = useShownAfter(link.state.kind === "lost", kGraceMs);
   return (
     <div className="banners">
       {lost ? (
         <LinkLost />
+      ) : readOnly ? (
+        <ReadOnly since={readOnly.since} cause={readOnly.cause} />
       ) : (
         urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />
       )}
@@ -60,6 +64,27 @@ function LinkLost() {
       word={t("link.lost_word")}
       what={<b>{t("link.lost_banner", { age: age(link.ageS) })}</b>}
       todo={t("link.lost_todo", { time })}
+    />
+  );
+}
+
+type Fault = NonNullable<Fleet["read_only"]>;
+
+/** The server cannot store: it answers questions only, and no vehicle gets more floor. */
+function ReadOnly({ since, cause }: Fault) {
+  const { t } = useTranslation();
+  const now = useServerNow(500);
+  return (
+    <Banner
+      priority="critical"
+      word={t("read_only.word")}
+      what={
+        <>
+          <b>{t("read_only.what")}</b> <span className="lab">{t(`read_only.cause.${cause}`)}</span>
+        </>
+      }
+      todo={t("read_only.todo")}
+      age={age((now - Date.parse(since)) / 1000)}
     />
   );
 }

@@ -57,7 +57,10 @@ export function IntegrationCard({ vehicle, refused }: { vehicle: Vehicle; refuse
       />
       {asked.kind === "failed" && (
         <p className="lab" role="alert">
-          {t("failed", { detail: words.problem(asked.problem), request: asked.problem.requestId.slice(0, 8) })}
+          {t("failed", {
+            detail: words.problem(asked.problem),
+            request: asked.problem.requestId.slice(0, 8),
+          })}
         </p>
       )}
     </details>

@@ -106,7 +106,7 @@ describe("why it stands", () => {
     id: "TP-01",
     link: "live",
     needs_resume: false,
-  integration: "utilise",
+    integration: "utilise",
     errors: [],
     brackets: [],
     wheels: [],
