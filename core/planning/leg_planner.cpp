@@ -145,6 +145,12 @@ void suggest_fastest(std::vector<ModeOption>& options) {
     if (best) best->suggested = true;
 }
 
+/// A direct motion may go along lanes without knowing it.
+bool same_way(const LegPlan& a, const LegPlan& b) {
+    constexpr double kSame_m = 1e-6;
+    return a.turns == b.turns && std::abs(a.length_m - b.length_m) < kSame_m;
+}
+
 std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
     std::vector<MotionMode> modes;
     for (const MotionMode mode : kOrder) {
@@ -314,9 +320,12 @@ std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, 
     if (!task) return {};
     const plant::RoutingCost& k = task->cost;
     std::vector<LegAlternative> found;
-    for (LegDraft& draft : draft_other_road_legs(*task, plan.route, count)) {
+    for (LegDraft& draft :
+         draft_other_road_legs(*task, plan.route, count + (plan.route.empty() ? 1 : 0))) {
         auto other = finish(*task, MotionMode::kLinear, std::move(draft));
         if (!other) continue;  // too narrow where it leaves its start or reaches the station
+        if (plan.route.empty() && same_way(*other, plan)) continue;
+        if (static_cast<int>(found.size()) == count) break;
         LegAlternative more;
         more.more_cost = other->cost - plan.cost;
         more.more_turns = (k.k_diff - k.k_same) * k.reference_step_m * (other->turns - plan.turns);

@@ -20,6 +20,7 @@ using Segments = std::vector<kinematics::Segment>;
 constexpr double kAtNode_m = 0.5;    // a vehicle this near to a node stands at it
 constexpr double kConnect_m = 30.0;  // how far a vehicle off the roadmap looks for a node
 constexpr std::size_t kConnections = 6;
+constexpr double kMostAlternativeCost = 3;  // a hall has few ways: the long one counts, too
 
 /// How the vehicle gets from where it stands onto an arc.
 struct Entry {
@@ -356,8 +357,8 @@ std::vector<LegDraft> draft_other_road_legs(const LegTask& task,
     }
     RoadRoute chosen;
     chosen.arcs = arcs_along(task.roads, route);
-    const auto routes =
-        other_routes(task.lanes.router(), task.lanes.user(), seeds, goal, chosen, {.count = count});
+    const auto routes = other_routes(task.lanes.router(), task.lanes.user(), seeds, goal, chosen,
+                                     {.count = count, .most_cost = kMostAlternativeCost});
     const auto left = task.lanes.left(goal);
     std::vector<LegDraft> legs;
     for (const RoadRoute& other : routes) {
