@@ -62,6 +62,9 @@ Json option_json(const planning::ModeOption& option) {
     json["turns"] = plan.turns;
     json["cost"] = plan.cost;
     json["duration_s"] = plan.duration_s;
+    if (!plan.closures.empty()) {
+        json["closures"] = list_json(plan.closures, [](const std::string& id) { return Json(id); });
+    }
     json["clearance_m"] = plan.clearance_m;
     json["nearest"] = plan.nearest;
     json["swept_area_m2"] = plan.swept_area_m2;
@@ -69,12 +72,42 @@ Json option_json(const planning::ModeOption& option) {
     return json;
 }
 
+const char* text(planning::LegAlternative::Reason reason) {
+    using Reason = planning::LegAlternative::Reason;
+    switch (reason) {
+        case Reason::kLength:
+            return "length";
+        case Reason::kTurns:
+            return "turns";
+        case Reason::kTime:
+            return "time";
+    }
+    return "length";
+}
+
+Json alternative_json(const planning::LegAlternative& alternative) {
+    const planning::LegPlan& plan = alternative.plan;
+    return {{"route",
+             list_json(plan.route, [](const plant::NodeId& node) { return Json(node.str()); })},
+            {"length_m", plan.length_m},
+            {"turns", plan.turns},
+            {"cost", plan.cost},
+            {"duration_s", plan.duration_s},
+            {"more",
+             {{"cost", alternative.more_cost},
+              {"length", alternative.more_length},
+              {"turns", alternative.more_turns},
+              {"duration_s", alternative.more_s}}},
+            {"main_reason", text(alternative.main_reason)}};
+}
+
 Json step_json(const fleet::StepPreview& step,
                const std::optional<fleet::StopStatistics>& expected) {
     Json json = {{"station", step.station.str()},
                  {"number", step.number},
                  {"start", pose_json(step.start)},
-                 {"options", list_json(step.options, option_json)}};
+                 {"options", list_json(step.options, option_json)},
+                 {"alternatives", list_json(step.alternatives, alternative_json)}};
     if (step.chosen) json["chosen"] = plant::to_string(*step.chosen);
     if (expected && expected->stops > 0) {
         json["expected_deviation"] = {{"stops", expected->stops},

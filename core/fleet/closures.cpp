@@ -41,6 +41,16 @@ geometry::Polygon strip(geometry::Point2 from, geometry::Point2 to) {
     return {a - side, b - side, b + side, a + side};
 }
 
+/// Ends of a closed lane; nothing for one that the plant does not have any more.
+std::optional<std::pair<const plant::RoadmapNode*, const plant::RoadmapNode*>> ends_of(
+    const plant::Plant& plant, const plant::EdgeId& id) {
+    const auto* edge = find_edge(plant, id);
+    const auto* from = edge ? plant::find_node(plant, edge->from) : nullptr;
+    const auto* to = edge ? plant::find_node(plant, edge->to) : nullptr;
+    if (!from || !to) return std::nullopt;
+    return std::pair(from, to);
+}
+
 traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
     traffic::TileSet tiles;
     if (!closure.outline.empty()) {
@@ -48,15 +58,38 @@ traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
                                      geometry::convex_pieces(closure.outline), 0);
     }
     for (const auto& id : closure.edges) {
-        const auto* edge = find_edge(fleet.plant, id);
-        const auto* from = edge ? plant::find_node(fleet.plant, edge->from) : nullptr;
-        const auto* to = edge ? plant::find_node(fleet.plant, edge->to) : nullptr;
-        if (!from || !to) continue;
+        const auto ends = ends_of(fleet.plant, id);
+        if (!ends) continue;
+        const auto& [from, to] = *ends;
         tiles =
             traffic::merge(tiles, traffic::tiles_under(hall_index(fleet.plant, from->hall),
                                                        {strip(from->position, to->position)}, 0));
     }
     return tiles;
+}
+
+/// Legs lead round closed floor from now on; those planned before do not count any more.
+void tell_planner(FleetState& fleet) {
+    std::vector<planning::ClosedFloor> floors;
+    const auto add = [&](const Closure& closure, const plant::HallId& hall,
+                         std::vector<geometry::Polygon> pieces) {
+        floors.push_back({closure.id.str(), closure.name, hall, std::move(pieces), kFloorMargin_m});
+    };
+    for (const auto& [closure, tiles, in_traffic] : fleet.closures) {
+        std::map<plant::HallId, std::vector<geometry::Polygon>> pieces;
+        if (!closure.outline.empty()) {
+            pieces[closure.hall] = geometry::convex_pieces(closure.outline);
+        }
+        for (const auto& id : closure.edges) {
+            if (const auto ends = ends_of(fleet.plant, id)) {
+                const auto& [from, to] = *ends;
+                pieces[from->hall].push_back(strip(from->position, to->position));
+            }
+        }
+        for (auto& [hall, in_hall] : pieces) add(closure, hall, std::move(in_hall));
+    }
+    fleet.planner.set_closures(std::move(floors));
+    fleet.newest_plan.reset();
 }
 
 Status check(const FleetState& fleet, const NewClosure& wanted) {
@@ -93,6 +126,7 @@ void put_on_floor(FleetState& fleet, Closure closure, Time now) {
     closed.in_traffic = fleet.floor.traffic.close(closed.tiles, now);
     closed.closure = std::move(closure);
     fleet.closures.push_back(std::move(closed));
+    tell_planner(fleet);
 }
 
 }  // namespace
@@ -131,6 +165,7 @@ Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, T
     add_event(fleet, now, "floor.reopened", {}, {}, {}, actor,
               {{"closure", id.str()}, {"name", found->closure.name}});
     fleet.closures.erase(found);
+    tell_planner(fleet);
     fleet.floor.improved.reset();
     return {};
 }
@@ -138,6 +173,23 @@ Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, T
 void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now) {
     for (auto& closure : closures) put_on_floor(fleet, std::move(closure), now);
     floor_is_sound(fleet, now);
+}
+
+void name_closures(const FleetState& fleet, const std::vector<std::string>& ids, Reason& reason) {
+    std::string names;
+    std::string listed;
+    for (const auto& closed : fleet.closures) {
+        const std::string id = closed.closure.id.str();
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) continue;
+        names += (names.empty() ? "" : ", ") + closed.closure.name;
+        listed += (listed.empty() ? "" : ",") + id;
+    }
+    if (listed.empty()) return;
+    std::erase_if(reason.params, [](const Param& param) {
+        return param.name == "closure" || param.name == "closure_id";
+    });
+    reason.params.push_back({"closure", names});
+    reason.params.push_back({"closure_id", listed});
 }
 
 const Closure* closure_at(const FleetState& fleet, traffic::TileId tile) {

@@ -1,6 +1,12 @@
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
+namespace {
+
+constexpr int kAlternatives = 3;
+
+}  // namespace
+
 Preview Fleet::preview(const NewOrder& order, Time now) const {
     Preview preview;
     preview.vehicle = order.vehicle;
@@ -23,16 +29,16 @@ Preview Fleet::preview(const NewOrder& order, Time now) const {
         step.station = station->id;
         step.number = station->number;
         step.start = plan ? plan->starts[i] : pose.value_or(Pose2{});
-        if (plan || pose) {
-            step.options = state_->planner.assess_modes(
-                leg_request(*state_, *run, step.start, station->id, order.steps[i].mode), standing);
-        }
+        const auto request =
+            leg_request(*state_, *run, step.start, station->id, order.steps[i].mode);
+        if (plan || pose) step.options = state_->planner.assess_modes(request, standing);
         for (const auto& option : step.options) {
             const bool wanted = order.steps[i].mode == plant::MotionMode::kAuto
                                     ? option.suggested
                                     : option.mode == order.steps[i].mode;
             if (!wanted || !option.plan) continue;
             step.chosen = option.mode;
+            step.alternatives = state_->planner.alternatives(request, *option.plan, kAlternatives);
             if (i == 0) first_plan = *option.plan;
         }
         if (i == 0) first = station;

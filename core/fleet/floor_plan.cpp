@@ -325,7 +325,7 @@ Reason floor_reason(const FleetState& fleet, const traffic::Block& block) {
         reason.code = "floor_closed";
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
         if (const Closure* closure = block.tile ? closure_at(fleet, *block.tile) : nullptr) {
-            reason.params.push_back({"closure", closure->name});
+            name_closures(fleet, {closure->id.str()}, reason);
         }
     }
     return reason;

@@ -16,6 +16,15 @@ Result<Leg> leg_to(FleetState& fleet, const VehicleRun& run, const Step& step, L
     return build_leg(fleet, run, *plan, *station, run.record.pose, id);
 }
 
+/// A station that closed floor cuts off: what would have to be reopened, not just the first of it.
+void name_what_cuts_off(FleetState& fleet, const VehicleRun& run, const Step& step,
+                        Reason& reason) {
+    if (reason.code != "floor_closed") return;
+    const auto plan =
+        fleet.planner.plan_leg(leg_request(fleet, run, run.record.pose, step.station, step.mode));
+    if (plan) name_closures(fleet, plan->closures, reason);
+}
+
 bool waits_to_try(const VehicleRun& run, Time now) {
     return run.floor.next_try && now < *run.floor.next_try;
 }
@@ -70,8 +79,9 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
         hold_for_correction(fleet, run, station->pose, now);
     } else if (stays) {
         // Only actions: it stands on floor that it has.
-    } else if (const auto reason = plan_on_floor(fleet, run, now)) {
+    } else if (auto reason = plan_on_floor(fleet, run, now)) {
         run.record = before;
+        name_what_cuts_off(fleet, run, step, *reason);
         set_order_reason(fleet, order, *reason, now);
         return;
     }

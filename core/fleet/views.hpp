@@ -117,6 +117,7 @@ struct StepPreview {
     Pose2 start;
     std::optional<plant::MotionMode> chosen;
     std::vector<planning::ModeOption> options;
+    std::vector<planning::LegAlternative> alternatives;  // to the way of the chosen mode
 };
 
 struct Preview {

@@ -145,9 +145,8 @@ SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& reques
         expand(map, entry);
         if (expanded_ < look) continue;
         look = expanded_ + kCancelEvery;
-        if (request.cancel && request.cancel->load(std::memory_order_relaxed)) {
-            return SearchEnd::kCancelled;
-        }
+        const bool cancelled = request.cancel && request.cancel->load(std::memory_order_relaxed);
+        if (cancelled || expanded_ > most_work_) return SearchEnd::kCancelled;
     }
     route.expanded = expanded_;
     if (best_ == kNoRoute) return SearchEnd::kNoRoute;

@@ -22,6 +22,9 @@ public:
     void prepare(const GridMap& map);
     std::size_t bytes() const;
 
+    /// Queries end as cancelled soon after they took so many expansions.
+    void limit_work(std::int64_t most) { most_work_ = most; }
+
 private:
     static constexpr unsigned kByBits = 3;
     static constexpr unsigned kCostBits = sizeof(Label) == 4 ? 21 : 30;
@@ -57,6 +60,7 @@ private:
     std::uint32_t best_state_ = 0;
     std::uint32_t most_ = 0;  // greatest least key at which no cost can leave the label
     std::int64_t expanded_ = 0;
+    std::int64_t most_work_ = std::numeric_limits<std::int64_t>::max();
 };
 
 extern template class BucketSearch<std::uint32_t>;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/planning/search_choice.hpp"
+
 namespace pulseline::planning {
 namespace {
 
@@ -59,6 +61,7 @@ bool GridMap::irregular(Cell cell) const {
 
 void GridMap::build_tables() {
     tables_.emplace(Tables{TurnPlanes(layers_.blocked[0]), Landmarks(layers_.blocked[0])});
+    tables_->jumps_pay = planning::jumps_pay(*this);
 }
 
 void GridMap::refresh(CellBox box) {

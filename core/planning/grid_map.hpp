@@ -46,6 +46,9 @@ public:
 
     /// Every free cell may be entered, left and turned in alike: what the turn-jump search needs.
     bool uniform() const { return tables_.has_value(); }
+    /// Whether the turn-jump search takes less time than the bucket search here (see
+    /// search_choice.hpp). Edits keep the answer: it is about the kind of floor.
+    bool jumps_pay() const { return tables_ && tables_->jumps_pay; }
     // REQUIRES: uniform().
     const TurnPlanes& planes() const { return tables_->planes; }
     const Landmarks& landmarks() const { return tables_->landmarks; }
@@ -62,6 +65,7 @@ private:
     struct Tables {
         TurnPlanes planes;
         Landmarks landmarks;
+        bool jumps_pay = true;
     };
 
     std::uint8_t moves_of(Cell cell) const;

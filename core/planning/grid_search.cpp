@@ -64,7 +64,9 @@ SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algori
         return SearchEnd::kFound;
     }
     SearchEnd end = SearchEnd::kUnfit;
-    if (wanted == Algorithm::kTurnJump) end = searches_->turn_jump.run(map, request, route);
+    if (wanted == Algorithm::kTurnJump && map.jumps_pay()) {
+        end = searches_->turn_jump.run(map, request, route);
+    }
     if (end == SearchEnd::kUnfit && wanted >= Algorithm::kBucket) {
         route.algorithm = Algorithm::kBucket;
         end = searches_->bucket.run(map, request, route);
@@ -78,7 +80,7 @@ SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algori
 }
 
 void GridSearch::prepare(const GridMap& map, Algorithm wanted) {
-    if (wanted == Algorithm::kTurnJump && map.uniform()) {
+    if (wanted == Algorithm::kTurnJump && map.jumps_pay()) {
         searches_->turn_jump.prepare(map);
     } else if (wanted >= Algorithm::kBucket) {
         searches_->bucket.prepare(map);

@@ -83,6 +83,12 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
     plan.turns = draft.turns;
     plan.cost = draft.cost;
     plan.duration_s = sums.duration_s;
+    if (plan.route.empty()) draft.closures = driven_over(task.closures, task.request.hall, pieces);
+    for (const std::size_t closure : draft.closures) {
+        const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
+        auto& ids = plan.closures;
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    }
     return plan;
 }
 
@@ -109,24 +115,40 @@ Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
                                                       task.station.pose, mode);
     if (!variants) return fail(variants.error());
     std::optional<Error> refusal;
+    std::optional<LegPlan> over_closed_floor;
     for (const auto& motion : *variants) {
         auto plan = finish(task, mode, draft_direct(task, motion));
-        if (plan) return plan;
-        if (!refusal) refusal = plan.error();
+        if (plan && plan->closures.empty()) return plan;
+        if (plan && !over_closed_floor) over_closed_floor = std::move(*plan);
+        if (!plan && !refusal) refusal = plan.error();
     }
-    if (mode != MotionMode::kLinear) return fail(std::move(*refusal));
-    return draft_road_leg(task).and_then(
-        [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
+    if (mode == MotionMode::kLinear) {
+        auto plan = draft_road_leg(task).and_then(
+            [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
+        if (!over_closed_floor || (plan && plan->closures.empty())) return plan;
+    }
+    if (over_closed_floor) return std::move(*over_closed_floor);
+    return fail(std::move(*refusal));
 }
 
 void suggest_fastest(std::vector<ModeOption>& options) {
     ModeOption* best = nullptr;
     for (ModeOption& option : options) {
-        if (option.plan && (!best || option.plan->duration_s < best->plan->duration_s)) {
+        if (!option.plan) continue;
+        const auto rank = [](const LegPlan& plan) {
+            return std::pair(!plan.closures.empty(), plan.duration_s);
+        };
+        if (!best || rank(*option.plan) < rank(*best->plan)) {
             best = &option;
         }
     }
     if (best) best->suggested = true;
+}
+
+/// A direct motion may go along lanes without knowing it.
+bool same_way(const LegPlan& a, const LegPlan& b) {
+    constexpr double kSame_m = 1e-6;
+    return a.turns == b.turns && std::abs(a.length_m - b.length_m) < kSame_m;
 }
 
 std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
@@ -175,51 +197,67 @@ Result<const plant::Station*> target_of(const plant::Plant& plant, const LegRequ
 
 struct LegPlanner::Static {
     using Key = std::pair<plant::VehicleTypeId, bool>;
+    /// What legs of one body need to know of the roadmap.
+    struct Prepared {
+        Prepared(const Static& of, const plant::VehicleType& type, bool loaded)
+            : passage(of.roads.passage(type, loaded)), lanes(of.roads, passage, of.plant.routing) {
+            if (!of.closures.empty()) lanes.set_closures(of.closures);
+        }
+        Passage passage;
+        LegRoads lanes;
+    };
 
     explicit Static(const plant::Plant& p) : plant(p), roads(p) {
         for (const plant::VehicleType& type : plant.vehicle_types) {
-            passages.emplace(Key{type.id, false}, roads.passage(type, false));
-            if (type.load_footprint.empty()) continue;
-            passages.emplace(Key{type.id, true}, roads.passage(type, true));
+            prepare(type, false);
+            if (!type.load_footprint.empty()) prepare(type, true);
         }
     }
 
-    /// The prepared passage of a type; worked out anew for one that is not the plant's (`fresh`
-    /// keeps it), such as the type that a vehicle's own factsheet states.
-    const Passage& passage(const plant::VehicleType& type, bool loaded,
-                           std::optional<Passage>& fresh) const {
+    void prepare(const plant::VehicleType& type, bool loaded) {
+        prepared.emplace(Key{type.id, loaded}, std::make_unique<Prepared>(*this, type, loaded));
+    }
+
+    /// What is prepared for a type; worked out anew for one that is not the plant's (`fresh` keeps
+    /// it), such as the type that a vehicle's own factsheet states.
+    Prepared& of(const plant::VehicleType& type, bool loaded,
+                 std::unique_ptr<Prepared>& fresh) const {
         const Body body = body_of(type, loaded);
         for (const bool with_load : {loaded, false}) {
-            const auto found = passages.find({type.id, with_load});
-            if (found != passages.end() && found->second.body == body) return found->second;
+            const auto found = prepared.find({type.id, with_load});
+            if (found != prepared.end() && found->second->passage.body == body) {
+                return *found->second;
+            }
         }
-        return fresh.emplace(roads.passage(type, loaded));
+        fresh = std::make_unique<Prepared>(*this, type, loaded);
+        return *fresh;
+    }
+
+    /// The task of a request with everything looked up.
+    Result<LegTask> task_of(const LegRequest& request, Prepared& by) const {
+        const auto station = target_of(plant, request);
+        if (!station) return fail(station.error());
+        const Obstacles* obstacles = roads.obstacles(request.hall);
+        if (!obstacles) return fail(unknown_hall(request.hall));
+        std::vector<Polygon> body;
+        for (const Polygon& piece : by.passage.body.pieces) {
+            body.push_back(geometry::transformed(request.start, piece));
+        }
+        return LegTask{
+            request,  **station,  plant.routing,
+            roads,    by.passage, by.lanes,
+            closures, *obstacles, obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
 
     /// Options of the given modes, without what only people want to know.
-    std::vector<ModeOption> assess(const LegRequest& request, const Passage& passage,
+    std::vector<ModeOption> assess(const LegRequest& request, Prepared& by,
                                    const std::vector<MotionMode>& modes) const {
         std::vector<ModeOption> options;
-        const auto station = target_of(plant, request);
-        const Obstacles* obstacles = roads.obstacles(request.hall);
-        if (!station || !obstacles) {
-            const Error error = station ? unknown_hall(request.hall) : station.error();
-            for (const MotionMode mode : modes) options.push_back({mode, fail(error), false});
-            return options;
-        }
-        std::vector<Polygon> body;
-        for (const Polygon& piece : passage.body.pieces) {
-            body.push_back(geometry::transformed(request.start, piece));
-        }
-        const LegTask task{request,
-                           **station,
-                           plant.routing,
-                           roads,
-                           passage,
-                           *obstacles,
-                           obstacles->limits_from(body, passage.body.clearance_m)};
+        const auto task = task_of(request, by);
         for (const MotionMode mode : modes) {
-            options.push_back({mode, assess_mode(task, mode), false});
+            options.push_back(
+                {mode, task.and_then([&](const LegTask& t) { return assess_mode(t, mode); }),
+                 false});
         }
         suggest_fastest(options);
         return options;
@@ -227,7 +265,8 @@ struct LegPlanner::Static {
 
     const plant::Plant& plant;
     RoadmapIndex roads;
-    std::map<Key, Passage> passages;
+    std::vector<ClosedFloor> closures;
+    std::map<Key, std::unique_ptr<Prepared>> prepared;
 };
 
 LegPlanner::LegPlanner(const plant::Plant& plant) : static_(std::make_unique<Static>(plant)) {}
@@ -238,12 +277,13 @@ LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;
 std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
                                                  const std::vector<StandingBody>& standing) const {
     assert(request.type);
-    std::optional<Passage> fresh;
-    const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
-    auto options = static_->assess(request, passage, modes_of(*request.type));
+    std::unique_ptr<Static::Prepared> fresh;
+    Static::Prepared& by = static_->of(*request.type, request.loaded, fresh);
+    auto options = static_->assess(request, by, modes_of(*request.type));
     for (ModeOption& option : options) {
         if (option.plan) {
-            describe(passage.body, *static_->roads.obstacles(request.hall), standing, *option.plan);
+            describe(by.passage.body, *static_->roads.obstacles(request.hall), standing,
+                     *option.plan);
         }
     }
     return options;
@@ -262,9 +302,9 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
                     {{"mode", std::string(plant::to_string(request.mode))},
                      {"vehicle_type", request.type->id.str()}});
     }
-    std::optional<Passage> fresh;
-    const Passage& passage = static_->passage(*request.type, request.loaded, fresh);
-    auto options = static_->assess(request, passage, modes);
+    std::unique_ptr<Static::Prepared> fresh;
+    auto options =
+        static_->assess(request, static_->of(*request.type, request.loaded, fresh), modes);
     for (ModeOption& option : options) {
         if (option.suggested) return std::move(option.plan);
     }
@@ -272,9 +312,45 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     return std::move(options.front().plan);
 }
 
+std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,
+                                                     int count) const {
+    assert(request.type);
+    std::unique_ptr<Static::Prepared> fresh;
+    const auto task = static_->task_of(request, static_->of(*request.type, request.loaded, fresh));
+    if (!task) return {};
+    const plant::RoutingCost& k = task->cost;
+    std::vector<LegAlternative> found;
+    for (LegDraft& draft :
+         draft_other_road_legs(*task, plan.route, count + (plan.route.empty() ? 1 : 0))) {
+        auto other = finish(*task, MotionMode::kLinear, std::move(draft));
+        if (!other) continue;  // too narrow where it leaves its start or reaches the station
+        if (plan.route.empty() && same_way(*other, plan)) continue;
+        if (static_cast<int>(found.size()) == count) break;
+        LegAlternative more;
+        more.more_cost = other->cost - plan.cost;
+        more.more_turns = (k.k_diff - k.k_same) * k.reference_step_m * (other->turns - plan.turns);
+        more.more_length = more.more_cost - more.more_turns;
+        more.more_s = other->duration_s - plan.duration_s;
+        using Reason = LegAlternative::Reason;
+        more.main_reason = more.more_cost <= 0                  ? Reason::kTime
+                           : more.more_turns > more.more_length ? Reason::kTurns
+                                                                : Reason::kLength;
+        more.plan = std::move(*other);
+        found.push_back(std::move(more));
+    }
+    return found;
+}
+
+void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
+    static_->closures = std::move(closures);
+    for (auto& [key, prepared] : static_->prepared) {
+        prepared->lanes.set_closures(static_->closures);
+    }
+}
+
 MotionGraph LegPlanner::motion_graph(const plant::VehicleType& type, bool loaded) const {
-    std::optional<Passage> fresh;
-    const Passage& passage = static_->passage(type, loaded, fresh);
+    std::unique_ptr<Static::Prepared> fresh;
+    const Passage& passage = static_->of(type, loaded, fresh).passage;
     return planning::motion_graph(static_->plant, static_->roads, passage, type);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include "core/base/result.hpp"
 #include "core/kinematics/motion.hpp"
+#include "core/planning/leg_roads.hpp"
 #include "core/planning/motion_graph.hpp"
 #include "core/plant/plant.hpp"
 
@@ -38,6 +40,9 @@ struct LegPlan {
     int turns = 0;    // changes of direction up to arrival; an arc is one
     double cost = 0;  // in units of k, roadmap routes and direct motions alike
     double duration_s = 0;
+    /// Closed floor it leads over because there is no other way: ids of a smallest set that has to
+    /// be reopened.
+    std::vector<std::string> closures;
     // For people, filled in by assess_modes only: it costs more than the planning.
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
@@ -51,9 +56,22 @@ struct ModeOption {
     bool suggested = false;  // what kAuto takes: the feasible one with the least time
 };
 
+/// Another way to drive a leg, and why it was not taken.
+struct LegAlternative {
+    LegPlan plan;
+    // What it costs more than the leg that was, in units of k, and for what.
+    double more_cost = 0;
+    double more_length = 0;
+    double more_turns = 0;
+    double more_s = 0;
+    enum class Reason : std::uint8_t { kLength, kTurns, kTime };
+    Reason main_reason = Reason::kLength;
+};
+
 /// Plans legs in one plant. What depends on the plant alone (obstacles, lanes that a vehicle type
-/// fits through) is worked out once, in the constructor. REQUIRES: the plant outlives the planner
-/// unchanged. Const methods may run on several threads at once.
+/// fits through) is worked out once, in the constructor; exact costs to a station's node when a leg
+/// first leads there. REQUIRES: the plant outlives the planner unchanged.
+/// Thread safety: none, not even for const methods: they build cost tables. One planner a thread.
 class LegPlanner {
 public:
     explicit LegPlanner(const plant::Plant& plant);
@@ -78,12 +96,21 @@ public:
     /// reason of the most promising mode).
     Result<LegPlan> plan_leg(const LegRequest& request) const;
 
+    /// Up to `count` other ways along the roadmap, by cost, sufficiently different from `plan`
+    /// (what plan_leg or assess_modes gave for the request) and from each other, none over closed
+    /// floor.
+    std::vector<LegAlternative> alternatives(const LegRequest& request, const LegPlan& plan,
+                                             int count) const;
+
+    /// Floor closed from now on, instead of what was: legs lead round it where they can.
+    void set_closures(std::vector<ClosedFloor> closures);
+
     /// What a vehicle of the type may do on the roadmap, for traffic.
     MotionGraph motion_graph(const plant::VehicleType& type, bool loaded) const;
 
 private:
     struct Static;
-    std::unique_ptr<const Static> static_;
+    std::unique_ptr<Static> static_;
 };
 
 }  // namespace pulseline::planning

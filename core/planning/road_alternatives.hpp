@@ -20,4 +20,15 @@ struct AlternativesWanted {
 std::vector<RoadRoute> alternatives(RoadRouter& router, int user, const RoadStart& start, int goal,
                                     const AlternativesWanted& wanted);
 
+/// One arc to set out on, and what it costs to have driven it.
+struct RoadSeed {
+    int arc = 0;
+    RoadCost cost = 0;
+};
+/// The same for a vehicle that may set out in several ways: routes different from `chosen` (which
+/// may be empty) and from each other, up to `wanted.count` without it.
+std::vector<RoadRoute> other_routes(RoadRouter& router, int user,
+                                    const std::vector<RoadSeed>& seeds, int goal,
+                                    const RoadRoute& chosen, const AlternativesWanted& wanted);
+
 }  // namespace pulseline::planning

@@ -11,8 +11,15 @@ namespace {
 // So that a route of a hundred arcs stays far inside 32 bits.
 constexpr double kMostArcCost = 1 << 24;
 
-RoadCost rounded(double cost_k) {
-    return static_cast<RoadCost>(std::llround(std::clamp(cost_k * kCostUnit, 0.0, kMostArcCost)));
+RoadCost rounded(double cost_k, bool down) {
+    const double cost = std::clamp(cost_k * kCostUnit, 0.0, kMostArcCost);
+    return static_cast<RoadCost>(down ? std::floor(cost) : std::round(cost));
+}
+
+/// A saving is rounded the other way.
+RoadCost saved(double cost_k, bool down) {
+    const double cost = std::clamp(cost_k * kCostUnit, 0.0, kMostArcCost);
+    return static_cast<RoadCost>(down ? std::ceil(cost) : std::round(cost));
 }
 
 /// 0: no limit.
@@ -32,17 +39,18 @@ double speed_of(const LaneRules& rules, const RoadUser& user) {
 ArcCost arc_cost(const RoadPreferences& preferences, const RoadArc& arc, const LaneRules& rules,
                  const RoadUser& user) {
     const plant::RoutingCost& k = preferences.turns;
+    const bool down = preferences.round_down;
     ArcCost cost;
     const double way = k.k_same * arc.length_m;
-    cost.length = rounded(way);
+    cost.length = rounded(way, down);
     const double speed = speed_of(rules, user);
     if (speed > 0 && speed < preferences.reference_speed_mps) {
-        cost.speed = rounded(way * (preferences.reference_speed_mps / speed - 1));
+        cost.speed = rounded(way * (preferences.reference_speed_mps / speed - 1), down);
     }
-    cost.accuracy = rounded(preferences.accuracy_k * rules.sigma_m * arc.length_m);
+    cost.accuracy = rounded(preferences.accuracy_k * rules.sigma_m * arc.length_m, down);
     const double turn = (k.k_diff - k.k_same) * k.reference_step_m;
-    cost.turn = turn >= 0 ? std::int64_t{rounded(turn)}
-                          : -std::int64_t{std::min(rounded(-turn), cost.straight())};
+    cost.turn = turn >= 0 ? std::int64_t{rounded(turn, down)}
+                          : -std::int64_t{std::min(saved(-turn, down), cost.straight())};
     return cost;
 }
 

@@ -34,7 +34,8 @@ struct RoadPreferences {
     // A lane that is driven slower than this costs as much as the length that this speed would have
     // covered in the same time; 0: speed does not count.
     double reference_speed_mps = 0;
-    double accuracy_k = 0;  // per metre driven and metre of uncertainty
+    double accuracy_k = 0;    // per metre driven and metre of uncertainty
+    bool round_down = false;  // costs are never above the exact ones: bounds for other searches
 };
 
 /// Costs in thousandths of k.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/road_alternatives.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -18,6 +20,7 @@ using Segments = std::vector<kinematics::Segment>;
 constexpr double kAtNode_m = 0.5;    // a vehicle this near to a node stands at it
 constexpr double kConnect_m = 30.0;  // how far a vehicle off the roadmap looks for a node
 constexpr std::size_t kConnections = 6;
+constexpr double kMostAlternativeCost = 3;  // a hall has few ways: the long one counts, too
 
 /// How the vehicle gets from where it stands onto an arc.
 struct Entry {
@@ -169,7 +172,6 @@ RoadQuery query_of(const LegTask& task, const std::vector<Entry>& entries, int g
     RoadQuery query;
     query.goal = goal;
     for (const Entry& entry : entries) query.first.push_back(entry.first);
-    query.usable = [&task](int arc) { return task.roads.usable(task.passage, arc); };
     query.may_follow = [&task](int arc, int next) {
         return task.roads.may_follow(task.passage, arc, next);
     };
@@ -241,15 +243,16 @@ Error no_route(const LegTask& task, int goal, bool entered) {
     return error;
 }
 
-}  // namespace
+using Open = std::function<bool(int arc)>;
 
-Result<LegDraft> draft_road_leg(const LegTask& task) {
-    if (const auto ok = check(task.cost); !ok) return fail(ok.error());
-    const int goal = task.roads.node(task.station.node);
-    if (goal < 0) return fail(no_route(task, goal, false));
-    const auto entries = entries_of(task);
-    const auto path = search_road(task.roads.graph(), task.cost, query_of(task, entries, goal));
-    if (!path) return fail(no_route(task, goal, !entries.empty()));
+/// The least-cost leg over usable arcs that are open. `left` is REQUIRED to hold for these.
+std::optional<LegDraft> draft_over(const LegTask& task, const std::vector<Entry>& entries, int goal,
+                                   const Open& open, const LegRoads::Left* left) {
+    RoadQuery query = query_of(task, entries, goal);
+    query.usable = [&](int arc) { return task.roads.usable(task.passage, arc) && open(arc); };
+    if (left) query.left = [left](int arc) { return left->after(arc); };
+    const auto path = search_road(task.roads.graph(), task.cost, query);
+    if (!path) return std::nullopt;
     // Several entries may lead onto the first arc: the search took the cheapest.
     const auto rank = [&](const Entry& entry) {
         const double length =
@@ -263,6 +266,115 @@ Result<LegDraft> draft_road_leg(const LegTask& task) {
         if (!chosen || rank(entry) < rank(*chosen)) chosen = &entry;
     }
     return drive(task, *chosen, *path, goal);
+}
+
+/// The leg when some closures are reopened.
+std::optional<LegDraft> draft_reopened(const LegTask& task, const std::vector<Entry>& entries,
+                                       int goal, const std::set<std::size_t>& reopened) {
+    auto leg = draft_over(
+        task, entries, goal,
+        [&](int arc) {
+            const auto& over = task.lanes.closures_on(arc);
+            return std::all_of(over.begin(), over.end(),
+                               [&](std::size_t closure) { return reopened.contains(closure); });
+        },
+        nullptr);
+    if (leg) leg->closures.assign(reopened.begin(), reopened.end());
+    return leg;
+}
+
+/// A leg for which as little as possible has to be reopened: one closure, the one that leaves the
+/// least cost; else a set of which none may be left out.
+std::optional<LegDraft> draft_over_closed_floor(const LegTask& task,
+                                                const std::vector<Entry>& entries, int goal) {
+    std::set<std::size_t> in_the_way;
+    for (int arc = 0; arc < static_cast<int>(task.roads.graph().arcs.size()); ++arc) {
+        const auto& over = task.lanes.closures_on(arc);
+        in_the_way.insert(over.begin(), over.end());
+    }
+    if (in_the_way.empty()) return std::nullopt;
+    auto best = draft_reopened(task, entries, goal, in_the_way);
+    if (!best) return std::nullopt;
+    std::optional<LegDraft> with_one;
+    for (const std::size_t closure : in_the_way) {
+        auto leg = draft_reopened(task, entries, goal, {closure});
+        if (leg && (!with_one || leg->cost < with_one->cost)) with_one = std::move(leg);
+    }
+    if (with_one) return with_one;
+    std::set<std::size_t> reopened = in_the_way;
+    for (const std::size_t closure : in_the_way) {
+        reopened.erase(closure);
+        if (auto leg = draft_reopened(task, entries, goal, reopened)) {
+            best = std::move(leg);
+        } else {
+            reopened.insert(closure);
+        }
+    }
+    return best;
+}
+
+/// Any arcs along the nodes; forwards or backwards is no other route.
+std::vector<int> arcs_along(const RoadmapIndex& roads, const std::vector<plant::NodeId>& route) {
+    std::vector<int> arcs;
+    for (std::size_t i = 0; i + 1 < route.size(); ++i) {
+        const int from = roads.node(route[i]);
+        const int to = roads.node(route[i + 1]);
+        for (const int arc : roads.graph().out[static_cast<std::size_t>(from)]) {
+            if (roads.graph().arcs[static_cast<std::size_t>(arc)].to != to) continue;
+            arcs.push_back(arc);
+            break;
+        }
+    }
+    return arcs;
+}
+
+}  // namespace
+
+Result<LegDraft> draft_road_leg(const LegTask& task) {
+    if (const auto ok = check(task.cost); !ok) return fail(ok.error());
+    const int goal = task.roads.node(task.station.node);
+    if (goal < 0) return fail(no_route(task, goal, false));
+    const auto entries = entries_of(task);
+    const auto left = task.lanes.left(goal);
+    const auto open = [&](int arc) { return !task.lanes.closed(arc); };
+    if (auto leg = draft_over(task, entries, goal, open, &left)) return std::move(*leg);
+    if (auto leg = draft_over_closed_floor(task, entries, goal)) return std::move(*leg);
+    return fail(no_route(task, goal, !entries.empty()));
+}
+
+std::vector<LegDraft> draft_other_road_legs(const LegTask& task,
+                                            const std::vector<plant::NodeId>& route, int count) {
+    const int goal = task.roads.node(task.station.node);
+    if (!check(task.cost) || goal < 0) return {};
+    const RoadGraph& graph = task.roads.graph();
+    const auto entries = entries_of(task);
+    std::vector<RoadSeed> seeds;
+    for (const Entry& entry : entries) {
+        const double length = graph.arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
+        seeds.push_back(
+            {entry.first.arc,
+             task.lanes.counted(entry.first.cost + arc_cost(task.cost, length, entry.first.turn))});
+    }
+    RoadRoute chosen;
+    chosen.arcs = arcs_along(task.roads, route);
+    const auto routes = other_routes(task.lanes.router(), task.lanes.user(), seeds, goal, chosen,
+                                     {.count = count, .most_cost = kMostAlternativeCost});
+    const auto left = task.lanes.left(goal);
+    std::vector<LegDraft> legs;
+    for (const RoadRoute& other : routes) {
+        std::set<std::pair<int, int>> lanes;
+        for (const int arc : other.arcs) {
+            const RoadArc& lane = graph.arcs[static_cast<std::size_t>(arc)];
+            lanes.insert({lane.from, lane.to});
+        }
+        // Which lanes of the route are driven backwards is decided as for any leg.
+        const auto open = [&](int arc) {
+            const RoadArc& lane = graph.arcs[static_cast<std::size_t>(arc)];
+            return lanes.contains({lane.from, lane.to}) && !task.lanes.closed(arc);
+        };
+        if (auto leg = draft_over(task, entries, goal, open, &left)) legs.push_back(*leg);
+    }
+    return legs;
 }
 
 }  // namespace pulseline::planning

@@ -35,7 +35,10 @@ struct Open {
 class Bound {
 public:
     Bound(const RoadGraph& graph, const plant::RoutingCost& cost, const RoadQuery& query)
-        : graph_(graph), goal_(graph.nodes[static_cast<std::size_t>(query.goal)]) {
+        : graph_(graph),
+          left_(query.left),
+          goal_(graph.nodes[static_cast<std::size_t>(query.goal)]) {
+        if (left_) return;
         charge_ = arc_charge(cost);
         rate_ = cost.k_same;
         if (charge_ < 0) {
@@ -48,6 +51,7 @@ public:
     }
 
     double after(int arc) const {
+        if (left_) return left_(arc);
         const auto i = static_cast<std::size_t>(arc);
         const auto to = static_cast<std::size_t>(graph_.arcs[i].to);
         // Rounding must not lift the bound above the truth.
@@ -81,6 +85,7 @@ private:
     }
 
     const RoadGraph& graph_;
+    const std::function<double(int)>& left_;
     geometry::Point2 goal_;
     double rate_ = 0;
     double charge_ = 0;
@@ -159,8 +164,9 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
     const auto reach = [&](int arc, double arc_total, double burden, int before, bool turn) {
         Label& label = labels[static_cast<std::size_t>(arc)];
         if (arc_total > label.cost || (arc_total == label.cost && burden >= label.burden)) return;
-        label = {arc_total, burden, before, turn};
         const double left = arc == final_label ? 0 : bound.after(arc);
+        if (left == kInfinite) return;
+        label = {arc_total, burden, before, turn};
         open.push({arc_total + left, burden, arc_total, arc});
     };
     for (const FirstArc& first : query.first) {

@@ -47,6 +47,9 @@ struct RoadQuery {
     std::function<bool(int arc, int next)> may_follow;  // none: all
     std::function<std::optional<double>(int arc)>
         ending;  // burden of stopping there; nullopt: may not
+    /// Lower bound of what is left after an arc, infinite where no way leads on; none: from the
+    /// geometry. The nearer to the truth, the fewer arcs are looked at; the answer is the same.
+    std::function<double(int arc)> left;
 };
 
 struct RoadPath {

@@ -43,6 +43,8 @@ public:
     bool usable(const Passage& passage, int arc) const;
     /// Whether the body may drive `next` after `arc`: the turn on the spot between them is free.
     bool may_follow(const Passage& passage, int arc, int next) const;
+    /// Floor that the body sweeps on an arc, in convex pieces.
+    std::vector<geometry::Polygon> swept(const Body& body, int arc) const;
     /// How near the body comes to something on an arc that is too narrow for it.
     std::optional<Approach> narrow_place(const Passage& passage, int arc) const;
 
@@ -52,7 +54,6 @@ private:
         int at_to = 0;
     };
     int heading_number(int node, double heading_rad);
-    std::vector<geometry::Polygon> swept(const Body& body, int arc) const;
     std::vector<char> headings_in_use(const Passage& passage, int node) const;
     std::vector<char> free_turns(const Passage& passage, int node) const;
 

@@ -60,6 +60,8 @@ void TurnJumpSearch::begin(const GridMap& map, const GridRequest& request, const
     goal_runs_[1] = run(1, goal_.col, goal_.row);
     best_ = kNoRoute;
     expanded_ = 0;
+    popped_ = 0;
+    turns_seen_ = 0;
 }
 
 /// Rays in all four directions from the start, without a side: any turn may follow.
@@ -110,6 +112,7 @@ inline bool TurnJumpSearch::covered(const Entry& entry, int line, int position) 
 /// A turn at (col, row) out of the ray of `from`; `way` is the least cost of the steps after it.
 inline void TurnJumpSearch::generate(const Entry& from, int col, int row, int heading,
                                      std::uint32_t cost, std::uint32_t way) {
+    ++turns_seen_;
     const std::uint32_t total = cost + way + turn_ * turns_left(col, row, heading);
     if (total >= best_) return;
     const Side side = from.heading < 2 ? kLesser : kGreater;
@@ -272,14 +275,14 @@ SearchEnd TurnJumpSearch::run(const GridMap& map, const GridRequest& request, Gr
         if (least >= SmallCost::kMost / 2) return SearchEnd::kUnfit;
         expanding_ = least + queue_.bucket_width() - 1;
         const Entry entry = queue_.pop();
+        ++popped_;
         const auto& label = labels_.known(state(entry.col, entry.row, entry.heading));
         if (label.cost != entry.cost) continue;  // reached at less since
         expand(entry);
-        if (expanded_ < look) continue;
-        look = expanded_ + kCancelEvery;
-        if (request.cancel && request.cancel->load(std::memory_order_relaxed)) {
-            return SearchEnd::kCancelled;
-        }
+        if (popped_ < look) continue;
+        look = popped_ + kCancelEvery;
+        const bool cancelled = request.cancel && request.cancel->load(std::memory_order_relaxed);
+        if (cancelled || work() > most_work_) return SearchEnd::kCancelled;
     }
     route.expanded = expanded_;
     if (best_ == kNoRoute) return SearchEnd::kNoRoute;

@@ -45,6 +45,11 @@ public:
     void prepare(const GridMap& map);
     std::size_t bytes() const;
 
+    /// What the last query took, in expansions of the bucket search that take as long.
+    std::int64_t work() const { return 2 * popped_ + turns_seen_ * 3 / 2; }
+    /// Queries end as cancelled soon after they took so much.
+    void limit_work(std::int64_t most) { most_work_ = most; }
+
 private:
     /// Which line beside a leg the vehicle came from.
     enum Side : std::uint8_t { kLesser = 0, kGreater = 1, kNoSide = 2 };
@@ -119,6 +124,9 @@ private:
     std::uint32_t last_state_ = 0;
     Cell last_corner_;  // its turn onto the goal's line; the goal itself when there is none
     std::int64_t expanded_ = 0;
+    std::int64_t popped_ = 0;
+    std::int64_t turns_seen_ = 0;
+    std::int64_t most_work_ = std::numeric_limits<std::int64_t>::max();
 };
 
 }  // namespace pulseline::planning

@@ -61,9 +61,57 @@ plant::OccupancyGrid rooms(std::mt19937& random) {
     return grid;
 }
 
-plant::OccupancyGrid scattered(std::mt19937& random, int size, unsigned one_in) {
+plant::OccupancyGrid scattered(std::mt19937& random, int size, unsigned percent) {
     auto grid = empty_grid(size, size);
-    for (auto& cell : grid.occupied) cell = random() % one_in == 0;
+    for (auto& cell : grid.occupied) cell = random() % 100 < percent;
+    return grid;
+}
+
+/// Walls at 45 degrees across the whole floor, each with gaps: no two cells of one in a line.
+plant::OccupancyGrid diagonal_walls(int size) {
+    auto grid = empty_grid(size, size);
+    for (int i = 0; i < size; ++i) {
+        for (int wall = 0; wall < 4; ++wall) {
+            const int row = (i + wall * size / 4) % size;
+            if (i / 60 % 2 == 1 && i % 60 <= 6) continue;
+            fill(grid, {i, row}, {i, row + 1}, true);
+        }
+    }
+    return grid;
+}
+
+/// Corridors of one cell, all joined, with some loops (depth-first).
+plant::OccupancyGrid maze(std::mt19937& random, int side) {
+    auto grid = empty_grid(2 * side + 1, 2 * side + 1);
+    fill(grid, {0, 0}, {2 * side, 2 * side}, true);
+    const auto open = [&](int col, int row) { fill(grid, {col, row}, {col, row}, false); };
+    std::vector<Cell> way{{0, 0}};
+    open(1, 1);
+    while (!way.empty()) {
+        const Cell at = way.back();
+        std::vector<Cell> steps;
+        for (const Cell step : planning::kStep) {
+            const Cell next{at.col + step.col, at.row + step.row};
+            const bool inside =
+                next.col >= 0 && next.row >= 0 && next.col < side && next.row < side;
+            if (inside && grid.is_occupied(2 * next.col + 1, 2 * next.row + 1)) {
+                steps.push_back(step);
+            }
+        }
+        if (steps.empty()) {
+            way.pop_back();
+            continue;
+        }
+        const Cell step = steps[random() % steps.size()];
+        open(2 * at.col + 1 + step.col, 2 * at.row + 1 + step.row);
+        way.push_back({at.col + step.col, at.row + step.row});
+        open(2 * way.back().col + 1, 2 * way.back().row + 1);
+    }
+    for (int i = 0; i < side * side / 20; ++i) {
+        const int col = 1 + static_cast<int>(random() % static_cast<unsigned>(side - 1));
+        const int row = 1 + static_cast<int>(random() % static_cast<unsigned>(side - 1));
+        open(2 * col, 2 * row + 1);
+    }
     return grid;
 }
 
@@ -133,8 +181,13 @@ std::vector<BenchMap> generated_maps() {
     std::vector<BenchMap> maps;
     maps.push_back(with_problems("generated-warehouse", warehouse(), random));
     maps.push_back(with_problems("generated-rooms", rooms(random), random));
-    maps.push_back(with_problems("generated-random-10", scattered(random, 256, 10), random));
-    maps.push_back(with_problems("generated-random-25", scattered(random, 512, 4), random));
+    for (const unsigned percent : {2u, 10u, 25u, 40u}) {
+        maps.push_back(with_problems("generated-random-" + std::to_string(percent),
+                                     scattered(random, 256, percent), random));
+    }
+    maps.push_back(with_problems("generated-open", empty_grid(256, 256), random));
+    maps.push_back(with_problems("generated-diagonals", diagonal_walls(256), random));
+    maps.push_back(with_problems("generated-maze", maze(random, 127), random));
     return maps;
 }
 

@@ -105,6 +105,7 @@ TEST(JobOrders, DryRunAnswersThePreviewAndStoresNothing) {
     EXPECT_EQ(preview.json()["accepted"], true);
     EXPECT_EQ(preview.json()["steps"][0]["chosen"], "linear");
     EXPECT_FALSE(preview.json()["steps"][0].contains("expected_deviation"));
+    EXPECT_TRUE(preview.json()["steps"][0]["alternatives"].is_array());
     EXPECT_TRUE(api.world.store.orders.empty());
 }
 

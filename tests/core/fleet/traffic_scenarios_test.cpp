@@ -262,12 +262,48 @@ TEST(TrafficScenarios, AnOrderWithoutAnyOtherWayWaitsForTheClosureByName) {
     ASSERT_TRUE(closed);
     ASSERT_TRUE(world.order("V1", {3}));
     world.run(5);
-    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_closed");
+    const Reason reason = order_of(world, "V1").reason;
+    EXPECT_EQ(reason.code, "floor_closed");
+    const auto has = [&](const char* name, const std::string& value) {
+        return std::any_of(reason.params.begin(), reason.params.end(), [&](const Param& param) {
+            const auto* text = std::get_if<std::string>(&param.value);
+            return param.name == name && text && *text == value;
+        });
+    };
+    EXPECT_TRUE(has("closure", "Door test"));
+    EXPECT_TRUE(has("closure_id", closed->id.str()));
 
     ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
     world.run(300);
 
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
+}
+
+TEST(TrafficScenarios, ThePreviewOffersTheOtherWayUntilItIsClosed) {
+    plant::Plant plant = two_ways();
+    plant.vehicles[1].home = plant::StationId("s4");
+    World world(plant);
+    confirm_poses(world);
+    world.run(1);
+    NewOrder order;
+    order.vehicle = VehicleId("V1");
+    order.steps = {{2, plant::MotionMode::kLinear}};
+
+    const auto before = world.fleet->preview(order, world.now);
+    NewClosure closure;
+    closure.name = "Wet paint";
+    closure.edges = {plant::EdgeId("west.low")};
+    ASSERT_TRUE(world.fleet->close_floor(closure, "op", world.now));
+    const auto after = world.fleet->preview(order, world.now);
+
+    ASSERT_EQ(before.steps.size(), 1u);
+    ASSERT_EQ(before.steps[0].alternatives.size(), 1u);
+    const auto& other = before.steps[0].alternatives[0];
+    EXPECT_GT(other.more_cost, 0);
+    ASSERT_EQ(after.steps.size(), 1u);
+    EXPECT_TRUE(after.steps[0].alternatives.empty());
+    ASSERT_TRUE(after.steps[0].chosen);
+    EXPECT_EQ(after.steps[0].options[0].plan->route, other.plan.route) << "by the other way";
 }
 
 TEST(TrafficScenarios, AStateThatWasOvertakenChangesNothing) {

@@ -145,14 +145,16 @@ TEST(GridSearch, JumpsOnlyWhereItsConditionsHold) {
 
 TEST(GridSearch, StopsWhenItIsToldTo) {
     std::mt19937_64 random(3);
-    auto grid = grid_of(300, 300);
-    for (auto& cell : grid.occupied) cell = random() % 4 == 0;
+    auto grid = grid_of(99, 99);  // small enough to be left to the turn-jump search
+    for (auto& cell : grid.occupied) cell = random() % 6 == 0;
     grid.occupied.front() = grid.occupied.back() = 0;
     const GridMap map(point_layers(grid));
+    ASSERT_TRUE(map.jumps_pay());
     std::atomic<bool> cancel = true;
-    for (const auto algorithm : {Algorithm::kDijkstra, Algorithm::kAstar, Algorithm::kBucket}) {
+    for (const auto algorithm :
+         {Algorithm::kDijkstra, Algorithm::kAstar, Algorithm::kBucket, Algorithm::kTurnJump}) {
         const auto stopped =
-            plan_grid(map, {{0, 0}, {299, 299}, std::nullopt, {10, 10}, &cancel}, algorithm);
+            plan_grid(map, {{0, 0}, {98, 98}, std::nullopt, {10, 10}, &cancel}, algorithm);
         ASSERT_FALSE(stopped);
         EXPECT_EQ(stopped.error().reason.code, "cancelled") << to_string(algorithm);
     }
@@ -160,7 +162,7 @@ TEST(GridSearch, StopsWhenItIsToldTo) {
 
 TEST(GridSearch, AllocatesNothingOnceWarm) {
     std::mt19937_64 random(5);
-    auto grid = grid_of(200, 150);
+    auto grid = grid_of(120, 80);  // small enough to be left to the turn-jump search
     for (auto& cell : grid.occupied) cell = random() % 4 == 0;
     GridLayers oneway = point_layers(grid);
     oneway.make_one_way({7, 7}, Direction::kEast);
@@ -168,7 +170,7 @@ TEST(GridSearch, AllocatesNothingOnceWarm) {
     std::vector<GridRequest> requests;
     for (int i = 0; i < 200; ++i) {
         const auto cell = [&] {
-            return Cell{static_cast<int>(random() % 200), static_cast<int>(random() % 150)};
+            return Cell{static_cast<int>(random() % 120), static_cast<int>(random() % 80)};
         };
         requests.push_back({cell(), cell(), std::nullopt, *unit_cell_cost(10, 20)});
     }
@@ -197,7 +199,7 @@ TEST(GridSearch, AllocatesNothingOnceWarm) {
 
 TEST(GridSearch, ManyThreadsReadOneMap) {
     std::mt19937_64 random(6);
-    auto grid = grid_of(120, 120);
+    auto grid = grid_of(96, 96);  // small enough to be left to the turn-jump search
     for (auto& cell : grid.occupied) cell = random() % 5 == 0;
     const GridMap map(point_layers(grid));
     std::vector<std::vector<std::int64_t>> costs(4);
@@ -209,7 +211,7 @@ TEST(GridSearch, ManyThreadsReadOneMap) {
             GridRoute route;
             for (int i = 0; i < 300; ++i) {
                 const auto cell = [&] {
-                    return Cell{static_cast<int>(same() % 120), static_cast<int>(same() % 120)};
+                    return Cell{static_cast<int>(same() % 96), static_cast<int>(same() % 96)};
                 };
                 const GridRequest request{cell(), cell()};
                 const auto end = search.run(map, request, Algorithm::kTurnJump, route);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <queue>
 #include <random>
+#include <thread>
 
 #include "core/planning/road_alternatives.hpp"
 #include "core/planning/road_explain.hpp"
@@ -226,6 +227,33 @@ TEST(RoadRouter, AllocatesNothingOnceWarm) {
     ask_all();
 
     EXPECT_EQ(allocations(), before);
+}
+
+TEST(RoadRouter, ManyThreadsReadOneTable) {
+    Random random(8);
+    const World world = random_world(random, 200);
+    RoadRouter router(world.graph, world.rules, world.preferences);
+    const int user = router.add_user(world.user);
+    std::vector<const CostTable*> tables;
+    for (int goal = 0; goal < int(world.graph.nodes.size()) && goal < 20; ++goal) {
+        tables.push_back(&router.table(user, goal));
+    }
+    std::vector<std::vector<std::uint64_t>> read(4);
+    std::vector<std::thread> threads;
+    for (auto& own : read) {
+        threads.emplace_back([&] {
+            for (const CostTable* table : tables) {
+                for (int arc = 0; arc < int(world.graph.arcs.size()); ++arc) {
+                    std::uint64_t lanes = 0;
+                    for (int at = table->next(arc); at >= 0; at = table->next(at)) ++lanes;
+                    own.push_back(table->left(arc) * std::uint64_t{1000} + lanes);
+                }
+            }
+        });
+    }
+    for (auto& thread : threads) thread.join();
+    ASSERT_FALSE(read.front().empty());
+    for (const auto& own : read) EXPECT_EQ(own, read.front());
 }
 
 /// A ladder: a short way with many corners below, a long one with two above, both from 0 to 5.

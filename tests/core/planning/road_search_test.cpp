@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <limits>
 #include <queue>
 #include <random>
+
+#include "core/planning/road_router.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -152,6 +156,66 @@ RoadGraph stairs() {
     graph.add_arc(6, 7);
     graph.add_arc(7, 5);
     return graph;
+}
+
+/// Streets on a jittered lattice, every lane to be driven forwards or backwards.
+RoadGraph town(std::mt19937_64& random, int side) {
+    std::uniform_real_distribution<double> jitter(-0.2, 0.2);
+    RoadGraph graph;
+    for (int i = 0; i < side * side; ++i) {
+        graph.add_node({5 * (i % side) + jitter(random), 5 * (i / side) + jitter(random)});
+    }
+    for (int i = 0; i < side * side; ++i) {
+        for (const int to :
+             {i % side + 1 < side ? i + 1 : i, i + side < side * side ? i + side : i}) {
+            if (to == i) continue;
+            for (const auto& [a, b] : {std::pair(i, to), {to, i}}) {
+                graph.add_arc(a, b);
+                graph.arcs[static_cast<std::size_t>(graph.add_arc(a, b, true))].burden = 0.01;
+            }
+        }
+    }
+    return graph;
+}
+
+TEST(RoadSearch, AnExactBoundLeavesTheAnswerAndLooksAtLittleMoreThanThePath) {
+    std::mt19937_64 random(77);
+    for (const double k_diff : {20.0, 10.0, 4.0, 200.0}) {
+        const auto k = routing(10, k_diff);
+        const RoadGraph graph = town(random, 24);
+        RoadPreferences rounded_down{k};
+        rounded_down.round_down = true;
+        RoadRouter router(graph, {}, rounded_down);
+        const int user = router.add_user({});
+        std::vector<bool> closed(graph.arcs.size(), false);
+        for (int i = 0; i < 100; ++i) {
+            const int arc = static_cast<int>(random() % graph.arcs.size());
+            closed[static_cast<std::size_t>(arc)] = true;
+            router.set_closed(arc, true);
+            const int from = static_cast<int>(random() % graph.nodes.size());
+            RoadQuery query;
+            query.goal = static_cast<int>(random() % graph.nodes.size());
+            if (from == query.goal) continue;
+            query.usable = [&](int a) { return !closed[static_cast<std::size_t>(a)]; };
+            for (const int a : graph.out[static_cast<std::size_t>(from)]) {
+                query.first.push_back({a, 0, random() % 2 == 0, double(random() % 3)});
+            }
+
+            const auto plain = search_road(graph, k, query);
+            const CostTable& table = router.table(user, query.goal);
+            query.left = [&](int a) {
+                const RoadCost left = table.left(a);
+                return left == kNoWay ? kInfinite : std::max(0.0, left / 1000.0 - 1e-6);
+            };
+            const auto bounded = search_road(graph, k, query);
+
+            ASSERT_EQ(plain.has_value(), bounded.has_value());
+            if (!plain) continue;
+            ASSERT_EQ(plain->arcs, bounded->arcs);
+            ASSERT_EQ(plain->cost, bounded->cost);
+            ASSERT_LE(bounded->expanded, 4 * static_cast<int>(bounded->arcs.size()) + 8);
+        }
+    }
 }
 
 TEST(RoadSearch, TradesLengthAgainstChangesOfDirection) {

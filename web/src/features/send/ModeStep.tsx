@@ -4,6 +4,7 @@ import { ModeIcon, StatusSymbol, type ModeIconName } from "@/shared/ui";
 import { duration, length } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { capitalise, moveWords } from "./moveWords";
+import { OtherWays } from "./OtherWays";
 import { chosenOption, sortOptions, type Preview, type StepPreview } from "./preview";
 
 export const modeIcon: Record<MotionMode, ModeIconName> = {
@@ -31,19 +32,22 @@ export function ModeStep({ preview, step, mode, onMode }: ModeStepProps) {
   const chosen = chosenOption(step, mode);
   const best = options.find((o) => o.suggested);
   return (
-    <div role="radiogroup" aria-label={t("mode.title")}>
-      {options.map((option) => (
-        <ModeRow
-          key={option.mode}
-          option={option}
-          best={best}
-          checked={option.mode === chosen?.mode}
-          // The suggested row is mode auto: it stays the suggestion when the pose changes.
-          onSelect={() => onMode(option.suggested ? "auto" : option.mode)}
-        />
-      ))}
-      {options.length > 0 && !options.some((o) => o.feasible) && <p className="lab">{t("mode.none")}</p>}
-    </div>
+    <>
+      <div role="radiogroup" aria-label={t("mode.title")}>
+        {options.map((option) => (
+          <ModeRow
+            key={option.mode}
+            option={option}
+            best={best}
+            checked={option.mode === chosen?.mode}
+            // The suggested row is mode auto: it stays the suggestion when the pose changes.
+            onSelect={() => onMode(option.suggested ? "auto" : option.mode)}
+          />
+        ))}
+        {options.length > 0 && !options.some((o) => o.feasible) && <p className="lab">{t("mode.none")}</p>}
+      </div>
+      <OtherWays ways={step.alternatives} />
+    </>
   );
 }
 

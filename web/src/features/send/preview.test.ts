@@ -23,7 +23,9 @@ const data = (over: Partial<DryRun> = {}): DryRun => ({
   vehicle: "TP-01",
   accepted: true,
   checks: [check("link", "pass")],
-  steps: [{ station: "st07", number: 7, start: { x_m: 0, y_m: 0, heading_rad: 0 }, options }],
+  steps: [
+    { station: "st07", number: 7, start: { x_m: 0, y_m: 0, heading_rad: 0 }, options, alternatives: [] },
+  ],
   ...over,
 });
 const vehicle = { id: "TP-01" } as Vehicle;

@@ -26,6 +26,7 @@ export type JobOrder = Schemas["JobOrder"];
 export type NewJobOrder = Schemas["NewJobOrder"];
 export type Check = Schemas["Check"];
 export type ModeOption = Schemas["ModeOption"];
+export type LegAlternative = Schemas["LegAlternative"];
 export type DryRun = Schemas["DryRun"];
 export type StopRecord = Schemas["StopRecord"];
 export type Reason = Schemas["Reason"];
