@@ -17,13 +17,12 @@ using traffic::TileSet;
 constexpr double kMoved_m = 0.02;
 constexpr double kMoved_rad = 0.2 * kPi / 180.0;
 
-std::size_t class_of(FleetState& fleet, const VehicleRun& run) {
-    auto& classes = fleet.floor.classes;
-    for (std::size_t i = 0; i < classes.size(); ++i) {
-        if (classes[i].type == run.type && classes[i].loaded == is_loaded(run)) return i;
-    }
-    classes.push_back(floor_class(fleet.plant, fleet.planner, *run.type, is_loaded(run)));
-    return classes.size() - 1;
+std::size_t class_of(const FleetState& fleet, const VehicleRun& run) {
+    const auto& classes = fleet.floor.classes;
+    const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
+        return c.type == run.type && c.loaded == is_loaded(run);
+    });
+    return static_cast<std::size_t>(found - classes.begin());
 }
 
 traffic::PlaceIndex place_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
@@ -108,20 +107,14 @@ TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2&
 
 void open_floor(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
-    std::vector<traffic::MoveGraph> graphs;
     traffic::TrafficRecord record;
     for (auto& [id, run] : fleet.vehicles) {
-        const std::size_t known = floor.classes.size();
         run.floor.of_class = class_of(fleet, run);
-        if (floor.classes.size() > known) {
-            floor.classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
-            graphs.push_back(move_graph(fleet.plant, floor.classes.back()));
-        }
         run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
         record.vehicles.push_back(stored_floor(fleet, run));
     }
     without_conflicts(fleet, record.vehicles);
-    auto rebuilt = traffic::Traffic::rebuild(record, graphs, true);
+    auto rebuilt = traffic::Traffic::rebuild(record, fleet.tables->graphs, true);
     // Nobody shares floor any more, and bases alone cannot form a circle.
     if (!rebuilt) {
         floor.stopped = rebuilt.error().reason;

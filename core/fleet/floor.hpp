@@ -32,16 +32,18 @@ struct FloorStand {
 };
 
 struct Floor {
+    explicit Floor(const std::vector<FloorClass>& of_plant) : classes(of_plant) {}
+
     traffic::Traffic traffic{true};  // reports its changes to the monitor
     traffic::Monitor monitor;
-    std::vector<FloorClass> classes;
+    const std::vector<FloorClass>& classes;  // of the plant's tables
     /// Set on the first violation that the monitor finds: nothing is granted any more.
     std::optional<Reason> stopped;
     std::optional<Time> improved;
     std::optional<Time> checked;
 };
 
-/// Makes the classes and puts every vehicle on the floor its record says, base included.
+/// Puts every vehicle on the floor its record says, base included.
 void open_floor(FleetState& fleet, Time now);
 
 /// Floor under the vehicle's outline at a pose, position error included.

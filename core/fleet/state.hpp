@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor.hpp"
 #include "core/fleet/order_book.hpp"
+#include "core/fleet/plant_tables.hpp"
 #include "core/planning/leg_planner.hpp"
 
 /// The fleet's own state, shared by the phases of fleet.cpp. Not for use outside core/fleet.
@@ -74,11 +76,18 @@ struct PlannedLeg {
 };
 
 struct FleetState {
-    FleetState(const plant::Plant& p, std::uint64_t id_seed, Time now)
-        : plant(p), planner(p), ids(id_seed), started(now) {}
+    FleetState(const plant::Plant& p, std::shared_ptr<const PlantTables> of_plant,
+               std::uint64_t id_seed, Time now)
+        : plant(p),
+          tables(std::move(of_plant)),
+          planner(tables->planner),
+          ids(id_seed),
+          started(now),
+          floor(tables->classes) {}
 
     const plant::Plant& plant;
-    planning::LegPlanner planner;
+    std::shared_ptr<const PlantTables> tables;
+    const planning::LegPlanner& planner;
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, VehicleRun> vehicles;

@@ -118,7 +118,8 @@ void World::carry_messages() {
 }
 
 void World::start_server() {
-    fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now());
+    fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now(),
+                                            fleet_ ? fleet_->tables() : nullptr);
     for (auto& [id, line] : lines_) {
         line.server_knows = false;
         line.up.clear();
@@ -128,7 +129,7 @@ void World::start_server() {
 
 void World::settle() {
     for (int round = 0; round < kRounds && !unstored_; ++round) {
-        fleet::Outputs out = fleet_->take_outputs(now());
+        fleet::Outputs out = fleet_->take_outputs(now(), false);
         if (out.records.empty() && out.messages.empty()) return;
         if (!commit(out)) return;
         send(out);
@@ -152,7 +153,7 @@ bool World::commit(fleet::Outputs& out) {
                 ++outcome_.faults["commit fails"];
                 start_server();
                 fleet_->store_failed({"disk_full", now()}, now());
-                unstored_ = fleet_->take_outputs(now());
+                unstored_ = fleet_->take_outputs(now(), false);
                 store_back_s_ = now_s_ + pick(1, 20);
                 return false;
         }
