@@ -75,27 +75,54 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     return row;
 }
 
+TileSet without(const TileSet& set, const std::unordered_set<traffic::TileId>& taken) {
+    TileSet left;
+    for (const auto tile : set) {
+        if (taken.count(tile) == 0) left.push_back(tile);
+    }
+    return left;
+}
+
 /// Rows may contradict each other when a vehicle was moved by hand while the server was down: the
-/// first one keeps the floor, the other holds none and is not moved until that is cleared up.
+/// first one keeps the floor, the other holds the rest and is not moved until that is cleared up.
 void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& rows) {
     std::unordered_set<traffic::TileId> taken;
     for (auto& row : rows) {
         TileSet needed = row.stand;
         for (const auto& move : row.moves) needed = traffic::merge(needed, move.swept);
-        const bool conflict = std::any_of(needed.begin(), needed.end(),
-                                          [&](traffic::TileId t) { return taken.count(t) != 0; });
-        if (conflict) {
+        const TileSet left = without(needed, taken);
+        if (left.size() < needed.size()) {
             VehicleRun& run = *fleet.find(plant::VehicleId(row.name));
             run.floor.conflict = Reason{"floor_conflict", {{"vehicle", row.name}}};
-            run.floor.pose.reset();
-            row.stand.clear();
+            row.stand = without(row.stand, taken);
             row.place = traffic::kNoPlace;
-            row.moves.clear();
-            row.released = 0;
-            continue;
+            for (auto& move : row.moves) {
+                move.swept = without(move.swept, taken);
+                move.stand = without(move.stand, taken);
+                move.place = traffic::kNoPlace;
+            }
         }
-        taken.insert(needed.begin(), needed.end());
+        taken.insert(left.begin(), left.end());
     }
+}
+
+/// Others may not be sent to where it stands, although it stands on another's floor, too.
+void hold_what_is_free(FleetState& fleet, VehicleRun& run, const TileSet& stand, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    TileSet free;
+    for (const auto tile : stand) {
+        const auto holder = traffic.holder(tile);
+        if (!holder || *holder == run.floor.vehicle) free.push_back(tile);
+    }
+    const auto& plan = traffic.plan(run.floor.vehicle);
+    if (plan.last() == plan.passed && traffic.held_tiles(run.floor.vehicle) == free) return;
+    static_cast<void>(traffic.found_at(run.floor.vehicle, free, traffic::kNoPlace, now));
+}
+
+/// At the end of its base the floor under it can be asked for again, as without a leg.
+bool clears_up_on_leg(const VehicleRun& run) {
+    return run.floor.conflict && run.leg_seen && !run.state.driving &&
+           run.leg().passed_nodes == run.leg().released_nodes;
 }
 
 }  // namespace
@@ -129,7 +156,7 @@ void open_floor(FleetState& fleet, Time now) {
 }
 
 void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
-    if (run.has_leg() || !run.record.pose_known) return;
+    if (!run.record.pose_known || (run.has_leg() && !clears_up_on_leg(run))) return;
     auto& traffic = fleet.floor.traffic;
     const auto& plan = traffic.plan(run.floor.vehicle);
     const auto place = place_at(fleet, run, run.record.pose);
@@ -148,12 +175,17 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
     }
     const auto found = traffic.found_at(run.floor.vehicle, stand, place, now);
     run.floor.leg_planned = false;
+    if (!found) hold_what_is_free(fleet, run, stand, now);
     if (found) {
         if (run.floor.conflict) {
             add_event(fleet, now, "vehicle.floor_cleared", {}, {}, run.record.id, {});
         }
         run.floor.conflict.reset();
         run.floor.pose = run.record.pose;
+        if (run.has_leg()) {
+            run.floor.moves_before_leg = static_cast<std::int64_t>(plan.passed) -
+                                         static_cast<std::int64_t>(run.leg().passed_nodes - 1);
+        }
     } else if (!run.floor.conflict) {
         Params who;
         for (const auto& param : found.error().reason.params) {

@@ -28,6 +28,7 @@ struct FloorStand {
     std::optional<Pose2> pose;       // where it was settled last; none: it holds no floor yet
     std::optional<Reason> conflict;  // it stands on another's floor
     std::optional<Time> next_try;    // of an admission that failed
+    std::optional<Time> next_leave;  // of an idle vehicle that found no way to leave
     std::optional<Time> idle_since;
 };
 

@@ -150,6 +150,12 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         append_move(of_class, leg, plan.at(n).place,
                     before == kNoPlace ? std::nullopt : std::optional(before));
     }
+    if (leg.order.empty()) {
+        // Making way ends wherever the plan found a resting place this time.
+        const auto end = plan.place_after(plan.last());
+        const bool at_station = end != kNoPlace && !of_class.motion.places[end].station.empty();
+        if (at_station) leg.station = of_class.motion.places[end].station;
+    }
     const auto* station = plant::find_station(fleet.plant, leg.station);
     if (has_stop || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
@@ -195,8 +201,13 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         task.visits = {{goal, kStop_s}};
     }
     auto sequence = sequence_of(fleet, run);
-    sequence.ends_at = goal;
-    if (!sequence.steps.empty()) task.sequences = {std::move(sequence)};
+    if (!sequence.steps.empty()) {
+        // A horizon of before a restart may lead elsewhere, to give way: the search goes on there.
+        const auto end =
+            class_of(fleet, run).motion.place_at(plant::HallId(leg.hall), leg.nodes.back().pose);
+        sequence.ends_at = end ? static_cast<traffic::PlaceIndex>(*end) : kNoPlace;
+        if (end) task.sequences = {std::move(sequence)};
+    }
     auto admitted = traffic.admit(stand.vehicle, task, now);
     const bool on_roads =
         plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;

@@ -207,7 +207,20 @@ void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Tim
     fleet.out.messages.push_back({run.record.id, std::move(message), std::nullopt});
     run.update_from = from;
     run.update_sent = now;
+    if (run.connected) run.order_sent = now;
     ++run.update_sends;
+}
+
+void take_leg(VehicleRun& run, Leg leg) {
+    run.record.has_leg = true;
+    run.record.leg = leg.id;
+    run.record.leg_data = std::move(leg);
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.update_sends = 0;
+    run.order_sent.reset();
+    run.leg_started.reset();
+    run.floor.idle_since.reset();
 }
 
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
@@ -217,6 +230,7 @@ void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.leg_seen = false;
     run.update_sent.reset();
     run.update_sends = 0;
+    run.order_sent.reset();
     run.cancelling = false;
     run.leg_started.reset();
     run.floor.leg_planned = false;

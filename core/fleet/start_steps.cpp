@@ -16,17 +16,6 @@ Result<Leg> leg_to(FleetState& fleet, const VehicleRun& run, const Step& step, L
     return build_leg(fleet, run, *plan, *station, run.record.pose, id);
 }
 
-void take_leg(VehicleRun& run, Leg leg) {
-    run.record.has_leg = true;
-    run.record.leg = leg.id;
-    run.record.leg_data = std::move(leg);
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
-    run.leg_started.reset();
-    run.floor.idle_since.reset();
-}
-
 bool waits_to_try(const VehicleRun& run, Time now) {
     return run.floor.next_try && now < *run.floor.next_try;
 }

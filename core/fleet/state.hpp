@@ -48,7 +48,8 @@ struct VehicleRun {
     std::size_t update_from = 0;      // first node of the last update
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
-    bool cancelling = false;  // cancelOrder is not final: nothing but instant actions
+    std::optional<Time> order_sent;  // newest message of this leg on this connection
+    bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
     FloorStand floor;
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
@@ -173,6 +174,8 @@ std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
 /// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
 void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
+/// The vehicle gets this leg; nothing of it is sent yet.
+void take_leg(VehicleRun& run, Leg leg);
 /// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
 
@@ -186,6 +189,8 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Sends startPause or stopPause; the newest wish counts.
 void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
+/// The vehicle has not shown its leg and may still get the message: the leg must not be forgotten.
+bool is_on_its_way(const VehicleRun& run, Time now);
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
 void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
