@@ -63,6 +63,12 @@ void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target
 /// when there is no plan: the reason says who or what is in the way. The leg's horizon may come out
 /// different: another way, when its own is blocked for good.
 std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now);
+/// The leg ends here with the stop; a plan that gives way first ends elsewhere.
+bool stands_at_stop(const FleetState& fleet, const VehicleRun& run);
+/// The leg ended beside all places without its stop, so no plan leads on from there.
+bool is_dead_end(const FleetState& fleet, const VehicleRun& run);
+/// The rest of the vehicle's plan is the graph's alone.
+bool goes_by_places(const FleetState& fleet, const VehicleRun& run);
 /// A leg of one node becomes the drive that the vehicle's plan already has.
 void take_plan_as_leg(FleetState& fleet, VehicleRun& run);
 /// Brings the legs of all vehicles with new plans up to date and tells those on the way.

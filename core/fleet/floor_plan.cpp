@@ -145,7 +145,9 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         leg.nodes[i].actions.clear();
         leg.nodes[i].node_id = "p" + std::to_string(i);
     }
-    for (MoveNumber n = move_of_node(run, node); is_drive(n); ++n) {
+    MoveNumber next = move_of_node(run, node);
+    for (; is_drive(next); ++next) {
+        const MoveNumber n = next;
         const traffic::PlaceIndex before = plan.place_after(n - 1);
         append_move(of_class, leg, plan.at(n).place,
                     before == kNoPlace ? std::nullopt : std::optional(before));
@@ -157,7 +159,7 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         if (at_station) leg.station = of_class.motion.places[end].station;
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
-    if (has_stop || (leg.order.empty() && station)) {
+    if (next <= plan.last() || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = stop_actions(fleet, run, *station, leg.id);
         // Making way is no stop to keep, but the codes take away what odometry has gathered.
@@ -225,6 +227,32 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     stand.leg_planned = true;
     take_horizon(fleet, run);
     return std::nullopt;
+}
+
+bool stands_at_stop(const FleetState& fleet, const VehicleRun& run) {
+    if (run.leg().nodes.size() == 1) return true;  // corrects or measures where it stands
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    return run.leg().passed_nodes == run.leg().nodes.size() && plan.passed < plan.last() &&
+           plan.at(plan.passed + 1).visit != kNoVisit;
+}
+
+bool is_dead_end(const FleetState& fleet, const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    if (leg.nodes.size() < 2 || leg.passed_nodes < leg.released_nodes) return false;
+    if (plan.place != kNoPlace || plan.last() > plan.passed) return false;
+    if (!leg.nodes.back().actions.empty() && leg.nodes.size() == leg.released_nodes) return false;
+    const auto end = class_of(fleet, run).motion.place_at(plant::HallId(leg.hall),
+                                                          leg.nodes.back().pose);
+    return leg.nodes.size() == leg.released_nodes || !end;
+}
+
+bool goes_by_places(const FleetState& fleet, const VehicleRun& run) {
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) {
+        if (plan.at(n).place == kNoPlace) return false;
+    }
+    return true;
 }
 
 void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {

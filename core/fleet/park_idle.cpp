@@ -115,6 +115,10 @@ void park_idle(FleetState& fleet, Time now) {
         }
         if (!run.floor.idle_since) run.floor.idle_since = now;
         if (now - *run.floor.idle_since < kParkAfter && !is_wanted_away(run)) continue;
+        if (!goes_by_places(fleet, run)) {
+            settle(fleet, run, now, true);  // the rest of a way that was given up
+            continue;
+        }
         const auto station = last_station(fleet, run);
         if (!station.empty()) leave(fleet, run, station, now);
     }

@@ -248,7 +248,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         drop_leg(fleet, run, now, true);
         return;
     }
-    if (!measures && idle && leg.passed_nodes == leg.nodes.size() && state.pose) {
+    if (!measures && idle && stands_at_stop(fleet, run) && state.pose) {
         // A vehicle without measureStop: its own pose at the last node is the measurement.
         StopMeasurement found;
         found.pose = *state.pose;

@@ -127,6 +127,10 @@ void World::check_records(const fleet::Records& records) {
         if (options_.trace)
             std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(),
                         stop.method.c_str());
+        if (stop.method != "dual_camera") {
+            violate("the stop of step " + std::to_string(stop.step) + " of " + stop.order.str() +
+                    " was not measured but taken as " + stop.method);
+        }
         if (!stop.inside) continue;
         if (!good_stops_.insert({stop.order, stop.step}).second) {
             violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +

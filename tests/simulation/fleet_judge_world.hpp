@@ -59,6 +59,7 @@ private:
         double manual_until_s = 0;
         double broken_until_s = 0;
         double person_at_s = 0;                    // when the person has time for it
+        double apart_at_s = 0;                     // when two that stand too near are parted
         bool restarted_on_leg = false;             // nobody has allowed it to move since
         std::map<std::string, std::int64_t> base;  // by leg: highest node released so far
     };
