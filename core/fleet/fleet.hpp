@@ -134,7 +134,9 @@ public:
     std::vector<OrderTemplate> order_templates() const;  // by name
     std::optional<Schedule> schedule(ScheduleId id) const;
     std::vector<Schedule> schedules() const;  // oldest first
-    std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now) const;
+    /// `with_leg`: also the outlines of its floor, which cost most.
+    std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now,
+                                       bool with_leg = true) const;
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
     FleetView view(Time now) const;

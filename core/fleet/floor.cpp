@@ -4,6 +4,7 @@
 #include <set>
 #include <unordered_set>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -36,6 +37,11 @@ bool is_away(const Pose2& a, const Pose2& b) {
            std::abs(wrap(a.heading_rad - b.heading_rad)) > kMoved_rad;
 }
 
+/// It may have lost its pose since: it still stands where it was confirmed last.
+bool has_stood(const VehicleRecord& record) {
+    return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
+}
+
 /// What the vehicle's record says of its floor: where it stands and the rest of its base.
 traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     traffic::VehicleRecord row;
@@ -44,7 +50,8 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     std::optional<Pose2> pose;
     if (run.has_leg()) {
         pose = run.leg().nodes[run.leg().passed_nodes - 1].pose;
-    } else if (run.record.pose_known) {
+    } else if (mutated(Mutation::kLostPoseLosesFloor) ? run.record.pose_known
+                                                      : has_stood(run.record)) {
         pose = run.record.pose;
     }
     if (!pose) return row;
@@ -182,6 +189,7 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
         }
         run.floor.conflict.reset();
         run.floor.pose = run.record.pose;
+        fleet.store(run);  // a restart must find it there, too
         if (run.has_leg()) {
             run.floor.moves_before_leg = static_cast<std::int64_t>(plan.passed) -
                                          static_cast<std::int64_t>(run.leg().passed_nodes - 1);

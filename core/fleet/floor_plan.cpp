@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/fleet/floor.hpp"
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/primitives.hpp"
 
@@ -156,10 +157,12 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         // Making way ends wherever the plan found a resting place this time.
         const auto end = plan.place_after(plan.last());
         const bool at_station = end != kNoPlace && !of_class.motion.places[end].station.empty();
-        if (at_station) leg.station = of_class.motion.places[end].station;
+        if (at_station && !mutated(Mutation::kMakesWayElsewhere))
+            leg.station = of_class.motion.places[end].station;
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
-    if (next <= plan.last() || (leg.order.empty() && station)) {
+    const bool stops = next <= plan.last() && !(mutated(Mutation::kReroutedLosesStop) && !ends);
+    if (stops || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = stop_actions(fleet, run, *station, leg.id);
         // Making way is no stop to keep, but the codes take away what odometry has gathered.
@@ -242,8 +245,8 @@ bool is_dead_end(const FleetState& fleet, const VehicleRun& run) {
     if (leg.nodes.size() < 2 || leg.passed_nodes < leg.released_nodes) return false;
     if (plan.place != kNoPlace || plan.last() > plan.passed) return false;
     if (!leg.nodes.back().actions.empty() && leg.nodes.size() == leg.released_nodes) return false;
-    const auto end = class_of(fleet, run).motion.place_at(plant::HallId(leg.hall),
-                                                          leg.nodes.back().pose);
+    const auto end =
+        class_of(fleet, run).motion.place_at(plant::HallId(leg.hall), leg.nodes.back().pose);
     return leg.nodes.size() == leg.released_nodes || !end;
 }
 

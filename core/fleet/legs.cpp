@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -193,7 +194,7 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
               {{"nodes", static_cast<std::int64_t>(leg.released_nodes)},
                {"of", static_cast<std::int64_t>(leg.nodes.size())},
                {"update", leg.update_id}});
-    fleet.store(run);
+    if (!mutated(Mutation::kBaseNotStored)) fleet.store(run);
 }
 
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now) {
@@ -219,6 +220,7 @@ void take_leg(VehicleRun& run, Leg leg) {
     run.update_sent.reset();
     run.update_sends = 0;
     run.order_sent.reset();
+    run.gave_up = false;
     run.leg_started.reset();
     run.floor.idle_since.reset();
 }
@@ -231,7 +233,10 @@ void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.update_sent.reset();
     run.update_sends = 0;
     run.order_sent.reset();
+    run.gave_up = false;
     run.cancelling = false;
+    // Repeated, it would hit the next leg.
+    std::erase_if(run.actions, [](const auto& p) { return p.action.type == "cancelOrder"; });
     run.leg_started.reset();
     run.floor.leg_planned = false;
     run.floor.idle_since.reset();

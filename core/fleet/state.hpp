@@ -49,6 +49,7 @@ struct VehicleRun {
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
     std::optional<Time> order_sent;  // newest message of this leg on this connection
+    bool gave_up = false;            // the vehicle does not have this leg; see forget_leg
     bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
     FloorStand floor;
     std::optional<Time> leg_started;
@@ -191,6 +192,9 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
 /// The vehicle has not shown its leg and may still get the message: the leg must not be forgotten.
 bool is_on_its_way(const VehicleRun& run, Time now);
+/// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the
+/// base, which only the leg remembers over a restart: so long the leg is kept.
+void forget_leg(FleetState& fleet, VehicleRun& run, Time now);
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
 void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
@@ -250,7 +254,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now);
 
 // --- views (views.cpp) ---
 StationView station_view(const FleetState& fleet, const plant::Station& station);
-VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now);
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg = true);
 std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
                                 const plant::Station* target,
                                 const std::optional<planning::LegPlan>& plan, Time now);

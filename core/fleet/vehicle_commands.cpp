@@ -21,7 +21,7 @@ bool is_about_vehicle(const Reason& reason) {
                        [&](const char* code) { return reason.code == code; });
 }
 
-void resume_leg(FleetState& fleet, VehicleRun& run, JobOrder* order, Time now) {
+void resume_leg(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.has_leg()) return;
     if (run.state.order_id == run.leg().id.str()) {
         if (run.state.order_update_id != run.leg().update_id) cancel_leg(fleet, run, now);
@@ -33,10 +33,7 @@ void resume_leg(FleetState& fleet, VehicleRun& run, JobOrder* order, Time now) {
         return send_order_update(fleet, run, 0, now);
     }
     // The vehicle never got it or gave it up; the step starts anew from where it stands.
-    drop_leg(fleet, run, now);
-    if (!order || order->current_step >= order->steps.size()) return;
-    order->steps[order->current_step].state = StepState::kPending;
-    fleet.store(*order);
+    forget_leg(fleet, run, now);
 }
 
 void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::string& actor,
@@ -82,7 +79,8 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
             "Vehicle " + id.str() + " is not connected. Its position can be set when it is.", {},
             {{"vehicle", id.str()}});
     }
-    if (run->state.driving || run->has_leg()) {
+    const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str();
+    if (run->state.driving || has_order) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
                     {}, {{"vehicle", id.str()}});
@@ -142,7 +140,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         if (was_paused || run.state.paused) pause_motion(*state_, run, "stopPause", now);
 
         JobOrder* order = state_->orders.of(id);
-        resume_leg(*state_, run, order, now);
+        resume_leg(*state_, run, now);
         if (order) go_on_with(*state_, run, *order, actor, now);
     }
     dispatch(*state_, now);

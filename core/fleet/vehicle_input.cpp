@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
 
@@ -66,12 +67,12 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
         if (!found || !is_final(found->status)) return false;
         // A cancel is done when the vehicle says so AND stands; floor is freed only then.
         if (pending.action.type == "cancelOrder") {
-            if (run.state.driving) return false;
+            if (run.state.driving || (run.has_leg() && !run.record.pose_known)) return false;
             // It knew of no order to cancel: that may still be on its way, or have come since.
             const bool failed = found->status == ActionStatus::kFailed;
             if (failed && run.has_leg() && is_on_its_way(run, now)) return false;
-            again = failed && run.has_leg() && run.state.order_id == run.leg().id.str() &&
-                    !has_nothing_left(run.state);
+            again = failed && !mutated(Mutation::kCancelFailedIsDone) && run.has_leg() &&
+                    run.state.order_id == run.leg().id.str() && !has_nothing_left(run.state);
             cancelled = !again;
         }
         add_event(fleet, now, "vehicle.action", {}, {}, run.record.id, {},
@@ -147,6 +148,7 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
 /// are 32 bit and begin anew.
 bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
+    if (mutated(Mutation::kOvertakenStateTaken)) return false;
     if (state.header_id == 0 || run.newest_header == 0) return false;
     const std::int64_t ahead = state.header_id - run.newest_header;
     return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
@@ -166,11 +168,7 @@ void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time 
 /// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
 void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
     require_person(fleet, run, {"vehicle_lost_order", {}}, now);
-    drop_leg(fleet, run, now);
-    JobOrder* order = fleet.orders.of(run.record.id);
-    if (!order || order->current_step >= order->steps.size()) return;
-    order->steps[order->current_step].state = StepState::kPending;
-    fleet.store(*order);
+    forget_leg(fleet, run, now);
 }
 
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
@@ -179,6 +177,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     if (state.order_id != leg.id.str()) {
         if (run.leg_seen) {
             lose_order(fleet, run, now);
+        } else if (run.gave_up) {
+            forget_leg(fleet, run, now);
         } else if (const auto* error = rejection_of(state, leg.id.str())) {
             require_person(
                 fleet, run,
@@ -222,7 +222,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         }
         if (is_final(found->status)) {
             // A cancelOrder of before a restart fails the stop before the vehicle stands.
-            if (!has_nothing_left(state)) return;
+            if (!has_nothing_left(state) && !mutated(Mutation::kFailedStopWhileMoving)) return;
             take_failed_stop(fleet, run, found->result_description, now);
             return;
         }
@@ -272,7 +272,23 @@ void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleEr
 
 }  // namespace
 
+void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.gave_up = true;
+    if (!run.record.pose_known) return;
+    drop_leg(fleet, run, now);
+    JobOrder* order = fleet.orders.of(run.record.id);
+    if (!order || order->current_step >= order->steps.size()) return;
+    order->steps[order->current_step].state = StepState::kPending;
+    fleet.store(*order);
+    if (order->cancel_requested && !run.record.needs_resume) {
+        abort_order(fleet, *order, order->reason, {}, now);
+    }
+}
+
 bool is_on_its_way(const VehicleRun& run, Time now) {
+    if (mutated(Mutation::kWayOrderForgotten)) return false;
     return !run.leg_seen && run.order_sent && now - *run.order_sent < kLongestWay;
 }
 
@@ -362,6 +378,7 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     action.type = "cancelOrder";
     add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
     send_action(fleet, run, std::move(action), now);
+    if (mutated(Mutation::kCancelNotAwaited)) finish_cancel(fleet, run, now);
 }
 
 void update_links(FleetState& fleet, Time now) {
