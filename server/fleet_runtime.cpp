@@ -251,7 +251,9 @@ void FleetRuntime::rebuild() {
 
 void FleetRuntime::build_fleet(fleet::StoredFleet stored) {
     const Time now = ports_.clock.now();
-    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now);
+    auto tables = fleet_->tables();
+    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now,
+                                            std::move(tables));
     if (const auto fault = store_fault()) fleet_->store_failed(*fault, now);
     unstored_ = take_published();
 }

@@ -4,6 +4,7 @@
 
 #include "core/fleet/assignment.hpp"
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/start_conditions.hpp"
 
 // Free vehicles and waiting orders, solved as one assignment.
@@ -30,7 +31,8 @@ double urgency_s(const JobOrder& order, Time now) {
 }
 
 bool is_free(const FleetState& fleet, const VehicleRun& run) {
-    return !run.has_leg() && fleet.orders.of(run.record.id) == nullptr;
+    if (run.has_leg()) return false;
+    return fleet.orders.of(run.record.id) == nullptr || mutated(Mutation::kBusyIsFree);
 }
 
 NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {

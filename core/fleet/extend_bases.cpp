@@ -1,4 +1,5 @@
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/mutation.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -17,10 +18,16 @@ bool is_first_grant(const VehicleRun& run) {
 bool may_extend_base(const VehicleRun& run, Time now) {
     if (!run.has_leg() || run.update_sent) return false;
     if (!run.leg_seen && !is_first_grant(run)) return false;
-    if (run.record.needs_resume || run.record.paused) return false;
-    if (!run.connected || !run.reconciled || !run.state_at) return false;
-    if (run.state.driving && now - *run.state_at > kPoseTooOld) return false;
-    return run.state.operating_mode == "AUTOMATIC" && run.link == Link::kLive;
+    if (run.record.needs_resume) return false;
+    if (run.record.paused && !mutated(Mutation::kPauseNotKept)) return false;
+    const bool linked = run.connected && run.reconciled;
+    if (!run.state_at || (!linked && !mutated(Mutation::kSilentIsExtended))) return false;
+    const bool old = run.state.driving && now - *run.state_at > kPoseTooOld;
+    if (old && !mutated(Mutation::kSilentIsExtended)) return false;
+    if (run.state.operating_mode != "AUTOMATIC" && !mutated(Mutation::kManualIsDriven)) {
+        return false;
+    }
+    return run.link == Link::kLive || mutated(Mutation::kSilentIsExtended);
 }
 
 void extend_bases(FleetState& fleet, Time now) {

@@ -16,8 +16,10 @@ constexpr Duration kSweepKeys = std::chrono::hours(1);
 
 }  // namespace
 
-Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now)
-    : state_(std::make_unique<FleetState>(plant, id_seed, now)),
+Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
+             std::shared_ptr<const PlantTables> tables)
+    : state_(std::make_unique<FleetState>(plant, tables ? std::move(tables) : plant_tables(plant),
+                                          id_seed, now)),
       stored_seq_(stored.last_event_seq) {
     restore_standing(*state_, stored);
     restore(*state_, std::move(stored), now);
@@ -25,6 +27,8 @@ Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_see
 }
 
 Fleet::~Fleet() = default;
+
+std::shared_ptr<const PlantTables> Fleet::tables() const { return state_->tables; }
 
 void Fleet::vehicle_connected(const plant::VehicleId& id, Time now) {
     if (VehicleRun* run = state_->find(id)) connect(*state_, *run, now);
@@ -101,7 +105,7 @@ void Fleet::tick(Time now) {
     }
 }
 
-Outputs Fleet::take_outputs(Time now) {
+Outputs Fleet::take_outputs(Time now, bool with_views) {
     FleetState& fleet = *state_;
     for (const auto& id : fleet.orders.take_bound()) fleet.store(*fleet.find(id));
     Outputs out = std::exchange(fleet.out, {});
@@ -111,6 +115,10 @@ Outputs Fleet::take_outputs(Time now) {
     }
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
         if (const VehicleRun* run = fleet.find(id)) out.records.vehicles.push_back(run->record);
+    }
+    if (!with_views) {
+        fleet.changed_vehicles.clear();
+        fleet.changed_stations.clear();
     }
     for (const auto& id : std::exchange(fleet.changed_vehicles, {})) {
         if (const VehicleRun* run = fleet.find(id))

@@ -47,7 +47,8 @@ struct Outputs {
     bool fleet_changed = false;
 };
 
-struct FleetState;  // state.hpp, for the phases of core/fleet only
+struct PlantTables;  // plant_tables.hpp
+struct FleetState;   // state.hpp, for the phases of core/fleet only
 
 /// The fleet core: one deterministic state machine. Commands and vehicle messages go in with the
 /// time they came at; records, messages and views come out through take_outputs().
@@ -55,7 +56,9 @@ struct FleetState;  // state.hpp, for the phases of core/fleet only
 /// Thread safety: none, one thread owns it. `plant` must outlive it and not change.
 class Fleet {
 public:
-    Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now);
+    /// `tables`: those of an earlier fleet of the same plant; none: they are worked out.
+    Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
+          std::shared_ptr<const PlantTables> tables = nullptr);
     ~Fleet();
 
     // Commands of people and programs. An error changed nothing.
@@ -122,8 +125,11 @@ public:
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
-    /// Everything put out since the last call.
-    Outputs take_outputs(Time now);
+    /// Everything put out since the last call. The views cost more than all the rest: who shows
+    /// them to nobody leaves them out.
+    Outputs take_outputs(Time now, bool with_views = true);
+
+    std::shared_ptr<const PlantTables> tables() const;
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;
@@ -133,7 +139,9 @@ public:
     std::vector<OrderTemplate> order_templates() const;  // by name
     std::optional<Schedule> schedule(ScheduleId id) const;
     std::vector<Schedule> schedules() const;  // oldest first
-    std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now) const;
+    /// `with_leg`: also the outlines of its floor, which cost most.
+    std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now,
+                                       bool with_leg = true) const;
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
     FleetView view(Time now) const;

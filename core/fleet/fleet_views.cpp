@@ -59,9 +59,11 @@ std::vector<JobOrder> Fleet::orders() const {
     return state_->orders.newest_first(kRecent);
 }
 
-std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now) const {
+std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now,
+                                          bool with_leg) const {
     const VehicleRun* run = state_->find(id);
-    return run ? std::optional<VehicleView>(view_of(*state_, *run, now)) : std::nullopt;
+    if (!run) return std::nullopt;
+    return view_of(*state_, *run, now, with_leg);
 }
 
 std::vector<VehicleView> Fleet::vehicles(Time now) const {

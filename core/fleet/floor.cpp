@@ -4,6 +4,7 @@
 #include <set>
 #include <unordered_set>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -17,13 +18,12 @@ using traffic::TileSet;
 constexpr double kMoved_m = 0.02;
 constexpr double kMoved_rad = 0.2 * kPi / 180.0;
 
-std::size_t class_of(FleetState& fleet, const VehicleRun& run) {
-    auto& classes = fleet.floor.classes;
-    for (std::size_t i = 0; i < classes.size(); ++i) {
-        if (classes[i].type == run.type && classes[i].loaded == is_loaded(run)) return i;
-    }
-    classes.push_back(floor_class(fleet.plant, fleet.planner, *run.type, is_loaded(run)));
-    return classes.size() - 1;
+std::size_t class_of(const FleetState& fleet, const VehicleRun& run) {
+    const auto& classes = fleet.floor.classes;
+    const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
+        return c.type == run.type && c.loaded == is_loaded(run);
+    });
+    return static_cast<std::size_t>(found - classes.begin());
 }
 
 traffic::PlaceIndex place_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
@@ -37,6 +37,11 @@ bool is_away(const Pose2& a, const Pose2& b) {
            std::abs(wrap(a.heading_rad - b.heading_rad)) > kMoved_rad;
 }
 
+/// It may have lost its pose since: it still stands where it was confirmed last.
+bool has_stood(const VehicleRecord& record) {
+    return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
+}
+
 /// What the vehicle's record says of its floor: where it stands and the rest of its base.
 traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     traffic::VehicleRecord row;
@@ -46,7 +51,8 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     if (run.record.integration < Integration::kRespect) return row;
     if (run.has_leg()) {
         pose = run.leg().nodes[run.leg().passed_nodes - 1].pose;
-    } else if (run.record.pose_known) {
+    } else if (mutated(Mutation::kLostPoseLosesFloor) ? run.record.pose_known
+                                                      : has_stood(run.record)) {
         pose = run.record.pose;
     }
     if (!pose) return row;
@@ -77,27 +83,54 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     return row;
 }
 
+TileSet without(const TileSet& set, const std::unordered_set<traffic::TileId>& taken) {
+    TileSet left;
+    for (const auto tile : set) {
+        if (taken.count(tile) == 0) left.push_back(tile);
+    }
+    return left;
+}
+
 /// Rows may contradict each other when a vehicle was moved by hand while the server was down: the
-/// first one keeps the floor, the other holds none and is not moved until that is cleared up.
+/// first one keeps the floor, the other holds the rest and is not moved until that is cleared up.
 void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& rows) {
     std::unordered_set<traffic::TileId> taken;
     for (auto& row : rows) {
         TileSet needed = row.stand;
         for (const auto& move : row.moves) needed = traffic::merge(needed, move.swept);
-        const bool conflict = std::any_of(needed.begin(), needed.end(),
-                                          [&](traffic::TileId t) { return taken.count(t) != 0; });
-        if (conflict) {
+        const TileSet left = without(needed, taken);
+        if (left.size() < needed.size()) {
             VehicleRun& run = *fleet.find(plant::VehicleId(row.name));
             run.floor.conflict = Reason{"floor_conflict", {{"vehicle", row.name}}};
-            run.floor.pose.reset();
-            row.stand.clear();
+            row.stand = without(row.stand, taken);
             row.place = traffic::kNoPlace;
-            row.moves.clear();
-            row.released = 0;
-            continue;
+            for (auto& move : row.moves) {
+                move.swept = without(move.swept, taken);
+                move.stand = without(move.stand, taken);
+                move.place = traffic::kNoPlace;
+            }
         }
-        taken.insert(needed.begin(), needed.end());
+        taken.insert(left.begin(), left.end());
     }
+}
+
+/// Others may not be sent to where it stands, although it stands on another's floor, too.
+void hold_what_is_free(FleetState& fleet, VehicleRun& run, const TileSet& stand, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    TileSet free;
+    for (const auto tile : stand) {
+        const auto holder = traffic.holder(tile);
+        if (!holder || *holder == run.floor.vehicle) free.push_back(tile);
+    }
+    const auto& plan = traffic.plan(run.floor.vehicle);
+    if (plan.last() == plan.passed && traffic.held_tiles(run.floor.vehicle) == free) return;
+    static_cast<void>(traffic.found_at(run.floor.vehicle, free, traffic::kNoPlace, now));
+}
+
+/// At the end of its base the floor under it can be asked for again, as without a leg.
+bool clears_up_on_leg(const VehicleRun& run) {
+    return run.floor.conflict && run.leg_seen && !run.state.driving &&
+           run.leg().passed_nodes == run.leg().released_nodes;
 }
 
 }  // namespace
@@ -109,20 +142,14 @@ TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2&
 
 void open_floor(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
-    std::vector<traffic::MoveGraph> graphs;
     traffic::TrafficRecord record;
     for (auto& [id, run] : fleet.vehicles) {
-        const std::size_t known = floor.classes.size();
         run.floor.of_class = class_of(fleet, run);
-        if (floor.classes.size() > known) {
-            floor.classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
-            graphs.push_back(move_graph(fleet.plant, floor.classes.back()));
-        }
         run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
         record.vehicles.push_back(stored_floor(fleet, run));
     }
     without_conflicts(fleet, record.vehicles);
-    auto rebuilt = traffic::Traffic::rebuild(record, graphs, true);
+    auto rebuilt = traffic::Traffic::rebuild(record, fleet.tables->graphs, true);
     // Nobody shares floor any more, and bases alone cannot form a circle.
     if (!rebuilt) {
         floor.stopped = rebuilt.error().reason;
@@ -137,7 +164,7 @@ void open_floor(FleetState& fleet, Time now) {
 }
 
 void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
-    if (run.has_leg() || !run.record.pose_known) return;
+    if (!run.record.pose_known || (run.has_leg() && !clears_up_on_leg(run))) return;
     if (run.record.integration < Integration::kRespect) return;
     auto& traffic = fleet.floor.traffic;
     const auto& plan = traffic.plan(run.floor.vehicle);
@@ -157,12 +184,18 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
     }
     const auto found = traffic.found_at(run.floor.vehicle, stand, place, now);
     run.floor.leg_planned = false;
+    if (!found) hold_what_is_free(fleet, run, stand, now);
     if (found) {
         if (run.floor.conflict) {
             add_event(fleet, now, "vehicle.floor_cleared", {}, {}, run.record.id, {});
         }
         run.floor.conflict.reset();
         run.floor.pose = run.record.pose;
+        fleet.store(run);  // a restart must find it there, too
+        if (run.has_leg()) {
+            run.floor.moves_before_leg = static_cast<std::int64_t>(plan.passed) -
+                                         static_cast<std::int64_t>(run.leg().passed_nodes - 1);
+        }
     } else if (!run.floor.conflict) {
         Params who;
         for (const auto& param : found.error().reason.params) {

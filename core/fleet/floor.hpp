@@ -28,20 +28,23 @@ struct FloorStand {
     std::optional<Pose2> pose;       // where it was settled last; none: it holds no floor yet
     std::optional<Reason> conflict;  // it stands on another's floor
     std::optional<Time> next_try;    // of an admission that failed
+    std::optional<Time> next_leave;  // of an idle vehicle that found no way to leave
     std::optional<Time> idle_since;
 };
 
 struct Floor {
+    explicit Floor(const std::vector<FloorClass>& of_plant) : classes(of_plant) {}
+
     traffic::Traffic traffic{true};  // reports its changes to the monitor
     traffic::Monitor monitor;
-    std::vector<FloorClass> classes;
+    const std::vector<FloorClass>& classes;  // of the plant's tables
     /// Set on the first violation that the monitor finds: nothing is granted any more.
     std::optional<Reason> stopped;
     std::optional<Time> improved;
     std::optional<Time> checked;
 };
 
-/// Makes the classes and puts every vehicle on the floor its record says, base included.
+/// Puts every vehicle on the floor its record says, base included.
 void open_floor(FleetState& fleet, Time now);
 
 /// Floor under the vehicle's outline at a pose, position error included.
@@ -62,6 +65,12 @@ void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target
 /// when there is no plan: the reason says who or what is in the way. The leg's horizon may come out
 /// different: another way, when its own is blocked for good.
 std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now);
+/// The leg ends here with the stop; a plan that gives way first ends elsewhere.
+bool stands_at_stop(const FleetState& fleet, const VehicleRun& run);
+/// The leg ended beside all places without its stop, so no plan leads on from there.
+bool is_dead_end(const FleetState& fleet, const VehicleRun& run);
+/// The rest of the vehicle's plan is the graph's alone.
+bool goes_by_places(const FleetState& fleet, const VehicleRun& run);
 /// A leg of one node becomes the drive that the vehicle's plan already has.
 void take_plan_as_leg(FleetState& fleet, VehicleRun& run);
 /// Brings the legs of all vehicles with new plans up to date and tells those on the way.

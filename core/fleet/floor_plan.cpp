@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "core/fleet/floor.hpp"
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/primitives.hpp"
 
@@ -145,13 +146,23 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         leg.nodes[i].actions.clear();
         leg.nodes[i].node_id = "p" + std::to_string(i);
     }
-    for (MoveNumber n = move_of_node(run, node); is_drive(n); ++n) {
+    MoveNumber next = move_of_node(run, node);
+    for (; is_drive(next); ++next) {
+        const MoveNumber n = next;
         const traffic::PlaceIndex before = plan.place_after(n - 1);
         append_move(of_class, leg, plan.at(n).place,
                     before == kNoPlace ? std::nullopt : std::optional(before));
     }
+    if (leg.order.empty()) {
+        // Making way ends wherever the plan found a resting place this time.
+        const auto end = plan.place_after(plan.last());
+        const bool at_station = end != kNoPlace && !of_class.motion.places[end].station.empty();
+        if (at_station && !mutated(Mutation::kMakesWayElsewhere))
+            leg.station = of_class.motion.places[end].station;
+    }
     const auto* station = plant::find_station(fleet.plant, leg.station);
-    if (has_stop || (leg.order.empty() && station)) {
+    const bool stops = next <= plan.last() && !(mutated(Mutation::kReroutedLosesStop) && !ends);
+    if (stops || (leg.order.empty() && station)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, run, *station, leg)
                                                      : stop_actions(fleet, run, *station, leg.id);
@@ -191,8 +202,13 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         task.visits = {{goal, kStop_s}};
     }
     auto sequence = sequence_of(fleet, run);
-    sequence.ends_at = goal;
-    if (!sequence.steps.empty()) task.sequences = {std::move(sequence)};
+    if (!sequence.steps.empty()) {
+        // A horizon of before a restart may lead elsewhere, to give way: the search goes on there.
+        const auto end =
+            class_of(fleet, run).motion.place_at(plant::HallId(leg.hall), leg.nodes.back().pose);
+        sequence.ends_at = end ? static_cast<traffic::PlaceIndex>(*end) : kNoPlace;
+        if (end) task.sequences = {std::move(sequence)};
+    }
     auto admitted = traffic.admit(stand.vehicle, task, now);
     const bool on_roads =
         plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;
@@ -210,6 +226,32 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     stand.leg_planned = true;
     take_horizon(fleet, run);
     return std::nullopt;
+}
+
+bool stands_at_stop(const FleetState& fleet, const VehicleRun& run) {
+    if (run.leg().nodes.size() == 1) return true;  // corrects or measures where it stands
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    return run.leg().passed_nodes == run.leg().nodes.size() && plan.passed < plan.last() &&
+           plan.at(plan.passed + 1).visit != kNoVisit;
+}
+
+bool is_dead_end(const FleetState& fleet, const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    if (leg.nodes.size() < 2 || leg.passed_nodes < leg.released_nodes) return false;
+    if (plan.place != kNoPlace || plan.last() > plan.passed) return false;
+    if (!leg.nodes.back().actions.empty() && leg.nodes.size() == leg.released_nodes) return false;
+    const auto end =
+        class_of(fleet, run).motion.place_at(plant::HallId(leg.hall), leg.nodes.back().pose);
+    return leg.nodes.size() == leg.released_nodes || !end;
+}
+
+bool goes_by_places(const FleetState& fleet, const VehicleRun& run) {
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) {
+        if (plan.at(n).place == kNoPlace) return false;
+    }
+    return true;
 }
 
 void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {

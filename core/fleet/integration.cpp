@@ -38,6 +38,7 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.record.at_station.empty()) fleet.changed_stations.insert(run.record.at_station);
     run.record.at_station = {};
     run.record.pose_known = false;
+    run.record.pose = {};
     JobOrder* order = fleet.orders.of(run.record.id);
     drop_leg(fleet, run, now);
     leave_floor(fleet, run, now);

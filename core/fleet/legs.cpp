@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -218,7 +219,7 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
               {{"nodes", static_cast<std::int64_t>(leg.released_nodes)},
                {"of", static_cast<std::int64_t>(leg.nodes.size())},
                {"update", leg.update_id}});
-    fleet.store(run);
+    if (!mutated(Mutation::kBaseNotStored)) fleet.store(run);
 }
 
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now) {
@@ -232,7 +233,21 @@ void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Tim
     fleet.out.messages.push_back({run.record.id, std::move(message), std::nullopt});
     run.update_from = from;
     run.update_sent = now;
+    if (run.connected) run.order_sent = now;
     ++run.update_sends;
+}
+
+void take_leg(VehicleRun& run, Leg leg) {
+    run.record.has_leg = true;
+    run.record.leg = leg.id;
+    run.record.leg_data = std::move(leg);
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.update_sends = 0;
+    run.order_sent.reset();
+    run.gave_up = false;
+    run.leg_started.reset();
+    run.floor.idle_since.reset();
 }
 
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
@@ -242,7 +257,11 @@ void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.leg_seen = false;
     run.update_sent.reset();
     run.update_sends = 0;
+    run.order_sent.reset();
+    run.gave_up = false;
     run.cancelling = false;
+    // Repeated, it would hit the next leg.
+    std::erase_if(run.actions, [](const auto& p) { return p.action.type == "cancelOrder"; });
     run.leg_started.reset();
     run.floor.leg_planned = false;
     run.floor.idle_since.reset();

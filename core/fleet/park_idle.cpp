@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "core/fleet/dispatch_phases.hpp"
 
@@ -7,11 +10,18 @@ namespace {
 
 // An order that comes soon after a stop finds the vehicle still there.
 constexpr Duration kParkAfter = std::chrono::seconds(10);
+constexpr std::size_t kMostRestsTried = 6;  // a plan each
+constexpr Duration kLeaveAgain = std::chrono::seconds(2);
 
 std::set<traffic::VehicleIndex> waited_for(const FleetState& fleet) {
     std::set<traffic::VehicleIndex> found;
-    for (const auto& wait : fleet.floor.traffic.waits()) {
-        if (wait.block.cause == traffic::BlockCause::kVehicle) found.insert(wait.block.vehicle);
+    const auto add = [&](const traffic::Block& block) {
+        if (block.cause == traffic::BlockCause::kVehicle) found.insert(block.vehicle);
+    };
+    for (const auto& wait : fleet.floor.traffic.waits()) add(wait.block);
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (!run.floor.next_try) continue;
+        if (const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle)) add(*block);
     }
     return found;
 }
@@ -23,6 +33,14 @@ plant::StationId last_station(const FleetState& fleet, const VehicleRun& run) {
     return fleet.floor.classes[run.floor.of_class].motion.places[place].station;
 }
 
+void tell_leaving(FleetState& fleet, VehicleRun& run, Time now) {
+    fleet.store(run);
+    add_event(fleet, now, "vehicle.makes_way", {}, run.leg().id, run.record.id, {},
+              {{"station", run.leg().station.str()}});
+    extend_base(fleet, run, now);
+}
+
+/// On the way that traffic has found for it.
 void leave(FleetState& fleet, VehicleRun& run, const plant::StationId& station, Time now) {
     Leg leg;
     leg.id = LegId(fleet.ids.next(now));
@@ -35,29 +53,73 @@ void leave(FleetState& fleet, VehicleRun& run, const plant::StationId& station, 
     take_leg(run, std::move(leg));
     run.floor.idle_since = idle_since;
     take_plan_as_leg(fleet, run);
-    fleet.store(run);
-    add_event(fleet, now, "vehicle.makes_way", {}, run.leg().id, run.record.id, {},
-              {{"station", station.str()}});
-    extend_base(fleet, run, now);
+    tell_leaving(fleet, run, now);
+}
+
+/// Resting places that the vehicle may have, nearest first.
+std::vector<const plant::Station*> resting_places(const FleetState& fleet, const VehicleRun& run) {
+    std::vector<const plant::Station*> found;
+    const auto& motion = fleet.floor.classes[run.floor.of_class].motion;
+    for (const auto& station : fleet.plant.stations) {
+        if (station.resting_place && motion.station_place(station.id)) found.push_back(&station);
+    }
+    const auto at = run.record.pose.position();
+    std::stable_sort(found.begin(), found.end(), [&](const auto* a, const auto* b) {
+        return geometry::distance(a->pose.position(), at) <
+               geometry::distance(b->pose.position(), at);
+    });
+    return found;
+}
+
+/// It stands beside the places that traffic knows, so traffic cannot send it off.
+void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
+    std::size_t tried = 0;
+    for (const auto* station : resting_places(fleet, run)) {
+        if (++tried > kMostRestsTried) break;
+        const auto plan = fleet.planner.plan_leg(
+            leg_request(fleet, run, run.record.pose, station->id, plant::MotionMode::kAuto));
+        if (!plan) continue;
+        Leg leg =
+            build_leg(fleet, run, *plan, *station, run.record.pose, LegId(fleet.ids.next(now)));
+        leg.nodes.back().actions = rest_actions(fleet, run, *station, leg);
+        const VehicleRecord before = run.record;
+        take_leg(run, std::move(leg));
+        if (!plan_on_floor(fleet, run, now)) return tell_leaving(fleet, run, now);
+        run.record = before;
+    }
+    run.floor.next_leave = now + kLeaveAgain;
 }
 
 }  // namespace
 
 void park_idle(FleetState& fleet, Time now) {
     std::optional<std::set<traffic::VehicleIndex>> wanted_away;
+    const auto is_wanted_away = [&](const VehicleRun& run) {
+        if (!wanted_away) wanted_away = waited_for(fleet);
+        return wanted_away->count(run.floor.vehicle) != 0;
+    };
     for (auto& [id, run] : fleet.vehicles) {
         const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
         // An order whose own way is barred does not keep its vehicle from making way meanwhile.
         const bool waits = !fleet.orders.of(id) || run.floor.next_try;
-        const bool idle = !run.has_leg() && waits && plan.last() > plan.passed;
+        const bool has_way = plan.last() > plan.passed;
+        const bool astray = !has_way && plan.place == traffic::kNoPlace && !is_loaded(run);
+        const bool idle = !run.has_leg() && waits && (has_way || astray);
         if (!idle || cannot_move(fleet, run) || not_ready(fleet, run, now)) {
             if (!idle) run.floor.idle_since.reset();
             continue;
         }
+        if (astray) {
+            const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
+            if (soon || !is_wanted_away(run) || ends_charging(fleet, run, now)) continue;
+            leave_from_anywhere(fleet, run, now);
+            continue;
+        }
         if (!run.floor.idle_since) run.floor.idle_since = now;
-        if (now - *run.floor.idle_since < kParkAfter) {
-            if (!wanted_away) wanted_away = waited_for(fleet);
-            if (wanted_away->count(run.floor.vehicle) == 0) continue;
+        if (now - *run.floor.idle_since < kParkAfter && !is_wanted_away(run)) continue;
+        if (!goes_by_places(fleet, run)) {
+            settle(fleet, run, now, true);  // the rest of a way that was given up
+            continue;
         }
         const auto station = last_station(fleet, run);
         if (station.empty() || ends_charging(fleet, run, now)) continue;

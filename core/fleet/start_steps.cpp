@@ -29,6 +29,14 @@ bool waits_to_try(const VehicleRun& run, Time now) {
     return run.floor.next_try && now < *run.floor.next_try;
 }
 
+/// Gives up a leg that leads no further; the vehicle gets one of its own from where it stands.
+bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.cancelling || !run.leg_seen || run.update_sent) return false;
+    if (cannot_move(fleet, run) || !is_dead_end(fleet, run)) return false;
+    cancel_leg(fleet, run, now);
+    return true;
+}
+
 /// A leg that outlived a restart has its base only; the rest of it is planned again.
 void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
@@ -106,7 +114,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
 
 void start_steps(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
-        if (run.has_leg()) plan_rest(fleet, run, now);
+        if (run.has_leg() && !leave_dead_end(fleet, run, now)) plan_rest(fleet, run, now);
     }
     for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
         VehicleRun* run = fleet.find(order->assigned_vehicle);

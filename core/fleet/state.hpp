@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -10,6 +11,7 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor.hpp"
 #include "core/fleet/order_book.hpp"
+#include "core/fleet/plant_tables.hpp"
 #include "core/planning/leg_planner.hpp"
 
 /// The fleet's own state, shared by the phases of fleet.cpp. Not for use outside core/fleet.
@@ -46,7 +48,9 @@ struct VehicleRun {
     std::size_t update_from = 0;      // first node of the last update
     std::optional<Time> update_sent;  // until the vehicle shows its update id
     int update_sends = 0;
-    bool cancelling = false;  // cancelOrder is not final: nothing but instant actions
+    std::optional<Time> order_sent;  // newest message of this leg on this connection
+    bool gave_up = false;            // the vehicle does not have this leg; see forget_leg
+    bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
     FloorStand floor;
     std::optional<Time> leg_started;
     std::vector<PendingAction> actions;
@@ -76,11 +80,18 @@ struct PlannedLeg {
 };
 
 struct FleetState {
-    FleetState(const plant::Plant& p, std::uint64_t id_seed, Time now)
-        : plant(p), planner(p), ids(id_seed), started(now) {}
+    FleetState(const plant::Plant& p, std::shared_ptr<const PlantTables> of_plant,
+               std::uint64_t id_seed, Time now)
+        : plant(p),
+          tables(std::move(of_plant)),
+          planner(tables->planner),
+          ids(id_seed),
+          started(now),
+          floor(tables->classes) {}
 
     const plant::Plant& plant;
-    planning::LegPlanner planner;
+    std::shared_ptr<const PlantTables> tables;
+    const planning::LegPlanner& planner;
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, VehicleRun> vehicles;
@@ -172,6 +183,8 @@ void take_leg(VehicleRun& run, Leg leg);
 /// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
 void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
+/// The vehicle gets this leg; nothing of it is sent yet.
+void take_leg(VehicleRun& run, Leg leg);
 /// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
 
@@ -185,6 +198,11 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Sends startPause or stopPause; the newest wish counts.
 void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
+/// The vehicle has not shown its leg and may still get the message: the leg must not be forgotten.
+bool is_on_its_way(const VehicleRun& run, Time now);
+/// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the
+/// base, which only the leg remembers over a restart: so long the leg is kept.
+void forget_leg(FleetState& fleet, VehicleRun& run, Time now);
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
 void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
@@ -256,7 +274,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now);
 
 // --- views (views.cpp) ---
 StationView station_view(const FleetState& fleet, const plant::Station& station);
-VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now);
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg = true);
 std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
                                 const plant::Station* target,
                                 const std::optional<planning::LegPlan>& plan, Time now);

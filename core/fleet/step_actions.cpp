@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -23,7 +24,10 @@ void enter(Step& step, StepPhase phase) {
 void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
     order.steps[step].state = StepState::kDone;
     order.current_step = step + 1;
-    fleet.store(order);
+    if (mutated(Mutation::kLastStepSkipped) && order.current_step + 1 == order.steps.size()) {
+        ++order.current_step;
+    }
+    if (!mutated(Mutation::kGoodStopNotStored)) fleet.store(order);
     if (order.current_step == order.steps.size()) {
         set_order_state(fleet, order, JobState::kEnded, {}, {}, now);
     } else if (order.cancel_requested) {

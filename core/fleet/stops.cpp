@@ -53,7 +53,7 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
     JobOrder* order = fleet.find(run.leg().order);
     const int attempt = run.leg().attempt;
     const int step = run.leg().step;
-    drop_leg(fleet, run, now, true);
+    drop_leg(fleet, run, now, run.leg().passed_nodes == run.leg().nodes.size());
     if (!order) return;
     auto& current = order->steps[static_cast<std::size_t>(step)];
     current.state = StepState::kPending;

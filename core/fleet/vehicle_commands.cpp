@@ -22,6 +22,32 @@ bool is_about_vehicle(const Reason& reason) {
                        [&](const char* code) { return reason.code == code; });
 }
 
+void resume_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!run.has_leg()) return;
+    if (run.state.order_id == run.leg().id.str()) {
+        if (run.state.order_update_id != run.leg().update_id) cancel_leg(fleet, run, now);
+        return;
+    }
+    if (is_on_its_way(run, now)) {
+        // It could be begun after it was forgotten here, so the vehicle is asked once more.
+        run.update_sends = 0;
+        return send_order_update(fleet, run, 0, now);
+    }
+    // The vehicle never got it or gave it up; the step starts anew from where it stands.
+    forget_leg(fleet, run, now);
+}
+
+void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::string& actor,
+                Time now) {
+    if (order.cancel_requested) {
+        if (run.has_leg()) return cancel_leg(fleet, run, now);
+        return abort_order(fleet, order, order.reason, actor, now);
+    }
+    if (order.state == JobState::kInterrupted && is_about_vehicle(order.reason)) {
+        set_order_state(fleet, order, JobState::kRunning, {}, actor, now);
+    }
+}
+
 }  // namespace
 
 Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::string& actor,
@@ -54,7 +80,8 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
             "Vehicle " + id.str() + " is not connected. Its position can be set when it is.", {},
             {{"vehicle", id.str()}});
     }
-    if (run->state.driving || run->has_leg()) {
+    const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str();
+    if (run->state.driving || has_order) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
                     {}, {{"vehicle", id.str()}});
@@ -114,26 +141,8 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         if (was_paused || run.state.paused) pause_motion(*state_, run, "stopPause", now);
 
         JobOrder* order = state_->orders.of(id);
-        if (run.has_leg() && run.state.order_id != run.leg().id.str()) {
-            // The vehicle never got it or gave it up; the step starts anew from where it stands.
-            drop_leg(*state_, run, now);
-            if (order && order->current_step < order->steps.size()) {
-                order->steps[order->current_step].state = StepState::kPending;
-                state_->store(*order);
-            }
-        } else if (run.has_leg() && run.state.order_update_id != run.leg().update_id) {
-            cancel_leg(*state_, run, now);
-        }
-        if (!order) continue;
-        if (order->cancel_requested) {
-            if (!run.has_leg()) {
-                abort_order(*state_, *order, order->reason, actor, now);
-            } else {
-                cancel_leg(*state_, run, now);
-            }
-        } else if (order->state == JobState::kInterrupted && is_about_vehicle(order->reason)) {
-            set_order_state(*state_, *order, JobState::kRunning, {}, actor, now);
-        }
+        resume_leg(*state_, run, now);
+        if (order) go_on_with(*state_, run, *order, actor, now);
     }
     dispatch(*state_, now);
     return {};

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
 
@@ -10,6 +11,7 @@ namespace {
 constexpr Duration kResendEvery = std::chrono::seconds(1);
 constexpr int kOrderSends = 10;  // then the order is interrupted and a person decides
 constexpr Duration kEscalateAfter = std::chrono::seconds(10);
+constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
 
 Link link_after(Duration silent) {
     if (silent >= kGoneAfter) return Link::kGone;
@@ -52,15 +54,26 @@ void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
+/// It has given up its order, or done all of it.
+bool has_nothing_left(const StateMessage& state) {
+    return state.node_states.empty() && state.edge_states.empty() && !state.driving;
+}
+
 void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
     bool cancelled = false;
+    bool again = false;
     std::erase_if(run.actions, [&](const PendingAction& pending) {
         const ActionState* found = find_action(run.state, pending.action.id);
         if (!found || !is_final(found->status)) return false;
         // A cancel is done when the vehicle says so AND stands; floor is freed only then.
         if (pending.action.type == "cancelOrder") {
-            if (run.state.driving) return false;
-            cancelled = true;
+            if (run.state.driving || (run.has_leg() && !run.record.pose_known)) return false;
+            // It knew of no order to cancel: that may still be on its way, or have come since.
+            const bool failed = found->status == ActionStatus::kFailed;
+            if (failed && run.has_leg() && is_on_its_way(run, now)) return false;
+            again = failed && !mutated(Mutation::kCancelFailedIsDone) && run.has_leg() &&
+                    run.state.order_id == run.leg().id.str() && !has_nothing_left(run.state);
+            cancelled = !again;
         }
         add_event(fleet, now, "vehicle.action", {}, {}, run.record.id, {},
                   {{"action", pending.action.type},
@@ -70,6 +83,9 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
         return true;
     });
     if (cancelled) finish_cancel(fleet, run, now);
+    if (!again) return;
+    run.cancelling = false;
+    cancel_leg(fleet, run, now);
 }
 
 void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
@@ -135,6 +151,7 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
 /// are 32 bit and begin anew.
 bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
+    if (mutated(Mutation::kOvertakenStateTaken)) return false;
     if (state.header_id == 0 || run.newest_header == 0) return false;
     const std::int64_t ahead = state.header_id - run.newest_header;
     return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
@@ -151,20 +168,20 @@ void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time 
     fleet.store(order);
 }
 
+/// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
+void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
+    require_person(fleet, run, {"vehicle_lost_order", {}}, now);
+    forget_leg(fleet, run, now);
+}
+
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     Leg& leg = run.leg();
     if (state.order_id != leg.id.str()) {
         if (run.leg_seen) {
-            // Restarted, switched to manual or cancelled by hand: it no longer knows its order.
-            require_person(fleet, run, {"vehicle_lost_order", {}}, now);
-            run.leg_seen = false;
-            drop_leg(fleet, run, now);
-            if (JobOrder* order = fleet.orders.of(run.record.id);
-                order && order->current_step < order->steps.size()) {
-                order->steps[order->current_step].state = StepState::kPending;
-                fleet.store(*order);
-            }
+            lose_order(fleet, run, now);
+        } else if (run.gave_up) {
+            forget_leg(fleet, run, now);
         } else if (const auto* error = rejection_of(state, leg.id.str())) {
             require_person(
                 fleet, run,
@@ -207,6 +224,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             return;
         }
         if (is_final(found->status)) {
+            // A cancelOrder of before a restart fails the stop before the vehicle stands.
+            if (!has_nothing_left(state) && !mutated(Mutation::kFailedStopWhileMoving)) return;
             take_failed_stop(fleet, run, found->result_description, now);
             return;
         }
@@ -219,7 +238,10 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         }
     }
     const bool makes_way = leg.order.empty();
-    const bool idle = state.node_states.empty() && state.edge_states.empty() && !state.driving;
+    const bool idle = has_nothing_left(state);
+    if (idle && leg.passed_nodes < leg.released_nodes && state.order_update_id == leg.update_id) {
+        return lose_order(fleet, run, now);
+    }
     if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
         for (const auto& action : leg.nodes.back().actions) {
             const ActionState* found = find_action(state, action.id);
@@ -232,7 +254,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         drop_leg(fleet, run, now, true);
         return;
     }
-    if (!measures && idle && leg.passed_nodes == leg.nodes.size() && state.pose) {
+    if (!measures && idle && stands_at_stop(fleet, run) && state.pose) {
         // A vehicle without measureStop: its own pose at the last node is the measurement.
         StopMeasurement found;
         found.pose = *state.pose;
@@ -256,6 +278,26 @@ void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleEr
 
 }  // namespace
 
+void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    run.leg_seen = false;
+    run.update_sent.reset();
+    run.gave_up = true;
+    if (!run.record.pose_known) return;
+    drop_leg(fleet, run, now);
+    JobOrder* order = fleet.orders.of(run.record.id);
+    if (!order || order->current_step >= order->steps.size()) return;
+    order->steps[order->current_step].state = StepState::kPending;
+    fleet.store(*order);
+    if (order->cancel_requested && !run.record.needs_resume) {
+        abort_order(fleet, *order, order->reason, {}, now);
+    }
+}
+
+bool is_on_its_way(const VehicleRun& run, Time now) {
+    if (mutated(Mutation::kWayOrderForgotten)) return false;
+    return !run.leg_seen && run.order_sent && now - *run.order_sent < kLongestWay;
+}
+
 void hear(FleetState& fleet, VehicleRun& run, Time now) {
     run.last_heard = now;
     set_link(fleet, run, Link::kLive, now);
@@ -265,6 +307,7 @@ void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.connected = true;
     run.reconciled = false;
     run.newest_header = 0;
+    run.order_sent.reset();  // what was under way on the old connection is lost
     add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
     hear(fleet, run, now);
 }
@@ -306,7 +349,7 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     take_pose(fleet, run, now);
     take_action_states(fleet, run, now);
     if (run.has_leg()) take_leg_progress(fleet, run, now);
-    if (!run.has_leg() && !state.driving) settle(fleet, run, now);
+    if (!state.driving) settle(fleet, run, now);
     halt_or_resume(fleet, run, now);
     offer_pose_from_codes(fleet, run, now);
 }
@@ -341,6 +384,7 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     action.type = "cancelOrder";
     add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
     send_action(fleet, run, std::move(action), now);
+    if (mutated(Mutation::kCancelNotAwaited)) finish_cancel(fleet, run, now);
 }
 
 void update_links(FleetState& fleet, Time now) {

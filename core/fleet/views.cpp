@@ -196,7 +196,7 @@ const char* to_string(StepState state) {
 
 bool is_final(JobState state) { return state == JobState::kEnded || state == JobState::kAborted; }
 
-VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg) {
     VehicleView view;
     view.id = run.record.id;
     view.link = run.link;
@@ -214,7 +214,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now) {
     if (const auto* order = fleet.orders.of(run.record.id)) {
         view.order = order->id;
     }
-    if (run.has_leg()) view.leg = leg_view(run);
+    if (with_leg && run.has_leg()) view.leg = leg_view(run);
     view.paused = run.record.paused;
     view.integration = run.record.integration;
     view.needs_resume = run.record.needs_resume;

@@ -208,6 +208,8 @@ std::optional<std::size_t> MotionGraph::place_at(const plant::HallId& hall,
     double least_m = kAtPlace_m;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const MotionPlace& place = places[i];
+        // Most places are far away: not worth a root.
+        if (std::abs(place.pose.x_m - pose.x_m) > kAtPlace_m) continue;
         const double away_m = geometry::distance(place.pose.position(), pose.position());
         if (away_m > least_m || place.hall != hall) continue;
         if (std::abs(wrap(place.pose.heading_rad - pose.heading_rad)) > kAtPlace_rad) continue;

@@ -1,10 +1,16 @@
 #include "core/traffic/monitor.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <set>
 
 namespace pulseline::traffic {
+namespace {
+
+constexpr VehicleIndex kNobody = std::numeric_limits<VehicleIndex>::max();
+
+}  // namespace
 
 std::string to_string(const Violation& violation) {
     return violation.law + ": vehicle " + std::to_string(violation.vehicle) + ", move " +
@@ -267,16 +273,22 @@ bool Monitor::number_moves(std::vector<std::vector<std::int64_t>>& numbers,
 void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers,
                            std::vector<Violation>& found) const {
     struct Stay {
+        Tile tile;
         std::int64_t number;  // of its first move; -1: on the tile already
         VehicleIndex vehicle;
         MoveNumber first;
         MoveNumber last;
     };
-    std::vector<std::vector<Stay>> stays(tile_ids_.size());
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    std::vector<Stay> stays;
+    std::vector<std::size_t> newest(tile_ids_.size(), kNone);  // of stays, by tile
+    const auto stay = [&](Tile tile, const Stay& begins) {
+        newest[tile] = stays.size();
+        stays.push_back(begins);
+    };
     for (VehicleIndex v = 0; v < bodies_.size(); ++v) {
         const Body& body = bodies_[v];
-        std::vector<Tile> here = body.stand;
-        for (const Tile tile : here) stays[tile].push_back({-1, v, body.passed, kForever});
+        for (const Tile tile : body.stand) stay(tile, {tile, -1, v, body.passed, kForever});
         for (MoveNumber n = body.passed + 1; n <= body.end(); ++n) {
             const Step& step = body.step(n);
             for (const MoveRef& ref : step.waits_for) {
@@ -286,32 +298,37 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
             }
             const std::int64_t number = n <= body.granted ? -1 : numbers[v][n - body.passed - 1];
             for (const Tile tile : step.swept) {
-                auto& list = stays[tile];
+                const auto known = newest[tile];
                 const bool still =
-                    !list.empty() && list.back().vehicle == v && list.back().last == kForever;
-                if (!still) list.push_back({number, v, n, kForever});
+                    known != kNone && stays[known].vehicle == v && stays[known].last == kForever;
+                if (!still) stay(tile, {tile, number, v, n, kForever});
                 if (!std::binary_search(step.stand.begin(), step.stand.end(), tile)) {
-                    list.back().last = n;
+                    stays[newest[tile]].last = n;
                 }
             }
         }
     }
-    for (Tile tile = 0; tile < stays.size(); ++tile) {
-        auto& list = stays[tile];
-        if (list.size() < 2) continue;
-        std::stable_sort(list.begin(), list.end(),
-                         [](const Stay& a, const Stay& b) { return a.number < b.number; });
-        for (std::size_t i = 1; i < list.size(); ++i) {
-            const Stay& a = list[i - 1];
-            const Stay& b = list[i];
-            if (a.vehicle == b.vehicle || b.number < 0) continue;
-            const auto& waits = bodies_[b.vehicle].step(b.first).waits_for;
-            const bool ordered = std::any_of(waits.begin(), waits.end(), [&](const MoveRef& ref) {
-                return ref.vehicle == a.vehicle && ref.move >= a.last;
-            });
-            if (!ordered) {
-                found.push_back({"order_missing", b.vehicle, b.first, a.vehicle, tile_ids_[tile]});
-            }
+    // A tile that one vehicle uses only has no order to claim: most are.
+    std::vector<VehicleIndex> user(tile_ids_.size(), kNobody);
+    std::vector<bool> shared(tile_ids_.size(), false);
+    for (const Stay& s : stays) {
+        if (user[s.tile] != kNobody && user[s.tile] != s.vehicle) shared[s.tile] = true;
+        user[s.tile] = s.vehicle;
+    }
+    std::erase_if(stays, [&](const Stay& s) { return !shared[s.tile]; });
+    std::stable_sort(stays.begin(), stays.end(), [](const Stay& a, const Stay& b) {
+        return a.tile != b.tile ? a.tile < b.tile : a.number < b.number;
+    });
+    for (std::size_t i = 1; i < stays.size(); ++i) {
+        const Stay& a = stays[i - 1];
+        const Stay& b = stays[i];
+        if (a.tile != b.tile || a.vehicle == b.vehicle || b.number < 0) continue;
+        const auto& waits = bodies_[b.vehicle].step(b.first).waits_for;
+        const bool ordered = std::any_of(waits.begin(), waits.end(), [&](const MoveRef& ref) {
+            return ref.vehicle == a.vehicle && ref.move >= a.last;
+        });
+        if (!ordered) {
+            found.push_back({"order_missing", b.vehicle, b.first, a.vehicle, tile_ids_[b.tile]});
         }
     }
 }

@@ -29,6 +29,13 @@ double World::delay_s() {
     return 0.1 * pick(2, 40);
 }
 
+int World::copies() {
+    if (!disturbed_ || !chance(bad_line_)) return 1;
+    const bool lost = chance(0.5);
+    ++outcome_.faults[lost ? "message lost" : "message doubled"];
+    return lost ? 0 : 2;
+}
+
 void World::disturb() {
     plant::VehicleId id;
     switch (pick(0, 9)) {
@@ -93,7 +100,7 @@ void World::crash(const char* how) {
 void World::disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     Watch& watch = watch_[id];
     if (vehicle.dead) return;
-    switch (pick(0, 5)) {
+    switch (pick(0, 6)) {
         case 0:
         case 1:
             ++outcome_.faults["vehicle dies and returns"];
@@ -116,15 +123,26 @@ void World::disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
             watch.broken_until_s = now_s_ + pick(5, 300);
             break;
         case 4:
-            ++outcome_.faults["vehicle paused by a person"];
-            if (!unstored_) {
-                static_cast<void>(fleet_->pause_vehicle(id, "person", now()));
-            }
+            pause(id);
+            break;
+        case 5:
+            ++outcome_.faults["safety stop"];
+            vehicle.safety_stopped = true;
+            watch.safety_until_s = now_s_ + pick(5, 120);
             break;
         default:
             push(id, vehicle);
             break;
     }
+}
+
+void World::pause(const plant::VehicleId& id) {
+    if (unstored_ || now_s_ < stalled_until_s_) return;
+    ++outcome_.faults["vehicle paused by a person"];
+    const auto servers = servers_;
+    const auto paused = fleet_->pause_vehicle(id, "person", now());
+    settle();
+    if (paused && servers == servers_ && !unstored_) watch_[id].needs_person = true;
 }
 
 /// By hand, a little, where nobody is near, while it stands without an order; the vehicle tells.
@@ -145,7 +163,9 @@ void World::push(const plant::VehicleId& id, Vehicle& vehicle) {
     to.heading_rad = wrap(to.heading_rad + radians(pick(-5, 5)));
     vehicle.push(to);
     ++outcome_.faults["vehicle pushed by hand"];
-    fleet_->vehicle_state(id, vehicle.state(), now());
+    const auto state = vehicle.state();
+    note_told(id, state);
+    fleet_->vehicle_state(id, state, now());
     settle();
 }
 
@@ -200,6 +220,8 @@ void World::end_faults() {
             line.server_knows = false;
         }
         if (vehicle.manual && now_s_ >= watch.manual_until_s) vehicle.manual = false;
+        if (vehicle.safety_stopped && now_s_ >= watch.safety_until_s)
+            vehicle.safety_stopped = false;
         if (vehicle.broken && now_s_ >= watch.broken_until_s) vehicle.broken = false;
         if (!vehicle.dead || now_s_ < watch.dead_until_s) continue;
         vehicle.dead = false;
@@ -230,6 +252,7 @@ void World::end_disturbances() {
     server_crashes_ = false;
     for (auto& [id, watch] : watch_) {
         watch.dead_until_s = watch.manual_until_s = watch.broken_until_s = now_s_;
+        watch.safety_until_s = now_s_;
         lines_[id].cut_until_s = now_s_;
     }
     for (auto& closed : closed_) closed.until_s = now_s_;

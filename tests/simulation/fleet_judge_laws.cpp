@@ -8,6 +8,7 @@ namespace pulseline::fleet_judge {
 namespace {
 
 constexpr std::size_t kEventsShown = 60;
+constexpr double kHeard_s = 3;  // the fleet's own limit is 2 s
 
 bool meet(const Vehicle& a, const Vehicle& b) {
     const double reach = (a.type().length_m() + b.type().length_m()) / 2 + 3;
@@ -108,10 +109,28 @@ void World::check_sent(const fleet::VehicleMessage& message) {
     const bool extends = before == known.end() || before->second < base;
     if (!extends) return;
     known[message.order->order_id] = base;
-    const auto& record = store_.vehicles[message.vehicle];
-    if (record.needs_resume || record.paused) {
-        violate(message.vehicle.str() + " is given floor while it waits for a person");
+    if (base > 0) check_given_floor(message.vehicle);
+}
+
+/// Nobody gets floor who waits for a person, cannot drive or is not heard, as far as the server had
+/// been told when it decided.
+void World::check_given_floor(const plant::VehicleId& id) {
+    const auto& record = store_.vehicles[id];
+    const Watch& watch = watch_[id];
+    if (record.needs_resume || record.paused || watch.needs_person) {
+        violate(id.str() + " is given floor while it waits for a person");
     }
+    if (watch.counted.unfit) violate(id.str() + " is given floor and says that it cannot drive");
+    if (now_s_ - watch.told.at_s > kHeard_s) violate(id.str() + " is silent and is given floor");
+}
+
+void World::note_told(const plant::VehicleId& id, const fleet::StateMessage& state) {
+    auto& told = watch_[id].told;
+    told.at_s = now_s_;
+    if (state.header_id <= told.header) return;  // overtaken
+    told.header = state.header_id;
+    told.unfit = state.operating_mode != "AUTOMATIC" || state.e_stop != "NONE" || state.paused;
+    for (const auto& error : state.errors) told.unfit |= error.fatal;
 }
 
 void World::check_records(const fleet::Records& records) {
@@ -127,6 +146,10 @@ void World::check_records(const fleet::Records& records) {
         if (options_.trace)
             std::printf("   stop by %s method %s\n", stop.vehicle.str().c_str(),
                         stop.method.c_str());
+        if (stop.method != "dual_camera") {
+            violate("the stop of step " + std::to_string(stop.step) + " of " + stop.order.str() +
+                    " was not measured but taken as " + stop.method);
+        }
         if (!stop.inside) continue;
         if (!good_stops_.insert({stop.order, stop.step}).second) {
             violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +
@@ -138,6 +161,14 @@ void World::check_records(const fleet::Records& records) {
         if (known != store_.orders.end() && fleet::is_final(known->second.state) &&
             known->second.state != order.state) {
             violate("order " + order.id.str() + " was over and is not any more");
+        }
+        if (const auto found = vehicles_.find(order.assigned_vehicle); found != vehicles_.end()) {
+            const bool other =
+                !order.wanted_vehicle.empty() && order.wanted_vehicle != found->first;
+            const bool type =
+                !order.wanted_type.empty() && order.wanted_type != found->second.type().id;
+            if (other || type)
+                violate("order " + order.id.str() + " has a vehicle it must not have");
         }
         if (order.state != fleet::JobState::kEnded || order.stop_requested) continue;
         for (std::size_t i = 0; i < order.steps.size(); ++i) {
@@ -158,6 +189,7 @@ void World::check_all() {
             violate("acknowledged order " + asked.id.str() + " is lost");
         }
     }
+    if (store_.orders.size() > asked_.size()) violate("a doubled request made two orders");
 }
 
 bool World::all_over() const {
@@ -173,7 +205,6 @@ void World::check_end() {
     for (const auto& asked : asked_) {
         if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");
     }
-    if (store_.orders.size() > asked_.size()) violate("a doubled request made two orders");
     for (const auto& [id, order] : store_.orders) {
         if (fleet::is_final(order.state)) continue;
         violate("order " + id.str() + " of " + order.assigned_vehicle.str() + " is still " +
@@ -207,10 +238,13 @@ void World::violate(const std::string& what) {
     outcome_.violations.push_back(at + what);
     if (outcome_.violations.size() > 1) return;
     const auto& events = store_.events;
-    const std::size_t from = events.size() > kEventsShown ? events.size() - kEventsShown : 0;
-    for (std::size_t i = from; i < events.size(); ++i) {
-        outcome_.last_events.push_back(text_of(events[i]));
+    auto& shown = outcome_.last_events;
+    for (auto event = events.rbegin(); event != events.rend() && shown.size() < kEventsShown;
+         ++event) {
+        const bool noise = event->type == "vehicle.link" || event->type == "vehicle.connected";
+        if (!noise) shown.push_back(text_of(*event));
     }
+    std::reverse(shown.begin(), shown.end());
 }
 
 void World::take_in(const std::string& text) {

@@ -89,7 +89,7 @@ void World::let_person_act() {
 
 void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     Watch& watch = watch_[id];
-    const auto view = fleet_->vehicle(id, now());
+    const auto view = fleet_->vehicle(id, now(), false);  // what the dashboard shows
     const bool lost = !view->pose_known && view->link == fleet::Link::kLive;
     const bool waits =
         view->needs_resume || view->paused || (view->state.paused && view->order.empty());
@@ -101,11 +101,12 @@ void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
         watch.person_at_s = now_s_ + pick(5, 90);
         return;
     }
-    if (now_s_ < watch.person_at_s || vehicle.manual || vehicle.broken || vehicle.dead) return;
+    const bool down = vehicle.manual || vehicle.broken || vehicle.dead || vehicle.safety_stopped;
+    if (now_s_ < watch.person_at_s || down) return;
     watch.person_at_s = now_s_ + 5;
     if (waits) {
         if (!fleet_->resume_fleet({id}, "person", now())) return;
-        watch.restarted_on_leg = false;
+        watch.restarted_on_leg = watch.needs_person = false;
     } else if (vehicle.standing() && !vehicle.knows_pose()) {
         // No codes below it: the person says where it stands.
         static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));

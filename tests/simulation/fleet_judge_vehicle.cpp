@@ -75,7 +75,7 @@ void Vehicle::receive(const fleet::VehicleMessage& message) {
 
 void Vehicle::step(double dt_s) {
     moved_ = false;
-    if (dead || manual || broken) return;
+    if (dead || manual || broken || safety_stopped) return;
     const Pose2 before = motion_->true_pose();
     executor_->step(dt_s);
     moved_ = !(before.x_m == pose().x_m && before.y_m == pose().y_m &&
@@ -109,7 +109,8 @@ fleet::StateMessage Vehicle::state() {
     if (!knows_pose() && standing()) state.cameras = readings();
     if (manual) state.operating_mode = "MANUAL";
     if (broken) state.errors.push_back({"driveFault", true, "the drive is hot", {}});
-    if (manual || broken) {
+    if (safety_stopped) state.e_stop = "MANUAL";
+    if (manual || broken || safety_stopped) {
         state.driving = false;
         state.velocity_mps = state.turn_rate_radps = 0;
     }
@@ -117,7 +118,7 @@ fleet::StateMessage Vehicle::state() {
 }
 
 bool Vehicle::take_changed() {
-    const bool is = manual || broken;
+    const bool is = manual || broken || safety_stopped;
     return executor_->take_changed() || std::exchange(was_, is) != is;
 }
 

@@ -36,9 +36,10 @@ public:
     bool at_work() const { return !motion_->idle() || executor_->acting(); }
     const simulation::VehicleExecutor& executor() const { return *executor_; }
 
-    bool dead = false;    // without power: silent and standing
-    bool manual = false;  // a person has taken it over
-    bool broken = false;  // a fatal error; it stands
+    bool dead = false;            // without power: silent and standing
+    bool manual = false;          // a person has taken it over
+    bool broken = false;          // a fatal error; it stands
+    bool safety_stopped = false;  // until a person acknowledges it at the vehicle
 
 private:
     class Cameras;

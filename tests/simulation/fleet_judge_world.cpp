@@ -35,6 +35,10 @@ World::World(std::uint64_t seed, const Options& options) : random_(seed), option
     bad_line_ = calm || chance(0.3) ? 0 : 0.001 * pick(1, 30);
     disturbed_ = !calm;
     outcome_.vehicles = static_cast<int>(vehicles_.size());
+    std::set<plant::VehicleTypeId> classes;
+    for (const auto& vehicle : plant_.vehicles) classes.insert(vehicle.type);
+    const bool platform = classes.count(plant::VehicleTypeId("platform")) != 0;
+    outcome_.classes = platform ? static_cast<int>(classes.size()) : 0;
     start_server();
 }
 
@@ -90,9 +94,8 @@ void World::move_vehicles(double dt_s) {
         const bool due = now_s_ >= line.next_state_s;
         if (vehicle.dead || line.cut || !(vehicle.take_changed() || due)) continue;
         line.next_state_s = now_s_ + kStateEvery_s;
-        const int copies = !disturbed_ || !chance(bad_line_) ? 1 : pick(0, 2);
         const auto state = vehicle.state();
-        for (int i = 0; i < copies; ++i) line.up.push_back({now_s_ + delay_s(), state});
+        for (int i = copies(); i > 0; --i) line.up.push_back({now_s_ + delay_s(), state});
     }
 }
 
@@ -101,6 +104,7 @@ void World::carry_messages() {
         if (line.cut || vehicles_.at(id).dead) continue;
         if (!line.server_knows) {
             line.server_knows = true;
+            watch_[id].told = {false, now_s_, 0};
             fleet_->vehicle_connected(id, now());
         }
         for (std::size_t i = 0; i < line.up.size() && !unstored_;) {
@@ -110,6 +114,7 @@ void World::carry_messages() {
             }
             auto mail = std::move(line.up[i]);
             line.up.erase(line.up.begin() + static_cast<std::ptrdiff_t>(i));
+            note_told(id, mail.content);
             fleet_->vehicle_state(id, mail.content, now());
             // Mostly several reports become one commit, as in the server.
             if (chance(0.1)) settle();
@@ -118,21 +123,30 @@ void World::carry_messages() {
 }
 
 void World::start_server() {
-    fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now());
+    fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now(),
+                                            fleet_ ? fleet_->tables() : nullptr);
     for (auto& [id, line] : lines_) {
         line.server_knows = false;
         line.up.clear();
         line.down.clear();
+        watch_[id].told = watch_[id].counted = {};
+        const auto record = store_.vehicles.find(id);
+        watch_[id].needs_person |= record != store_.vehicles.end() && record->second.has_leg;
+    }
+    for (const auto& [id, order] : store_.orders) {
+        const bool works = !order.assigned_vehicle.empty() && !fleet::is_final(order.state);
+        if (works) watch_[order.assigned_vehicle].needs_person = true;
     }
 }
 
 void World::settle() {
     for (int round = 0; round < kRounds && !unstored_; ++round) {
-        fleet::Outputs out = fleet_->take_outputs(now());
-        if (out.records.empty() && out.messages.empty()) return;
+        fleet::Outputs out = fleet_->take_outputs(now(), false);
+        if (out.records.empty() && out.messages.empty()) break;
         if (!commit(out)) return;
         send(out);
     }
+    for (auto& [id, watch] : watch_) watch.counted = watch.told;
 }
 
 /// False: the server died, or the store refused; nothing of it leaves the server.
@@ -152,7 +166,7 @@ bool World::commit(fleet::Outputs& out) {
                 ++outcome_.faults["commit fails"];
                 start_server();
                 fleet_->store_failed({"disk_full", now()}, now());
-                unstored_ = fleet_->take_outputs(now());
+                unstored_ = fleet_->take_outputs(now(), false);
                 store_back_s_ = now_s_ + pick(1, 20);
                 return false;
         }
@@ -179,8 +193,7 @@ void World::send(const fleet::Outputs& out) {
         check_sent(message);
         Line& line = lines_[message.vehicle];
         if (line.cut) continue;
-        const int copies = !disturbed_ || !chance(bad_line_) ? 1 : pick(0, 2);
-        for (int i = 0; i < copies; ++i) line.down.push_back({now_s_ + delay_s(), message});
+        for (int i = copies(); i > 0; --i) line.down.push_back({now_s_ + delay_s(), message});
     }
 }
 

@@ -21,6 +21,7 @@ struct Outcome {
     std::vector<std::string> last_events;
     std::map<std::string, int> faults;
     int vehicles = 0;
+    int classes = 0;  // of them; 0 without a platform
     int orders = 0;
     int ended = 0;
     double end_s = 0;
@@ -58,7 +59,17 @@ private:
         double dead_until_s = 0;
         double manual_until_s = 0;
         double broken_until_s = 0;
-        double person_at_s = 0;                    // when the person has time for it
+        double person_at_s = 0;     // when the person has time for it
+        double safety_until_s = 0;  // its safety stop is pulled
+        bool needs_person = false;  // since a restart of the server or a pause
+        /// What the server has been told of it, and of that what its present outputs know.
+        struct Told {
+            bool unfit = false;
+            double at_s = 0;
+            std::int64_t header = 0;
+        };
+        Told told;
+        Told counted;
         bool restarted_on_leg = false;             // nobody has allowed it to move since
         std::map<std::string, std::int64_t> base;  // by leg: highest node released so far
     };
@@ -91,10 +102,12 @@ private:
     void crash(const char* how);
     void end_disturbances();
     void disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
+    void pause(const plant::VehicleId& id);
     void push(const plant::VehicleId& id, Vehicle& vehicle);
     void disturb_orders();
     void close_some();
     double delay_s();
+    int copies();
 
     // fleet_judge_people.cpp: the client and the person
     void order_some();
@@ -105,6 +118,7 @@ private:
 
     // fleet_judge_laws.cpp
     void check_bodies();
+    void note_told(const plant::VehicleId& id, const fleet::StateMessage& state);
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
     void check_records(const fleet::Records& records);
@@ -112,6 +126,7 @@ private:
     void check_end();
     bool all_over() const;
     void violate(const std::string& what);
+    void check_given_floor(const plant::VehicleId& id);
     void take_in(const fleet::Outputs& out);
     void take_in(const std::string& text);
 

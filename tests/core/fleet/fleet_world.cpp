@@ -201,11 +201,23 @@ void FakeVehicle::receive(const VehicleMessage& message) {
     }
     state.order_id = order.order_id;
     state.order_update_id = order.order_update_id;
+    tell_what_is_left();
     for (const auto& action : order_->nodes.back().actions) {
         const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
                                        [&](const auto& a) { return a.id == action.id; });
         if (!known)
             state.action_states.push_back({action.id, action.type, ActionStatus::kWaiting, {}, {}});
+    }
+}
+
+void FakeVehicle::tell_what_is_left() {
+    state.node_states.clear();
+    state.edge_states.clear();
+    for (std::size_t i = at_ + 1; i < order_->nodes.size(); ++i) {
+        const auto& node = order_->nodes[i];
+        const auto& edge = order_->edges[i - 1];
+        state.node_states.push_back({node.node_id, node.sequence_id, node.released});
+        state.edge_states.push_back({edge.edge_id, edge.sequence_id, edge.released});
     }
 }
 
@@ -226,6 +238,7 @@ bool FakeVehicle::step() {
         state.pose = next.pose;
         state.last_node_id = next.node_id;
         state.last_node_sequence_id = next.sequence_id;
+        tell_what_is_left();
         see_codes();
         return true;
     }

@@ -54,6 +54,7 @@ public:
 
 private:
     void see_codes();
+    void tell_what_is_left();
 
     const plant::Plant& plant_;
     plant::VehicleId id_;
