@@ -106,17 +106,24 @@ TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2&
                                 kFloorMargin_m);
 }
 
+std::vector<traffic::MoveGraph> make_classes(FleetState& fleet) {
+    std::vector<traffic::MoveGraph> graphs;
+    auto& classes = fleet.floor.classes;
+    for (auto& [id, run] : fleet.vehicles) {
+        const std::size_t known = classes.size();
+        run.floor.of_class = class_of(fleet, run);
+        if (classes.size() == known) continue;
+        classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
+        graphs.push_back(move_graph(fleet.plant, classes.back()));
+    }
+    return graphs;
+}
+
 void open_floor(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
-    std::vector<traffic::MoveGraph> graphs;
+    const std::vector<traffic::MoveGraph> graphs = make_classes(fleet);
     traffic::TrafficRecord record;
     for (auto& [id, run] : fleet.vehicles) {
-        const std::size_t known = floor.classes.size();
-        run.floor.of_class = class_of(fleet, run);
-        if (floor.classes.size() > known) {
-            floor.classes.back().graph = static_cast<traffic::GraphIndex>(graphs.size());
-            graphs.push_back(move_graph(fleet.plant, floor.classes.back()));
-        }
         run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
         record.vehicles.push_back(stored_floor(fleet, run));
     }

@@ -41,6 +41,8 @@ struct Floor {
     std::optional<Time> checked;
 };
 
+/// The classes of all vehicles and their move graphs, which the plant alone decides.
+std::vector<traffic::MoveGraph> make_classes(FleetState& fleet);
 /// Makes the classes and puts every vehicle on the floor its record says, base included.
 void open_floor(FleetState& fleet, Time now);
 

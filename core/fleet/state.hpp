@@ -96,6 +96,8 @@ struct FleetState {
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;
     StandingOrders standing;
+    std::int64_t stored_seq = 0;  // newest event of the store at start
+    std::optional<StoreFault> store_fault;
 
     // Put out by this step.
     Outputs out;
@@ -231,6 +233,7 @@ std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& 
                                      const std::vector<CameraReading>& readings);
 
 // --- restart (restore.cpp) ---
+void take_vehicles_of_plant(FleetState& fleet);
 /// Fills an empty fleet from plant and store. Open orders wait for a person's act.
 void restore(FleetState& fleet, StoredFleet stored, Time now);
 
