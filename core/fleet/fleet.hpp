@@ -158,6 +158,7 @@ public:
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
     FleetView view(Time now) const;
+    std::int64_t last_event_seq() const;
     /// Who waits for whom on the floor, and what is closed.
     TrafficView traffic(Time now) const;
 

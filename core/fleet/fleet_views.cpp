@@ -71,6 +71,8 @@ std::vector<StationView> Fleet::stations() const {
     return views;
 }
 
+std::int64_t Fleet::last_event_seq() const { return state_->event_seq; }
+
 FleetView Fleet::view(Time) const {
     FleetView view;
     view.store_fault = state_->store_fault;

@@ -8,7 +8,7 @@
 
 /// Every plain struct of the fleet, described once for writing, reading and comparing. A
 /// description binds all members by place: one that is added does not compile until it stands here.
-/// Members named `_` or ending in `_` are left out on purpose; the comment says why.
+/// What is left out on purpose is bound all the same, and a comment says why.
 namespace pulseline {
 
 #define PULSELINE_FIELDS(Type, ...)                     \
@@ -126,8 +126,14 @@ PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known
                  hall, at_station, order, leg, paused, needs_resume, needs_resume_reason, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
-PULSELINE_FIELDS(Records, orders, vehicles, stops, events, idempotency, closures, reopened,
-                 schedules, templates)
+// The journal's own rows are no part of what it is compared by.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, Records>
+void fields(V& visit, S& it) {
+    auto& [orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates,
+           journal_rows] = it;
+    visit(orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates);
+}
 PULSELINE_FIELDS(VehicleMessage, vehicle, order, instant_actions)
 PULSELINE_FIELDS(Outputs, records, messages, vehicles, stations, fleet_changed)
 
