@@ -179,19 +179,19 @@ TEST(Seal, RefusesEveryChangedByte) {
     }
 }
 
-/// A fleet in the midst of its work.
-World busy_world() {
-    World world;
-    world.connect_all();
-    world.run(1);
-    static_cast<void>(world.order("V1", {2, 3}));
-    static_cast<void>(world.order("V2", {3}));
-    world.run(3);
-    return world;
-}
+/// In the midst of its work.
+struct BusyWorld : World {
+    BusyWorld() {
+        connect_all();
+        run(1);
+        EXPECT_TRUE(order("V1", {2, 3}));
+        EXPECT_TRUE(order("V2", {3}));
+        run(3);
+    }
+};
 
 TEST(Snapshot, OfARestoredFleetIsTheSame) {
-    const World world = busy_world();
+    const BusyWorld world;
     const std::string bytes = world.fleet->snapshot();
 
     const auto restored = Fleet::from_snapshot(world.plant, bytes);
@@ -201,7 +201,7 @@ TEST(Snapshot, OfARestoredFleetIsTheSame) {
 }
 
 TEST(Snapshot, TheRestoredFleetGoesOnAsTheFirstOneDoes) {
-    World world = busy_world();
+    BusyWorld world;
     const auto restored = Fleet::from_snapshot(world.plant, world.fleet->snapshot());
     ASSERT_TRUE(restored);
     Recorder recorder;
@@ -214,8 +214,7 @@ TEST(Snapshot, TheRestoredFleetGoesOnAsTheFirstOneDoes) {
     ASSERT_TRUE(entries);
     std::size_t events = 0;
     for (const auto& entry : *entries) {
-        apply(**restored, entry,
-              [&](Outputs&& out, Time) { events += out.records.events.size(); });
+        apply(**restored, entry, [&](Outputs&& out, Time) { events += out.records.events.size(); });
     }
     EXPECT_GT(events, 10u);
     EXPECT_EQ(bytes_of((*restored)->take_outputs(world.now)), bytes_of(rest));
@@ -223,7 +222,7 @@ TEST(Snapshot, TheRestoredFleetGoesOnAsTheFirstOneDoes) {
 }
 
 TEST(Snapshot, OfAnotherPlantIsRefused) {
-    const World world = busy_world();
+    const BusyWorld world;
     plant::Plant other = world.plant;
     other.vehicles.pop_back();
 
@@ -234,7 +233,7 @@ TEST(Snapshot, OfAnotherPlantIsRefused) {
 }
 
 TEST(Snapshot, EveryTruncationIsRefused) {
-    const World world = busy_world();
+    const BusyWorld world;
     const std::string bytes = world.fleet->snapshot();
     for (std::size_t size = 0; size < bytes.size(); size += 1 + bytes.size() / 300) {
         EXPECT_FALSE(Fleet::from_snapshot(world.plant, std::string_view(bytes).substr(0, size)))
@@ -243,7 +242,7 @@ TEST(Snapshot, EveryTruncationIsRefused) {
 }
 
 TEST(Replay, FailedCallsAreReplayedTooAndChangeNothing) {
-    World world = busy_world();
+    BusyWorld world;
     Recorder recorder;
     world.fleet->journal_into(&recorder);
     const std::string before = world.fleet->snapshot();
