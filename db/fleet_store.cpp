@@ -79,7 +79,8 @@ std::int64_t newest_time(soci::session& sql) {
          scalar(sql, "SELECT COALESCE(MAX(ended_ns), 0) FROM orders WHERE ended_ns > 0"),
          scalar(sql,
                 "SELECT COALESCE((SELECT at_ns FROM stop_records ORDER BY id DESC LIMIT 1), 0)"),
-         scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys")});
+         scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys"),
+         scalar(sql, "SELECT COALESCE((SELECT at_ns FROM journal ORDER BY seq DESC LIMIT 1), 0)")});
 }
 
 /// Two passes in the same order: a query for the steps of each order would take ten times as long.
@@ -157,6 +158,7 @@ FleetStore::FleetStore(Database& database)
     : database_(database),
       statements_(
           reading(database.path(), [&] { return std::make_unique<Statements>(database.sql()); })),
+      journal_(database),
       last_seq_(reading(database.path(), [&] {
           return scalar(database.sql(), "SELECT COALESCE(MAX(seq), 0) FROM events");
       })) {}
@@ -236,7 +238,9 @@ void FleetStore::commit(const fleet::Records& records) {
             s.drop_closure.run();
         }
         put_standing(records);
+        journal_.put(records.journal);
     });
+    journal_.committed();
     last_seq_ = seq;
 }
 
@@ -245,6 +249,7 @@ fleet::StoredFleet FleetStore::load() {
         soci::session& sql = database_.sql();
         fleet::StoredFleet stored;
         stored.last_event_seq = scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events");
+        stored.last_journal_seq = journal_.last_seq();
         stored.last_order_number = scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders");
         const std::int64_t newest_ns = newest_time(sql);
         stored.last_time = time_from_ns(newest_ns);

@@ -4,6 +4,7 @@
 
 #include "core/fleet/ports.hpp"
 #include "db/database.hpp"
+#include "db/journal_store.hpp"
 
 namespace pulseline::db {
 
@@ -18,6 +19,8 @@ public:
     /// Also throws db::Error when an event does not follow the newest stored one without a gap: a
     /// hole in the journal would never be found again.
     void commit(const fleet::Records& records) override;
+    fleet::StoredJournal load_journal() override { return journal_.load(); }
+    void put_snapshot(const fleet::SnapshotRow& snapshot) override { journal_.put(snapshot); }
 
 private:
     struct Statements;
@@ -27,6 +30,7 @@ private:
 
     Database& database_;
     std::unique_ptr<Statements> statements_;
+    JournalStore journal_;
     std::int64_t last_seq_ = 0;
 };
 

@@ -1,15 +1,19 @@
 #include "server/fleet_runtime.hpp"
 
+#include <algorithm>
 #include <future>
+#include <iterator>
 
 #include "core/base/crash_point.hpp"
+#include "core/fleet/journal/snapshot.hpp"
 #include "server/log.hpp"
 
 namespace pulseline::server {
 namespace {
 
-constexpr auto kTick = std::chrono::milliseconds(50);
-constexpr auto kRetryStore = std::chrono::seconds(1);
+constexpr Duration kTick = fleet::journal::kTickEvery;
+constexpr Duration kRetryStore = std::chrono::seconds(1);
+constexpr Duration kLookForStore = std::chrono::milliseconds(20);  // at the time for a retry
 constexpr std::size_t kMaxQueued = 10'000;  // commands that wait; more are refused
 
 Error overloaded() {
@@ -29,17 +33,33 @@ template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
+template <class T>
+void append(std::vector<T>& to, std::vector<T>&& from) {
+    std::ranges::move(from, std::back_inserter(to));
+}
 void append(fleet::Records& to, const fleet::Records& from) {
     append(to.orders, from.orders);
     append(to.vehicles, from.vehicles);
     append(to.stops, from.stops);
     append(to.events, from.events);
     append(to.idempotency, from.idempotency);
+    append(to.closures, from.closures);
+    append(to.reopened, from.reopened);
+    append(to.journal, from.journal);
     append(to.schedules, from.schedules);
     append(to.templates, from.templates);
 }
 
+/// The newest time of a tick not after `now`.
+Time tick_time(Time now) { return now - now.time_since_epoch() % kTick; }
+
 }  // namespace
+
+bool FleetRuntime::Commit::nothing() const {
+    const auto& out = batch.outputs;
+    return out.records.empty() && out.messages.empty() && out.vehicles.empty() &&
+           out.stations.empty() && !batch.fleet && answers.empty() && reads.empty() && !snapshot;
+}
 
 FleetRuntime::FleetRuntime(Ports ports, std::uint64_t id_seed)
     : ports_(std::move(ports)), id_seed_(id_seed) {}
@@ -47,13 +67,15 @@ FleetRuntime::FleetRuntime(Ports ports, std::uint64_t id_seed)
 FleetRuntime::~FleetRuntime() { stop(); }
 
 Status FleetRuntime::start(fleet::StoredFleet stored) {
-    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++,
-                                            ports_.clock.now());
-    Published first = take_published();
+    const Time now = ports_.clock.now();
+    last_tick_ = tick_time(now);
+    begin_from_tables(std::move(stored), now);
+    Published first = std::exchange(unstored_, {});
     try {
         crash_point(CrashPoint::kStartBeforeFirstCommit);
-        if (!first.outputs.records.empty()) ports_.store.commit(first.outputs.records);
+        ports_.store.commit(first.outputs.records);
         crash_point(CrashPoint::kStartAfterFirstCommit);
+        put_snapshot(*std::exchange(unstored_snapshot_, std::nullopt));
     } catch (const std::exception& e) {
         return fail(Errc::kUnavailable, "store_unavailable",
                     std::string("the database cannot be written: ") + e.what() +
@@ -120,7 +142,10 @@ void FleetRuntime::fleet_loop() {
         bool ending = false;
         {
             std::unique_lock lock(mutex_);
-            fleet_wake_.wait_for(lock, kTick, [this] {
+            const Duration wait =
+                degraded_ ? kLookForStore
+                          : std::clamp(last_tick_ + kTick - ports_.clock.now(), Duration(0), kTick);
+            fleet_wake_.wait_for(lock, wait, [this] {
                 return stopping_ || must_rebuild_ || !commands_.empty() || !reads_.empty();
             });
             commands.swap(commands_);
@@ -140,67 +165,98 @@ void FleetRuntime::fleet_loop() {
             }
         }
         handle(commands, reads);
-        if (ending) return;
+        if (ending) return finish();
     }
 }
 
-void FleetRuntime::handle(std::deque<Task>& commands, std::deque<Task>& reads) {
+FleetRuntime::Commit FleetRuntime::tick(Time now) {
+    last_tick_ = now;
+    fleet_->tick(now);
+    journal_.count_tick();
     Commit commit;
+    commit.batch = take_published(now);
+    return commit;
+}
+
+FleetRuntime::Commit FleetRuntime::run_commands(std::deque<Task>& commands, Time now,
+                                                bool& broken) {
+    Commit commit;
+    if (commands.empty()) return commit;
+    for (auto& task : commands) {
+        if (!run(task, now)) {
+            broken = true;
+        } else if (task.answer) {
+            commit.answers.push_back(std::move(task.answer));
+        }
+    }
+    commands.clear();
+    commit.batch = take_published(now);
+    crash_point(CrashPoint::kBatchHandled);
+    return commit;
+}
+
+void FleetRuntime::handle(std::deque<Task>& commands, std::deque<Task>& reads) {
+    // One time for all of a batch: the tick that is due comes first, and core time never goes back.
+    const Time now = ports_.clock.now();
+    std::vector<Commit> made;
     bool broken = false;
     const bool read_only = degraded_;
     if (read_only) {
         refuse(commands);
         if (!fleet_) refuse(reads);
     } else {
-        for (auto& task : commands) {
-            if (!run(task)) {
-                broken = true;
-            } else if (task.answer) {
-                commit.answers.push_back(std::move(task.answer));
-            }
-        }
-        commands.clear();
-        const Time now = ports_.clock.now();
-        if (now - last_tick_ >= kTick) {
-            last_tick_ = now;
-            fleet_->tick(now);
-        }
-        commit.batch = take_published();
-        crash_point(CrashPoint::kBatchHandled);
+        if (tick_time(now) > last_tick_) made.push_back(tick(tick_time(now)));
+        made.push_back(run_commands(commands, now, broken));
+        if (!broken && journal_.snapshot_is_due()) made.push_back(take_snapshot(now));
     }
     // Reads come last, so that they see exactly what their batch commits; one that throws changed
     // nothing.
+    Commit seen;
     for (auto& task : reads) {
-        if (run(task)) commit.reads.push_back(std::move(task));
+        if (run(task, now)) seen.reads.push_back(std::move(task));
     }
     reads.clear();
-    const auto& out = commit.batch.outputs;
-    const bool nothing = out.records.empty() && out.messages.empty() && out.vehicles.empty() &&
-                         out.stations.empty() && !commit.batch.fleet && commit.answers.empty() &&
-                         commit.reads.empty();
-    if (nothing && !broken) return;
+    made.push_back(std::move(seen));
+    if (!broken) std::erase_if(made, [](const Commit& commit) { return commit.nothing(); });
+    if (made.empty()) return;
     bool lost = false;
     {
         const std::lock_guard lock(mutex_);
         if (broken) must_rebuild_ = true;
         // What a fleet that is to be built anew has shown is as lost as what it has decided.
         lost = must_rebuild_;
-        if (!lost && !read_only) commits_.push_back(std::move(commit));
+        if (!lost && !read_only) append(commits_, std::move(made));
     }
     if (lost) {
-        std::vector<Commit> one;
-        one.push_back(std::move(commit));
-        give_up(std::move(one));
+        give_up(std::move(made));
     } else if (read_only) {
-        deliver(std::move(commit));
+        for (auto& commit : made) deliver(std::move(commit));
     } else {
         commit_wake_.notify_one();
     }
 }
 
-bool FleetRuntime::run(Task& task) {
+FleetRuntime::Commit FleetRuntime::take_snapshot(Time now) {
+    const auto start = std::chrono::steady_clock::now();
+    Commit commit;
+    journal_.add_rest(*fleet_, commit.batch.outputs.records, now);
+    commit.snapshot = journal_.snapshot(*fleet_, ports_.plant);
+    ports_.metrics.snapshot_taken(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    return commit;
+}
+
+/// The last thing that is committed: the state the server ends with.
+void FleetRuntime::finish() {
+    if (degraded_ || !fleet_) return;
+    Commit last = take_snapshot(ports_.clock.now());
+    const std::lock_guard lock(mutex_);
+    if (!must_rebuild_) commits_.push_back(std::move(last));
+}
+
+bool FleetRuntime::run(Task& task, Time now) {
     try {
-        task.run(*fleet_, ports_.clock.now());
+        task.run(*fleet_, now);
         return true;
     } catch (const std::exception& e) {
         // Half a change may be in the fleet: nothing of this batch may be kept.
@@ -225,43 +281,86 @@ void FleetRuntime::refuse(std::deque<Task>& tasks) {
     tasks.clear();
 }
 
-FleetRuntime::Published FleetRuntime::take_published() {
+FleetRuntime::Published FleetRuntime::take_published(Time at) {
     Published batch;
-    const Time now = ports_.clock.now();
-    batch.outputs = fleet_->take_outputs(now);
-    if (batch.outputs.fleet_changed) batch.fleet = last_view_ = fleet_->view(now);
+    batch.outputs = fleet_->take_outputs(at);
+    journal_.add_row(*fleet_, batch.outputs, at);
+    if (batch.outputs.fleet_changed) batch.fleet = last_view_ = fleet_->view(at);
     return batch;
 }
 
 void FleetRuntime::rebuild() {
     ++ports_.metrics.fleet_rebuilds;
     degraded_ = true;
-    retry_at_ = ports_.clock.now() + kRetryStore;
-    std::optional<fleet::StoredFleet> stored;
-    if (const auto error = write_and_wait([&] { stored = ports_.store.load(); })) {
-        note_fault(error);
+    const Time now = ports_.clock.now();
+    retry_at_ = now + kRetryStore;
+    if (!build_from_journal(now) && !build_from_tables(now)) {
         fleet_.reset();
         show_fault();
         return;
     }
-    build_fleet(std::move(*stored));
     try_store();
     if (degraded_) show_fault();
 }
 
-void FleetRuntime::build_fleet(fleet::StoredFleet stored) {
-    const Time now = ports_.clock.now();
-    auto tables = fleet_->tables();
+/// The fleet as it was at the last commit. False: the store cannot be read, or its journal is of
+/// no use.
+bool FleetRuntime::build_from_journal(Time now) {
+    fleet::StoredJournal stored;
+    if (const auto error = write_and_wait([&] { stored = ports_.store.load_journal(); })) {
+        note_fault(error);
+        return false;
+    }
+    try {
+        auto rebuilt = journal_.rebuild(ports_.plant, stored);
+        if (!rebuilt) {
+            log::error("journal_unusable", {{"what", rebuilt.error().what}});
+            return false;
+        }
+        fleet_ = std::move(*rebuilt);
+    } catch (const std::exception& e) {
+        log::error("journal_unusable", {{"what", e.what()}});
+        return false;
+    }
+    log::warn("fleet_replayed", {{"rows", std::to_string(stored.rows.size())}});
+    unstored_snapshot_.reset();
+    if (const auto fault = store_fault()) fleet_->store_failed(*fault, now);
+    unstored_ = take_published(now);
+    return true;
+}
+
+/// As after a restart: orders are interrupted.
+bool FleetRuntime::build_from_tables(Time now) {
+    std::optional<fleet::StoredFleet> stored;
+    if (const auto error = write_and_wait([&] { stored = ports_.store.load(); })) {
+        note_fault(error);
+        return false;
+    }
+    begin_from_tables(std::move(*stored), now);
+    return true;
+}
+
+/// REQUIRES: the commit thread has nothing to do. What it puts out is in unstored_.
+void FleetRuntime::begin_from_tables(fleet::StoredFleet stored, Time now) {
+    const std::int64_t last_seq = stored.last_journal_seq;
+    auto tables = fleet_ ? fleet_->tables() : nullptr;
     fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now,
                                             std::move(tables));
     if (const auto fault = store_fault()) fleet_->store_failed(*fault, now);
-    unstored_ = take_published();
+    unstored_ = {};
+    unstored_.outputs = fleet_->take_outputs(now);
+    if (unstored_.outputs.fleet_changed) unstored_.fleet = last_view_ = fleet_->view(now);
+    unstored_snapshot_ =
+        journal_.begin(*fleet_, ports_.plant, last_seq, unstored_.outputs.records, now);
 }
 
 /// Stores what the fleet built anew has put out. REQUIRES: fleet_, which answers reads until then.
 void FleetRuntime::try_store() {
     retry_at_ = ports_.clock.now() + kRetryStore;
-    const auto write = [&] { ports_.store.commit(unstored_.outputs.records); };
+    const auto write = [&] {
+        ports_.store.commit(unstored_.outputs.records);
+        if (unstored_snapshot_) put_snapshot(*unstored_snapshot_);
+    };
     if (const auto error = write_and_wait(write)) {
         // One that was good for reads only has to say now why it takes no commands.
         const bool first = !store_fault();
@@ -276,13 +375,16 @@ void FleetRuntime::try_store() {
         const std::lock_guard lock(mutex_);
         fault_.reset();
     }
-    fleet_->store_works_again(ports_.clock.now());
+    const Time now = ports_.clock.now();
+    fleet_->store_works_again(now);
+    last_tick_ = tick_time(now);
     ports_.metrics.read_only = 0;
     degraded_ = false;
     log::warn("fleet_rebuilt");
     Commit commit;
+    unstored_snapshot_.reset();
     commit.batch = std::exchange(unstored_, {});
-    commit.batch.fleet = fleet_->view(ports_.clock.now());
+    commit.batch.fleet = fleet_->view(now);
     deliver(std::move(commit));
     ports_.deliver(ports_.rebuilt);
 }
@@ -362,7 +464,12 @@ bool FleetRuntime::commit_group(std::vector<Commit> group, bool good) {
     if (group.empty()) return good;
     if (good && store(group)) {
         crash_point(CrashPoint::kBatchBeforeRelease);
-        for (auto& commit : group) deliver(std::move(commit));
+        std::optional<fleet::SnapshotRow> snapshot;
+        for (auto& commit : group) {
+            if (commit.snapshot) snapshot = std::move(commit.snapshot);
+            deliver(std::move(commit));
+        }
+        if (snapshot) try_snapshot(*snapshot);
         return true;
     }
     {
@@ -399,6 +506,25 @@ bool FleetRuntime::store(const std::vector<Commit>& group) {
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
         group.size());
     return true;
+}
+
+void FleetRuntime::put_snapshot(const fleet::SnapshotRow& snapshot) {
+    const auto start = std::chrono::steady_clock::now();
+    fleet::SnapshotRow sealed = snapshot;
+    sealed.bytes = fleet::journal::sealed(snapshot.bytes);
+    ports_.store.put_snapshot(sealed);
+    ports_.metrics.snapshot(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
+        sealed.bytes.size());
+}
+
+/// Without it the journal behind the snapshot before goes on, and is only longer to replay.
+void FleetRuntime::try_snapshot(const fleet::SnapshotRow& snapshot) {
+    try {
+        put_snapshot(snapshot);
+    } catch (const std::exception& e) {
+        log::error("snapshot_failed", {{"what", e.what()}});
+    }
 }
 
 void FleetRuntime::deliver(Commit commit) {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "server/journal_keeper.hpp"
 #include "server/metrics.hpp"
 #include "server/store_fault.hpp"
 
@@ -30,8 +31,9 @@ struct StoreUnavailable : std::runtime_error {
 /// batches put out; nothing of a batch is answered, sent or shown before its COMMIT, and all of it
 /// leaves in order. While a commit runs the next batch is handled; those that gather behind it
 /// share one commit. When a commit fails nothing of it leaves: its callers and those behind get
-/// store_unavailable and the fleet is built anew from the store. Until a commit succeeds again,
-/// tried every second, it is read-only: reads are answered, nothing is accepted or sent.
+/// store_unavailable and the fleet is brought back to where it was at the last commit, from the
+/// newest snapshot and the journal behind it. Until a commit succeeds again, tried every second, it
+/// is read-only: reads are answered, nothing is accepted or sent.
 /// Thread safety: every function may be called from any thread; callbacks run through `deliver`.
 class FleetRuntime {
 public:
@@ -47,7 +49,7 @@ public:
         Metrics& metrics;
         std::function<void(Job)> deliver;        // runs jobs one after the other, in order given
         std::function<void(Published)> publish;  // a committed batch; called through `deliver`
-        std::function<void()> rebuilt;  // the fleet forgot its links; called through `deliver`
+        std::function<void()> rebuilt;  // the fleet missed what came in; called through `deliver`
     };
 
     FleetRuntime(Ports ports, std::uint64_t id_seed);
@@ -93,8 +95,10 @@ private:
     struct Commit {
         Published batch;
         std::vector<Answer> answers;
-        std::vector<Task> reads;  // handled; asked again when the batch is lost
-        Job job;                  // a write of others instead of a batch
+        std::vector<Task> reads;                     // handled; asked again when the batch is lost
+        std::optional<fleet::SnapshotRow> snapshot;  // of the fleet behind the batch
+        Job job;                                     // a write of others instead of a batch
+        bool nothing() const;
     };
 
     template <class R, class F>
@@ -117,17 +121,25 @@ private:
     void submit(bool reading, Task task);
     void fleet_loop();
     void handle(std::deque<Task>& commands, std::deque<Task>& reads);
-    bool run(Task& task);
+    Commit tick(Time now);
+    Commit run_commands(std::deque<Task>& commands, Time now, bool& broken);
+    bool run(Task& task, Time now);
+    Commit take_snapshot(Time now);
+    void finish();
     void refuse(std::deque<Task>& tasks);
     void rebuild();
-    void build_fleet(fleet::StoredFleet stored);
+    bool build_from_journal(Time now);
+    bool build_from_tables(Time now);
+    void begin_from_tables(fleet::StoredFleet stored, Time now);
     void try_store();
     void note_fault(const std::exception_ptr& error);
     void show_fault();
-    Published take_published();
+    Published take_published(Time at);
     void commit_loop();
     bool commit_group(std::vector<Commit> group, bool good);
     bool store(const std::vector<Commit>& group);
+    void put_snapshot(const fleet::SnapshotRow& snapshot);
+    void try_snapshot(const fleet::SnapshotRow& snapshot);
     void deliver(Commit commit);
     void give_up(std::vector<Commit> lost);
     std::exception_ptr write_and_wait(Job job);
@@ -135,9 +147,11 @@ private:
     Ports ports_;
     std::uint64_t id_seed_;
     std::unique_ptr<fleet::Fleet> fleet_;  // fleet thread only
+    JournalKeeper journal_;
     Time last_tick_{};
     Time retry_at_{};
     Published unstored_;  // of a fleet built anew, until the store takes it
+    std::optional<fleet::SnapshotRow> unstored_snapshot_;
     fleet::FleetView last_view_;
 
     mutable std::mutex mutex_;  // guards what follows

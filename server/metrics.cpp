@@ -69,6 +69,17 @@ void Metrics::commit(double duration_s, std::size_t batches) {
     commit_latency_.observe(duration_s);
 }
 
+void Metrics::snapshot_taken(double duration_s) {
+    const std::lock_guard lock(mutex_);
+    snapshot_pause_.observe(duration_s);
+}
+
+void Metrics::snapshot(double duration_s, std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    snapshot_latency_.observe(duration_s);
+    snapshot_bytes_ = bytes;
+}
+
 std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
                           const std::map<std::string, int>& vehicles_by_link) const {
     std::string out;
@@ -99,6 +110,13 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
                batches_);
         header(out, "pulseline_commit_duration_seconds", "histogram", "Duration of a commit.");
         commit_latency_.write(out, "pulseline_commit_duration_seconds", "");
+        header(out, "pulseline_snapshot_pause_seconds", "histogram",
+               "How long the fleet waited for a snapshot of its state.");
+        snapshot_pause_.write(out, "pulseline_snapshot_pause_seconds", "");
+        header(out, "pulseline_snapshot_write_seconds", "histogram", "Storing a snapshot.");
+        snapshot_latency_.write(out, "pulseline_snapshot_write_seconds", "");
+        single(out, "pulseline_snapshot_bytes", "gauge", "Size of the newest snapshot.",
+               snapshot_bytes_);
     }
     single(out, "pulseline_commits_failed_total", "counter", "Commits that stored nothing.",
            commits_failed_.load());

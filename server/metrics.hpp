@@ -32,6 +32,9 @@ class Metrics {
 public:
     void request(std::string_view route, int status, double duration_s);
     void commit(double duration_s, std::size_t batches);
+    /// The fleet waited for its snapshot for so long.
+    void snapshot_taken(double duration_s);
+    void snapshot(double duration_s, std::size_t bytes);
     void commit_failed() { ++commits_failed_; }
 
     std::atomic<std::int64_t> connections{0};
@@ -58,6 +61,9 @@ private:
     std::map<std::pair<std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram, std::less<>> request_latency_;
     Histogram commit_latency_;
+    Histogram snapshot_pause_;
+    Histogram snapshot_latency_;
+    std::size_t snapshot_bytes_ = 0;
     std::uint64_t commits_ = 0;
     std::uint64_t batches_ = 0;
     std::atomic<std::uint64_t> commits_failed_{0};

@@ -8,6 +8,7 @@
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
 #include "core/base/crash_point.hpp"
+#include "core/fleet/state_filter.hpp"
 #include "server/await.hpp"
 #include "server/vehicle_frames.hpp"
 
@@ -18,7 +19,7 @@ constexpr const char* kSubprotocol = "vda5050.v2.json";
 constexpr auto kTakeoverWindow = std::chrono::seconds(60);
 constexpr std::size_t kMostTakeovers = 3;
 // Silence is counted in seconds, so the fleet need not hear of every frame.
-constexpr auto kTellHeard = std::chrono::milliseconds(250);
+constexpr auto kTellHeard = std::chrono::milliseconds(500);
 constexpr auto kShowRefused = std::chrono::seconds(60);
 
 bool offers_subprotocol(const std::string& header) {
@@ -139,6 +140,7 @@ void VehicleGateway::opened(const plant::VehicleId& id,
     row.malformed_in_a_row = 0;
     row.said_offline = false;
     row.told_heard = now;
+    row.passed.reset();
     log::info("vehicle_connected", {{"vehicle", id.str()}});
     ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
 }
@@ -202,6 +204,10 @@ void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::Sta
     if (row.refused && Steady::now() - row.refused_at < kShowRefused) {
         state.errors.push_back(*row.refused);
     }
+    const auto now = Steady::now();
+    if (row.passed && !fleet::may_change_decision(*row.passed, state, now - row.passed_at)) return;
+    row.passed = state;
+    row.passed_at = now;
     // A state says all there is to say: one that waits is overtaken by the next.
     bool waits = false;
     {
@@ -315,7 +321,12 @@ vda5050::Header VehicleGateway::next_header(const plant::VehicleId& id, Row& row
 
 void VehicleGateway::introduce_all() {
     for (auto& [id, row] : rows_) {
-        if (!row.socket) continue;
+        row.passed.reset();
+        if (!row.socket) {
+            ports_.runtime.input(
+                [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
+            continue;
+        }
         ports_.runtime.input(
             [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
         if (row.factsheet) hand_over_factsheet(id, row);

@@ -62,7 +62,7 @@ public:
     /// Committed messages of the fleet. A vehicle without a socket gets none: the fleet sends
     /// again until it sees them in the vehicle's state.
     void send(const std::vector<fleet::VehicleMessage>& messages);
-    /// Tells a rebuilt fleet who is connected and what each one said last.
+    /// Tells a fleet that was built anew who is connected, who is not, and what each one said last.
     void introduce_all();
 
     /// Newest retained payload of connection or factsheet; empty before the first.
@@ -80,6 +80,8 @@ private:
         std::deque<Steady::time_point> takeovers;
         Steady::time_point told_heard{};
         std::map<vda5050::Topic, std::string> retained;
+        std::optional<fleet::StateMessage> passed;  // newest one that the fleet was given
+        Steady::time_point passed_at{};
         std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
         std::optional<fleet::Factsheet> factsheet;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors

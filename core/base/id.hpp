@@ -47,6 +47,13 @@ public:
     explicit IdSource(std::uint64_t seed) : state_(seed) {}
     Uuid next(Time now);
 
+    /// Shows a visitor all members, for snapshots.
+    template <class V, class Self>
+    static void members(V& visit, Self& self) {
+        auto& [state, last_ms, counter] = self;
+        visit(state, last_ms, counter);
+    }
+
 private:
     std::uint64_t random();
 

@@ -68,27 +68,9 @@ traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
     return tiles;
 }
 
-/// Legs lead round closed floor from now on; those planned before do not count any more.
+/// Legs planned before do not count any more.
 void tell_planner(FleetState& fleet) {
-    std::vector<planning::ClosedFloor> floors;
-    const auto add = [&](const Closure& closure, const plant::HallId& hall,
-                         std::vector<geometry::Polygon> pieces) {
-        floors.push_back({closure.id.str(), closure.name, hall, std::move(pieces), kFloorMargin_m});
-    };
-    for (const auto& [closure, tiles, in_traffic] : fleet.closures) {
-        std::map<plant::HallId, std::vector<geometry::Polygon>> pieces;
-        if (!closure.outline.empty()) {
-            pieces[closure.hall] = geometry::convex_pieces(closure.outline);
-        }
-        for (const auto& id : closure.edges) {
-            if (const auto ends = ends_of(fleet.plant, id)) {
-                const auto& [from, to] = *ends;
-                pieces[from->hall].push_back(strip(from->position, to->position));
-            }
-        }
-        for (auto& [hall, in_hall] : pieces) add(closure, hall, std::move(in_hall));
-    }
-    fleet.planner.set_closures(std::move(floors));
+    close_to_planner(fleet);
     fleet.newest_plan.reset();
 }
 
@@ -173,6 +155,28 @@ Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, T
 void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now) {
     for (auto& closure : closures) put_on_floor(fleet, std::move(closure), now);
     floor_is_sound(fleet, now);
+}
+
+void close_to_planner(FleetState& fleet) {
+    std::vector<planning::ClosedFloor> floors;
+    const auto add = [&](const Closure& closure, const plant::HallId& hall,
+                         std::vector<geometry::Polygon> pieces) {
+        floors.push_back({closure.id.str(), closure.name, hall, std::move(pieces), kFloorMargin_m});
+    };
+    for (const auto& [closure, tiles, in_traffic] : fleet.closures) {
+        std::map<plant::HallId, std::vector<geometry::Polygon>> pieces;
+        if (!closure.outline.empty()) {
+            pieces[closure.hall] = geometry::convex_pieces(closure.outline);
+        }
+        for (const auto& id : closure.edges) {
+            if (const auto ends = ends_of(fleet.plant, id)) {
+                const auto& [from, to] = *ends;
+                pieces[from->hall].push_back(strip(from->position, to->position));
+            }
+        }
+        for (auto& [hall, in_hall] : pieces) add(closure, hall, std::move(in_hall));
+    }
+    fleet.planner.set_closures(std::move(floors));
 }
 
 void name_closures(const FleetState& fleet, const std::vector<std::string>& ids, Reason& reason) {

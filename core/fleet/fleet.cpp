@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
 
@@ -16,14 +17,20 @@ constexpr Duration kSweepKeys = std::chrono::hours(1);
 
 }  // namespace
 
+GuardedState::GuardedState(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
+GuardedState::~GuardedState() = default;
+
+Fleet::Fleet(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
+
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
              std::shared_ptr<const PlantTables> tables)
-    : state_(std::make_unique<FleetState>(plant, tables ? std::move(tables) : plant_tables(plant),
-                                          id_seed, now)),
-      stored_seq_(stored.last_event_seq) {
-    restore_standing(*state_, stored);
-    restore(*state_, std::move(stored), now);
-    require_persons_for_schedules(*state_, now);
+    : Fleet(std::make_unique<FleetState>(
+          plant, tables ? std::move(tables) : plant_tables(plant), id_seed, now)) {
+    FleetState& fleet = state_.for_input();
+    fleet.stored_seq = stored.last_event_seq;
+    restore_standing(fleet, stored);
+    restore(fleet, std::move(stored), now);
+    require_persons_for_schedules(fleet, now);
 }
 
 Fleet::~Fleet() = default;
@@ -31,44 +38,51 @@ Fleet::~Fleet() = default;
 std::shared_ptr<const PlantTables> Fleet::tables() const { return state_->tables; }
 
 void Fleet::vehicle_connected(const plant::VehicleId& id, Time now) {
-    if (VehicleRun* run = state_->find(id)) connect(*state_, *run, now);
+    FleetState& fleet = input<&Fleet::vehicle_connected>(now, id);
+    if (VehicleRun* run = fleet.find(id)) connect(fleet, *run, now);
 }
 
 void Fleet::vehicle_disconnected(const plant::VehicleId& id, Time now) {
-    if (VehicleRun* run = state_->find(id)) disconnect(*state_, *run, now);
+    FleetState& fleet = input<&Fleet::vehicle_disconnected>(now, id);
+    if (VehicleRun* run = fleet.find(id)) disconnect(fleet, *run, now);
 }
 
 void Fleet::vehicle_heard(const plant::VehicleId& id, Time now) {
-    if (VehicleRun* run = state_->find(id)) hear(*state_, *run, now);
+    FleetState& fleet = input<&Fleet::vehicle_heard>(now, id);
+    if (VehicleRun* run = fleet.find(id)) hear(fleet, *run, now);
 }
 
 void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now) {
-    VehicleRun* run = state_->find(id);
+    FleetState& fleet = input<&Fleet::vehicle_state>(now, id, state);
+    VehicleRun* run = fleet.find(id);
     if (!run) return;
-    if (run->record.integration == Integration::kIgnore) return hear(*state_, *run, now);
-    take_state(*state_, *run, state, now);
-    dispatch_for(*state_, *run, now);
+    if (run->record.integration == Integration::kIgnore) return hear(fleet, *run, now);
+    take_state(fleet, *run, state, now);
+    dispatch_for(fleet, *run, now);
 }
 
 void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now) {
-    VehicleRun* run = state_->find(id);
+    FleetState& fleet = input<&Fleet::vehicle_factsheet>(now, id, factsheet);
+    VehicleRun* run = fleet.find(id);
     if (!run) return;
     run->factsheet = factsheet;
-    hear(*state_, *run, now);
+    hear(fleet, *run, now);
 }
 
 void Fleet::vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error,
                                     Time now) {
+    FleetState& fleet = input<&Fleet::vehicle_message_refused>(now, id, error);
     Params params{{"text", error.description}};
     for (const auto& [key, value] : error.references) params.push_back({key, value});
-    add_event(*state_, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));
+    add_event(fleet, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));
 }
 
 void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
-    VehicleRun* run = state_->find(id);
+    FleetState& fleet = input<&Fleet::vehicle_identity_conflict>(now, id);
+    VehicleRun* run = fleet.find(id);
     if (!run) return;
     run->connection_refused = true;
-    require_person(*state_, *run, {"identity_conflict", {{"vehicle", id.str()}}}, now);
+    require_person(fleet, *run, {"identity_conflict", {{"vehicle", id.str()}}}, now);
 }
 
 bool Fleet::connection_refused(const plant::VehicleId& id) const {
@@ -77,36 +91,43 @@ bool Fleet::connection_refused(const plant::VehicleId& id) const {
 }
 
 void Fleet::store_failed(const StoreFault& fault, Time now) {
-    store_fault_ = fault;
-    add_event(*state_, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
-    state_->out.fleet_changed = true;
+    FleetState& fleet = input<&Fleet::store_failed>(now, fault);
+    fleet.store_fault = fault;
+    add_event(fleet, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
+    fleet.out.fleet_changed = true;
 }
 
 void Fleet::store_works_again(Time now) {
-    if (!store_fault_) return;
-    add_event(
-        *state_, now, "store.recovered", {}, {}, {}, {},
-        {{"cause", store_fault_->cause}, {"read_only_s", seconds(now - store_fault_->since)}});
-    store_fault_.reset();
-    state_->out.fleet_changed = true;
+    FleetState& fleet = input<&Fleet::store_works_again>(now);
+    if (!fleet.store_fault) return;
+    add_event(fleet, now, "store.recovered", {}, {}, {}, {},
+              {{"cause", fleet.store_fault->cause},
+               {"read_only_s", seconds(now - fleet.store_fault->since)}});
+    fleet.store_fault.reset();
+    fleet.out.fleet_changed = true;
+    // Nobody listened meanwhile: silence counts from now on.
+    for (auto& [id, run] : fleet.vehicles) {
+        if (run.connected) run.last_heard = now;
+    }
 }
 
 void Fleet::tick(Time now) {
-    update_links(*state_, now);
-    resend(*state_, now);
-    settle_dependencies(*state_);
-    run_schedules(*state_, now);
-    dispatch(*state_, now);
-    state_->orders.forget_ended_before(now - kKeepFinal);
-    if (now - state_->keys_swept >= kSweepKeys) {
-        state_->keys_swept = now;
-        std::erase_if(state_->idempotency,
+    FleetState& fleet = input<&Fleet::tick>(now);
+    update_links(fleet, now);
+    resend(fleet, now);
+    settle_dependencies(fleet);
+    run_schedules(fleet, now);
+    dispatch(fleet, now);
+    fleet.orders.forget_ended_before(now - kKeepFinal);
+    if (now - fleet.keys_swept >= kSweepKeys) {
+        fleet.keys_swept = now;
+        std::erase_if(fleet.idempotency,
                       [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
     }
 }
 
-Outputs Fleet::take_outputs(Time now, bool with_views) {
-    FleetState& fleet = *state_;
+Outputs Fleet::take_outputs(Time now) {
+    FleetState& fleet = input<&Fleet::take_outputs>(now);
     for (const auto& id : fleet.orders.take_bound()) fleet.store(*fleet.find(id));
     Outputs out = std::exchange(fleet.out, {});
     take_standing(fleet, out.records);
@@ -116,7 +137,7 @@ Outputs Fleet::take_outputs(Time now, bool with_views) {
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
         if (const VehicleRun* run = fleet.find(id)) out.records.vehicles.push_back(run->record);
     }
-    if (!with_views) {
+    if (!with_views_) {
         fleet.changed_vehicles.clear();
         fleet.changed_stations.clear();
     }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/id.hpp"
@@ -49,10 +50,28 @@ struct Outputs {
 
 struct PlantTables;  // plant_tables.hpp
 struct FleetState;   // state.hpp, for the phases of core/fleet only
+namespace journal {
+class Recorder;
+}
+
+/// The fleet's state as its own methods see it: to be read, unless an input is being taken.
+class GuardedState {
+public:
+    explicit GuardedState(std::unique_ptr<FleetState> state);
+    ~GuardedState();
+    const FleetState& operator*() const { return *state_; }
+    const FleetState* operator->() const { return state_.get(); }
+    FleetState& for_input() { return *state_; }  // Fleet::input only
+
+private:
+    std::unique_ptr<FleetState> state_;
+};
 
 /// The fleet core: one deterministic state machine. Commands and vehicle messages go in with the
 /// time they came at; records, messages and views come out through take_outputs().
 /// No clock, thread, socket, random source or database inside.
+/// Whoever calls something that is not const gives an input: it is written to the journal before
+/// anything changes, and the journal's calls made again give the same state and the same outputs.
 /// Thread safety: none, one thread owns it. `plant` must outlive it and not change.
 class Fleet {
 public:
@@ -60,6 +79,14 @@ public:
     Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
           std::shared_ptr<const PlantTables> tables = nullptr);
     ~Fleet();
+    /// One as a snapshot says (journal/snapshot.hpp). Errors: journal_broken {why}.
+    static Result<std::unique_ptr<Fleet>> from_snapshot(
+        const plant::Plant& plant, std::string_view bytes,
+        std::shared_ptr<const PlantTables> tables = nullptr);
+    /// The whole state. REQUIRES: what was put out has been taken.
+    std::string snapshot() const;
+    /// From now on every input goes there too; null: nowhere.
+    void journal_into(journal::Recorder* recorder) { recorder_ = recorder; }
 
     // Commands of people and programs. An error changed nothing.
     Result<Created> create(const NewOrder& order, Time now);
@@ -125,9 +152,10 @@ public:
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
-    /// Everything put out since the last call. The views cost more than all the rest: who shows
-    /// them to nobody leaves them out.
-    Outputs take_outputs(Time now, bool with_views = true);
+    /// Everything put out since the last call.
+    Outputs take_outputs(Time now);
+    /// The views cost more than all the rest: who shows them to nobody leaves them out.
+    void leave_out_views() { with_views_ = false; }
 
     std::shared_ptr<const PlantTables> tables() const;
 
@@ -145,13 +173,20 @@ public:
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
     FleetView view(Time now) const;
+    std::int64_t last_event_seq() const;
     /// Who waits for whom on the floor, and what is closed.
     TrafficView traffic(Time now) const;
 
 private:
-    std::unique_ptr<FleetState> state_;
-    std::int64_t stored_seq_ = 0;  // newest event of the store at start
-    std::optional<StoreFault> store_fault_;
+    explicit Fleet(std::unique_ptr<FleetState> state);
+    /// The one way to a state that may be changed: the journal takes the call, with all of its
+    /// arguments, first. Defined in journal/recorder.hpp.
+    template <auto Method, class... Args>
+    FleetState& input(Time now, const Args&... arguments);
+
+    GuardedState state_;
+    journal::Recorder* recorder_ = nullptr;
+    bool with_views_ = true;
 };
 
 }  // namespace pulseline::fleet

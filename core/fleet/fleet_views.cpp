@@ -79,11 +79,13 @@ std::vector<StationView> Fleet::stations() const {
     return views;
 }
 
+std::int64_t Fleet::last_event_seq() const { return state_->event_seq; }
+
 FleetView Fleet::view(Time) const {
     FleetView view;
-    view.store_fault = store_fault_;
+    view.store_fault = state_->store_fault;
     // While nothing can be stored, events still wait; a reader must not go on behind them.
-    view.last_event_seq = store_fault_ ? stored_seq_ : state_->event_seq;
+    view.last_event_seq = state_->store_fault ? state_->stored_seq : state_->event_seq;
     view.started = state_->started;
     view.paused = !state_->vehicles.empty();
     for (const auto& [id, run] : state_->vehicles) {

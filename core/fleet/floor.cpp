@@ -140,11 +140,15 @@ TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2&
                                 kFloorMargin_m);
 }
 
+void find_classes(FleetState& fleet) {
+    for (auto& [id, run] : fleet.vehicles) run.floor.of_class = class_of(fleet, run);
+}
+
 void open_floor(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
+    find_classes(fleet);
     traffic::TrafficRecord record;
     for (auto& [id, run] : fleet.vehicles) {
-        run.floor.of_class = class_of(fleet, run);
         run.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());
         record.vehicles.push_back(stored_floor(fleet, run));
     }

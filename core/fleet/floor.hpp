@@ -44,6 +44,8 @@ struct Floor {
     std::optional<Time> checked;
 };
 
+/// Says of which class of the plant's tables each vehicle is.
+void find_classes(FleetState& fleet);
 /// Puts every vehicle on the floor its record says, base included.
 void open_floor(FleetState& fleet, Time now);
 

@@ -140,6 +140,7 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     }
     leg.nodes.resize(node);
     leg.edges.resize(node - 1);
+    run.areas = {};  // they are of the old horizon
     // What was the stop may only be passed now, and is stopped at later.
     for (std::size_t i = leg.released_nodes; i < node; ++i) {
         if (leg.nodes[i].actions.empty()) continue;

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
 // How far a vehicle takes part, and what becomes of its order when it is taken out.
@@ -74,7 +75,7 @@ void release_withdrawn(FleetState& fleet, Time now) {
 
 Result<VehicleView> Fleet::integrate(const plant::VehicleId& id, Integration level, bool off_floor,
                                      const std::string& actor, Time now) {
-    FleetState& fleet = *state_;
+    FleetState& fleet = input<&Fleet::integrate>(now, id, level, off_floor, actor);
     VehicleRun* run = fleet.find(id);
     if (!run) {
         return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},

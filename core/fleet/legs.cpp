@@ -173,6 +173,8 @@ void take_leg(VehicleRun& run, Leg leg) {
     run.leg_seen = false;
     run.update_sent.reset();
     run.update_sends = 0;
+    run.order_sent.reset();
+    run.gave_up = false;
     run.leg_started.reset();
     run.floor.idle_since.reset();
 }
@@ -235,19 +237,6 @@ void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Tim
     run.update_sent = now;
     if (run.connected) run.order_sent = now;
     ++run.update_sends;
-}
-
-void take_leg(VehicleRun& run, Leg leg) {
-    run.record.has_leg = true;
-    run.record.leg = leg.id;
-    run.record.leg_data = std::move(leg);
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
-    run.order_sent.reset();
-    run.gave_up = false;
-    run.leg_started.reset();
-    run.floor.idle_since.reset();
 }
 
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {

@@ -52,10 +52,22 @@ public:
     /// took out.
     std::vector<JobOrder> newest_first(std::size_t finished) const;
 
+    /// Shows a visitor all members, for snapshots.
+    template <class V, class Self>
+    static void members(V& visit, Self& self) {
+        auto& [orders, open, of_vehicle, of_client, sequences, bound, ended] = self;
+        visit(orders, open, of_vehicle, of_client, sequences, bound, ended);
+    }
+
 private:
     struct Sequence {
         plant::VehicleId vehicle;
         std::set<JobOrderId> open;
+        template <class V, class Self>
+        static void members(V& visit, Self& self) {
+            auto& [its_vehicle, its_open] = self;
+            visit(its_vehicle, its_open);
+        }
     };
     void join_sequence(JobOrder& order);
     void leave_sequence(const JobOrder& order);

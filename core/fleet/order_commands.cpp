@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
 // What people and programs ask of job orders.
@@ -181,45 +182,49 @@ Status apply(FleetState& fleet, JobOrder& order, const ControlRequest& request, 
 }  // namespace
 
 Result<Created> Fleet::create(const NewOrder& order, Time now) {
-    auto created = create_order(*state_, order, now);
+    FleetState& fleet = input<&Fleet::create>(now, order);
+    auto created = create_order(fleet, order, now);
     if (!created || created->repeated) return created;
-    dispatch(*state_, now);
-    created->order = *state_->find(created->order.id);
+    dispatch(fleet, now);
+    created->order = *fleet.find(created->order.id);
     return created;
 }
 
 Result<JobOrder> Fleet::pause_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                     const std::string& actor, Time now) {
-    auto found = find_for_change(*state_, id, if_revision);
+    FleetState& fleet = input<&Fleet::pause_order>(now, id, if_revision, actor);
+    auto found = find_for_change(fleet, id, if_revision);
     if (!found) return fail(found.error());
     JobOrder& order = **found;
     Status done = wrong_state(order, "paused");
-    if (order.state == JobState::kAllowedToStart) done = revoke_start(*state_, order, actor, now);
-    if (order.state == JobState::kRunning) done = pause(*state_, order, actor, now);
+    if (order.state == JobState::kAllowedToStart) done = revoke_start(fleet, order, actor, now);
+    if (order.state == JobState::kRunning) done = pause(fleet, order, actor, now);
     if (!done) return fail(done.error());
     return order;
 }
 
 Result<JobOrder> Fleet::resume_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                      const std::string& actor, Time now) {
-    auto found = find_for_change(*state_, id, if_revision);
+    FleetState& fleet = input<&Fleet::resume_order>(now, id, if_revision, actor);
+    auto found = find_for_change(fleet, id, if_revision);
     if (!found) return fail(found.error());
     JobOrder& order = **found;
     Status done = wrong_state(order, "resumed");
-    if (order.state == JobState::kNotAllowedToStart) done = start(*state_, order, actor, now);
-    if (order.state == JobState::kInterrupted) done = resume(*state_, order, actor, now);
+    if (order.state == JobState::kNotAllowedToStart) done = start(fleet, order, actor, now);
+    if (order.state == JobState::kInterrupted) done = resume(fleet, order, actor, now);
     if (!done) return fail(done.error());
-    dispatch(*state_, now);
-    return *state_->find(id);
+    dispatch(fleet, now);
+    return *fleet.find(id);
 }
 
 Result<JobOrder> Fleet::cancel_order(JobOrderId id, std::optional<std::int64_t> if_revision,
                                      const std::string& actor, Time now) {
-    auto found = find_for_change(*state_, id, if_revision);
+    FleetState& fleet = input<&Fleet::cancel_order>(now, id, if_revision, actor);
+    auto found = find_for_change(fleet, id, if_revision);
     if (!found) return fail(found.error());
     JobOrder& order = **found;
     if (is_final(order.state)) return wrong_state(order, "cancelled");
-    if (auto done = abort(*state_, order, actor, now); !done) return fail(done.error());
+    if (auto done = abort(fleet, order, actor, now); !done) return fail(done.error());
     return order;
 }
 
@@ -230,21 +235,22 @@ Result<std::optional<JobOrder>> Fleet::earlier_answer(const std::string& client,
 }
 
 Result<Created> Fleet::control_order(JobOrderId id, const ControlRequest& request, Time now) {
+    FleetState& fleet = input<&Fleet::control_order>(now, id, request);
     const auto earlier =
         earlier_answer(request.idempotency_client, request.idempotency_key, request.body_sha256);
     if (!earlier) return fail(earlier.error());
     if (*earlier) return Created{**earlier, true};
-    auto found = find_for_change(*state_, id, request.if_revision);
+    auto found = find_for_change(fleet, id, request.if_revision);
     if (!found) return fail(found.error());
     JobOrder& order = **found;
     if (order.removed || !transition(order.state, request.method)) {
         return not_allowed(order, request.method);
     }
-    if (auto done = apply(*state_, order, request, now); !done) return fail(done.error());
-    keep_answer(*state_, {request.idempotency_client, request.idempotency_key, request.body_sha256,
-                          id, now});
-    dispatch(*state_, now);
-    return Created{*state_->find(id), false};
+    if (auto done = apply(fleet, order, request, now); !done) return fail(done.error());
+    keep_answer(
+        fleet, {request.idempotency_client, request.idempotency_key, request.body_sha256, id, now});
+    dispatch(fleet, now);
+    return Created{*fleet.find(id), false};
 }
 
 }  // namespace pulseline::fleet

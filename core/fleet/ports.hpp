@@ -21,6 +21,31 @@ struct IdempotencyRecord {
     Time at;
 };
 
+/// A piece of the journal, stored with the records its inputs caused. `seq` has no gaps. The inputs
+/// are what journal::Recorder wrote, sealed; none: the fleet was built anew from the tables here,
+/// and the journal goes on from the snapshot of the same seq.
+struct JournalRow {
+    std::int64_t seq = 0;
+    Time at;                     // of the last input
+    std::int64_t event_seq = 0;  // newest event once they are done
+    std::int64_t inputs = 0;     // ticks not counted
+    std::string bytes;
+};
+
+/// The fleet's state once the journal's rows up to a seq are done.
+struct SnapshotRow {
+    std::int64_t journal_seq = 0;
+    std::int64_t format = 0;          // journal::kFormat of the program that wrote it
+    std::int64_t plant_revision = 0;  // of the plant it was written with
+    std::string bytes;                // of Fleet::snapshot, sealed
+};
+
+/// What brings a fleet back to where it was at the last commit.
+struct StoredJournal {
+    std::optional<SnapshotRow> snapshot;  // newest one; none: only the tables can help
+    std::vector<JournalRow> rows;         // behind it
+};
+
 /// Rows to write; the batch is one transaction. Orders and vehicles are upserts by id.
 struct Records {
     std::vector<JobOrder> orders;
@@ -32,10 +57,11 @@ struct Records {
     std::vector<ClosureId> reopened;  // to forget
     std::vector<Schedule> schedules;  // upserts by id; deleted ones say so
     std::vector<OrderTemplate> templates;
+    std::vector<JournalRow> journal;  // added by the owner of the journal, not by the fleet
     bool empty() const {
-        return orders.empty() && vehicles.empty() && stops.empty() && events.empty() &&
-               idempotency.empty() && closures.empty() && reopened.empty() && schedules.empty() &&
-               templates.empty();
+        return journal.empty() && orders.empty() && vehicles.empty() && stops.empty() &&
+               events.empty() && idempotency.empty() && closures.empty() && reopened.empty() &&
+               schedules.empty() && templates.empty();
     }
 };
 
@@ -49,6 +75,7 @@ struct StoredFleet {
     std::vector<OrderTemplate> templates;
     std::int64_t last_event_seq = 0;
     std::int64_t last_order_number = 0;
+    std::int64_t last_journal_seq = 0;
     Time last_time;  // newest stored time; the clock may not start before it
 };
 
@@ -59,6 +86,13 @@ public:
     virtual StoredFleet load() = 0;
     /// One transaction; throws db::Error when nothing was stored.
     virtual void commit(const Records& records) = 0;
+
+    /// The newest snapshot and what follows it. Throws db::Error.
+    virtual StoredJournal load_journal() = 0;
+    /// A transaction of its own; throws db::Error when nothing was stored. The two newest
+    /// snapshots are kept; journal rows before the older one are dropped little by little, by the
+    /// commits that follow.
+    virtual void put_snapshot(const SnapshotRow& snapshot) = 0;
 };
 
 struct StopQuery {

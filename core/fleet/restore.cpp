@@ -28,9 +28,7 @@ void interrupt_after_restart(FleetState& fleet, Time now) {
 
 }  // namespace
 
-void restore(FleetState& fleet, StoredFleet stored, Time now) {
-    fleet.event_seq = stored.last_event_seq;
-    fleet.order_number = stored.last_order_number;
+void take_vehicles_of_plant(FleetState& fleet) {
     for (const auto& vehicle : fleet.plant.vehicles) {
         const auto* type = plant::find_vehicle_type(fleet.plant, vehicle.type);
         if (!type) continue;  // validate() refuses such a plant
@@ -39,6 +37,12 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         run.type = type;
         run.record.id = vehicle.id;
     }
+}
+
+void restore(FleetState& fleet, StoredFleet stored, Time now) {
+    fleet.event_seq = stored.last_event_seq;
+    fleet.order_number = stored.last_order_number;
+    take_vehicles_of_plant(fleet);
     for (auto& order : stored.orders) fleet.orders.add(std::move(order));
     for (auto& key : stored.idempotency) fleet.idempotency[{key.client, key.key}] = std::move(key);
     for (auto& record : stored.vehicles) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/order_fields.hpp"
 #include "core/fleet/state.hpp"
 
@@ -131,7 +132,8 @@ void run_schedules(FleetState& fleet, Time now) {
 }
 
 Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
-    auto& schedules = state_->standing.schedules;
+    FleetState& fleet = input<&Fleet::create_schedule>(now, wanted);
+    auto& schedules = fleet.standing.schedules;
     for (const auto& [id, known] : schedules) {
         if (known.name != wanted.name) continue;
         Recurrence same = wanted.recurrence;
@@ -146,7 +148,7 @@ Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
         return fail(Errc::kConflict, "too_many_schedules",
                     "There are 1000 schedules. Delete one that nobody uses, then repeat.", "/name");
     }
-    if (auto possible = check_order(*state_, wanted.order, now); !possible) {
+    if (auto possible = check_order(fleet, wanted.order, now); !possible) {
         Error error = possible.error();
         error.field = "/order" + error.field;
         return fail(std::move(error));
@@ -161,42 +163,44 @@ Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
                     "This schedule would never make an order. Set until to a later time.",
                     "/until");
     }
-    made.id = ScheduleId(state_->ids.next(now));
+    made.id = ScheduleId(fleet.ids.next(now));
     made.order = wanted.order;
     made.created_by = wanted.actor;
     made.created = now;
     const Schedule& kept = schedules[made.id] = made;
-    state_->standing.changed_schedules.insert(kept.id);
-    note(*state_, now, "job_order_schedule.created", kept, wanted.actor);
+    fleet.standing.changed_schedules.insert(kept.id);
+    note(fleet, now, "job_order_schedule.created", kept, wanted.actor);
     return kept;
 }
 
 Result<Schedule> Fleet::pause_schedule(ScheduleId id, bool paused,
                                        std::optional<std::int64_t> if_revision,
                                        const std::string& actor, Time now) {
-    auto found = find_for_change(*state_, id, if_revision);
+    FleetState& fleet = input<&Fleet::pause_schedule>(now, id, paused, if_revision, actor);
+    auto found = find_for_change(fleet, id, if_revision);
     if (!found) return fail(found.error());
     Schedule& schedule = **found;
     if (schedule.paused == paused) return schedule;
     schedule.paused = paused;
     // What fell into the pause is left out, not made up for.
     if (!paused) schedule.next = next_time(schedule.recurrence, now);
-    note(*state_, now, paused ? "job_order_schedule.paused" : "job_order_schedule.resumed",
-         schedule, actor);
-    store(*state_, schedule);
+    note(fleet, now, paused ? "job_order_schedule.paused" : "job_order_schedule.resumed", schedule,
+         actor);
+    store(fleet, schedule);
     return schedule;
 }
 
 Status Fleet::delete_schedule(ScheduleId id, std::optional<std::int64_t> if_revision,
                               const std::string& actor, Time now) {
-    auto found = find_for_change(*state_, id, if_revision);
+    FleetState& fleet = input<&Fleet::delete_schedule>(now, id, if_revision, actor);
+    auto found = find_for_change(fleet, id, if_revision);
     if (!found) return fail(found.error());
     Schedule gone = **found;
     gone.deleted = true;
-    note(*state_, now, "job_order_schedule.deleted", gone, actor);
-    state_->standing.schedules.erase(id);
-    state_->standing.changed_schedules.erase(id);
-    state_->standing.deleted_schedules.push_back(std::move(gone));
+    note(fleet, now, "job_order_schedule.deleted", gone, actor);
+    fleet.standing.schedules.erase(id);
+    fleet.standing.changed_schedules.erase(id);
+    fleet.standing.deleted_schedules.push_back(std::move(gone));
     return {};
 }
 

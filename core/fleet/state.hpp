@@ -84,14 +84,14 @@ struct FleetState {
                std::uint64_t id_seed, Time now)
         : plant(p),
           tables(std::move(of_plant)),
-          planner(tables->planner),
+          planner(tables->planner.again()),
           ids(id_seed),
           started(now),
           floor(tables->classes) {}
 
     const plant::Plant& plant;
     std::shared_ptr<const PlantTables> tables;
-    const planning::LegPlanner& planner;
+    planning::LegPlanner planner;
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, VehicleRun> vehicles;
@@ -109,6 +109,8 @@ struct FleetState {
     std::int64_t order_number = 0;
     std::optional<PlannedLeg> newest_plan;
     StandingOrders standing;
+    std::int64_t stored_seq = 0;  // newest event of the store at start
+    std::optional<StoreFault> store_fault;
 
     // Put out by this step.
     Outputs out;
@@ -178,8 +180,6 @@ std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
 /// leg is for that.
 std::vector<Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
                                  const plant::Station& station, const Leg& leg);
-/// Makes it the vehicle's leg; nothing is sent.
-void take_leg(VehicleRun& run, Leg leg);
 /// Releases as many further nodes as the vehicle needs to keep its speed and sends the update.
 void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
@@ -269,6 +269,7 @@ std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& 
                                      const std::vector<CameraReading>& readings);
 
 // --- restart (restore.cpp) ---
+void take_vehicles_of_plant(FleetState& fleet);
 /// Fills an empty fleet from plant and store. Open orders wait for a person's act.
 void restore(FleetState& fleet, StoredFleet stored, Time now);
 

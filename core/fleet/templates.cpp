@@ -1,3 +1,4 @@
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
 // Named order bodies. What they mean is the API's; the fleet keeps them and says who changed them.
@@ -9,7 +10,8 @@ constexpr std::size_t kMaxTemplates = 1000;
 }  // namespace
 
 Result<OrderTemplate> Fleet::store_template(const OrderTemplate& wanted, Time now) {
-    auto& templates = state_->standing.templates;
+    FleetState& fleet = input<&Fleet::store_template>(now, wanted);
+    auto& templates = fleet.standing.templates;
     const auto known = templates.find(wanted.name);
     if (known != templates.end()) {
         if (known->second.same_content(wanted)) return known->second;
@@ -25,14 +27,15 @@ Result<OrderTemplate> Fleet::store_template(const OrderTemplate& wanted, Time no
     OrderTemplate made = wanted;
     made.created = now;
     templates[made.name] = made;
-    state_->standing.changed_templates.push_back(made);
-    add_event(*state_, now, "job_order_template.created", {}, {}, {}, wanted.created_by,
+    fleet.standing.changed_templates.push_back(made);
+    add_event(fleet, now, "job_order_template.created", {}, {}, {}, wanted.created_by,
               {{"template", wanted.name}});
     return made;
 }
 
 Status Fleet::delete_template(const std::string& name, const std::string& actor, Time now) {
-    auto& templates = state_->standing.templates;
+    FleetState& fleet = input<&Fleet::delete_template>(now, name, actor);
+    auto& templates = fleet.standing.templates;
     const auto known = templates.find(name);
     if (known == templates.end()) {
         return fail(Errc::kNotFound, "unknown_template",
@@ -40,9 +43,9 @@ Status Fleet::delete_template(const std::string& name, const std::string& actor,
                     {{"template", name}});
     }
     known->second.deleted = true;
-    state_->standing.changed_templates.push_back(known->second);
+    fleet.standing.changed_templates.push_back(known->second);
     templates.erase(known);
-    add_event(*state_, now, "job_order_template.deleted", {}, {}, {}, actor, {{"template", name}});
+    add_event(fleet, now, "job_order_template.deleted", {}, {}, {}, actor, {{"template", name}});
     return {};
 }
 

@@ -1,3 +1,4 @@
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -40,14 +41,16 @@ TrafficView Fleet::traffic(Time) const {
 }
 
 Result<Closure> Fleet::close_floor(const NewClosure& wanted, const std::string& actor, Time now) {
-    auto closed = fleet::close_floor(*state_, wanted, actor, now);
-    if (closed) dispatch(*state_, now);
+    FleetState& fleet = input<&Fleet::close_floor>(now, wanted, actor);
+    auto closed = fleet::close_floor(fleet, wanted, actor, now);
+    if (closed) dispatch(fleet, now);
     return closed;
 }
 
 Status Fleet::reopen_floor(ClosureId id, const std::string& actor, Time now) {
-    auto opened = fleet::reopen_floor(*state_, id, actor, now);
-    if (opened) dispatch(*state_, now);
+    FleetState& fleet = input<&Fleet::reopen_floor>(now, id, actor);
+    auto opened = fleet::reopen_floor(fleet, id, actor, now);
+    if (opened) dispatch(fleet, now);
     return opened;
 }
 

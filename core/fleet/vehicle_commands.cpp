@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
 // What people ask of vehicles and of the fleet as a whole.
@@ -20,6 +21,21 @@ bool is_about_vehicle(const Reason& reason) {
         "identity_conflict", "vehicle_withdrawn",  "load_on_withdrawn_vehicle"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
+}
+
+void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
+    if (run.record.paused) return;
+    const plant::VehicleId& id = run.record.id;
+    run.record.paused = true;
+    fleet.store(run);
+    fleet.out.fleet_changed = true;
+    add_event(fleet, now, "vehicle.paused", {}, run.record.leg, id, actor);
+    pause_motion(fleet, run, "startPause", now);
+    JobOrder* order = fleet.orders.of(id);
+    if (order && order->state == JobState::kRunning) {
+        set_order_state(fleet, *order, JobState::kInterrupted,
+                        {"vehicle_paused", {{"vehicle", id.str()}, {"actor", actor}}}, actor, now);
+    }
 }
 
 void resume_leg(FleetState& fleet, VehicleRun& run, Time now) {
@@ -52,27 +68,17 @@ void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::
 
 Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::string& actor,
                                          Time now) {
-    VehicleRun* run = state_->find(id);
+    FleetState& fleet = input<&Fleet::pause_vehicle>(now, id, actor);
+    VehicleRun* run = fleet.find(id);
     if (!run) return no_such_vehicle(id);
-    if (!run->record.paused) {
-        run->record.paused = true;
-        state_->store(*run);
-        state_->out.fleet_changed = true;
-        add_event(*state_, now, "vehicle.paused", {}, run->record.leg, id, actor);
-        pause_motion(*state_, *run, "startPause", now);
-        JobOrder* order = state_->orders.of(id);
-        if (order && order->state == JobState::kRunning) {
-            set_order_state(*state_, *order, JobState::kInterrupted,
-                            {"vehicle_paused", {{"vehicle", id.str()}, {"actor", actor}}}, actor,
-                            now);
-        }
-    }
-    return view_of(*state_, *run, now);
+    pause(fleet, *run, actor, now);
+    return view_of(fleet, *run, now);
 }
 
 Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2& pose,
                                          const std::string& actor, Time now) {
-    VehicleRun* run = state_->find(id);
+    FleetState& fleet = input<&Fleet::init_position>(now, id, pose, actor);
+    VehicleRun* run = fleet.find(id);
     if (!run) return no_such_vehicle(id);
     if (!run->connected || !run->reconciled) {
         return fail(
@@ -86,7 +92,7 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
                     {}, {{"vehicle", id.str()}});
     }
-    const auto* hall = plant::find_hall(state_->plant, plant::HallId(hall_of(*state_, *run)));
+    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(hall_of(fleet, *run)));
     if (hall && !geometry::contains(hall->outline, pose.position())) {
         return fail(Errc::kUnreachable, "outside_hall",
                     "That position lies outside hall " + hall->name + ".", "/x_m",
@@ -96,23 +102,25 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                   [](const PendingAction& p) { return p.action.type == "initPosition"; });
     Action action;
     action.type = "initPosition";
-    action.init_position = InitPosition{pose, hall_of(*state_, *run), {}};
-    add_event(*state_, now, "vehicle.init_position", {}, {}, id, actor,
+    action.init_position = InitPosition{pose, hall_of(fleet, *run), {}};
+    add_event(fleet, now, "vehicle.init_position", {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
-    send_action(*state_, *run, std::move(action), now);
-    return view_of(*state_, *run, now);
+    send_action(fleet, *run, std::move(action), now);
+    return view_of(fleet, *run, now);
 }
 
 void Fleet::pause_fleet(const std::string& actor, Time now) {
-    add_event(*state_, now, "fleet.paused", {}, {}, {}, actor);
-    state_->out.fleet_changed = true;
-    for (const auto& [id, run] : state_->vehicles) static_cast<void>(pause_vehicle(id, actor, now));
+    FleetState& fleet = input<&Fleet::pause_fleet>(now, actor);
+    add_event(fleet, now, "fleet.paused", {}, {}, {}, actor);
+    fleet.out.fleet_changed = true;
+    for (auto& [id, run] : fleet.vehicles) pause(fleet, run, actor, now);
 }
 
 Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
                            Time now) {
+    FleetState& fleet = input<&Fleet::resume_fleet>(now, vehicles, actor);
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-        const VehicleRun* run = state_->find(vehicles[i]);
+        const VehicleRun* run = fleet.find(vehicles[i]);
         const std::string field = "/vehicles/" + std::to_string(i);
         if (!run) {
             return fail(Errc::kUnreachable, "unknown_vehicle",
@@ -128,23 +136,23 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         }
     }
     for (const auto& id : vehicles) {
-        VehicleRun& run = *state_->find(id);
-        add_event(*state_, now, "vehicle.resumed", {}, run.record.leg, id, actor,
+        VehicleRun& run = *fleet.find(id);
+        add_event(fleet, now, "vehicle.resumed", {}, run.record.leg, id, actor,
                   {{"cause", run.record.needs_resume ? run.record.needs_resume_reason.code
                                                      : std::string("vehicle_paused")}});
         const bool was_paused = std::exchange(run.record.paused, false);
         run.record.needs_resume = false;
         run.record.needs_resume_reason = {};
         run.connection_refused = false;
-        state_->out.fleet_changed = true;
-        state_->store(run);
-        if (was_paused || run.state.paused) pause_motion(*state_, run, "stopPause", now);
+        fleet.out.fleet_changed = true;
+        fleet.store(run);
+        if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
 
-        JobOrder* order = state_->orders.of(id);
-        resume_leg(*state_, run, now);
-        if (order) go_on_with(*state_, run, *order, actor, now);
+        JobOrder* order = fleet.orders.of(id);
+        resume_leg(fleet, run, now);
+        if (order) go_on_with(fleet, run, *order, actor, now);
     }
-    dispatch(*state_, now);
+    dispatch(fleet, now);
     return {};
 }
 

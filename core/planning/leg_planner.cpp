@@ -195,27 +195,42 @@ Result<const plant::Station*> target_of(const plant::Plant& plant, const LegRequ
 
 }  // namespace
 
-struct LegPlanner::Static {
+struct LegPlanner::Tables {
     using Key = std::pair<plant::VehicleTypeId, bool>;
     /// What legs of one body need to know of the roadmap.
     struct Prepared {
-        Prepared(const Static& of, const plant::VehicleType& type, bool loaded)
-            : passage(of.roads.passage(type, loaded)), lanes(of.roads, passage, of.plant.routing) {
+        Prepared(const Tables& of, std::shared_ptr<const Passage> shared_passage)
+            : shared(std::move(shared_passage)),
+              passage(*shared),
+              lanes(of.roads, passage, of.plant.routing) {
             if (!of.closures.empty()) lanes.set_closures(of.closures);
         }
-        Passage passage;
+        std::shared_ptr<const Passage> shared;
+        const Passage& passage;
         LegRoads lanes;
     };
 
-    explicit Static(const plant::Plant& p) : plant(p), roads(p) {
+    explicit Tables(const plant::Plant& p)
+        : plant(p), shared(std::make_shared<const RoadmapIndex>(p)), roads(*shared) {
         for (const plant::VehicleType& type : plant.vehicle_types) {
             prepare(type, false);
             if (!type.load_footprint.empty()) prepare(type, true);
         }
     }
 
+    Tables(const Tables& other) : plant(other.plant), shared(other.shared), roads(*shared) {
+        for (const auto& [key, known] : other.prepared) {
+            prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared));
+        }
+    }
+
+    std::unique_ptr<Prepared> prepare_for(const plant::VehicleType& type, bool loaded) const {
+        return std::make_unique<Prepared>(
+            *this, std::make_shared<const Passage>(roads.passage(type, loaded)));
+    }
+
     void prepare(const plant::VehicleType& type, bool loaded) {
-        prepared.emplace(Key{type.id, loaded}, std::make_unique<Prepared>(*this, type, loaded));
+        prepared.emplace(Key{type.id, loaded}, prepare_for(type, loaded));
     }
 
     /// What is prepared for a type; worked out anew for one that is not the plant's (`fresh` keeps
@@ -229,7 +244,7 @@ struct LegPlanner::Static {
                 return *found->second;
             }
         }
-        fresh = std::make_unique<Prepared>(*this, type, loaded);
+        fresh = prepare_for(type, loaded);
         return *fresh;
     }
 
@@ -264,12 +279,17 @@ struct LegPlanner::Static {
     }
 
     const plant::Plant& plant;
-    RoadmapIndex roads;
+    std::shared_ptr<const RoadmapIndex> shared;
+    const RoadmapIndex& roads;
     std::vector<ClosedFloor> closures;
     std::map<Key, std::unique_ptr<Prepared>> prepared;
 };
 
-LegPlanner::LegPlanner(const plant::Plant& plant) : static_(std::make_unique<Static>(plant)) {}
+LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
+LegPlanner::LegPlanner(std::unique_ptr<Tables> tables) : tables_(std::move(tables)) {}
+LegPlanner LegPlanner::again() const {
+    return LegPlanner(std::make_unique<Tables>(*tables_));
+}
 LegPlanner::~LegPlanner() = default;
 LegPlanner::LegPlanner(LegPlanner&&) noexcept = default;
 LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;
@@ -277,12 +297,12 @@ LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;
 std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
                                                  const std::vector<StandingBody>& standing) const {
     assert(request.type);
-    std::unique_ptr<Static::Prepared> fresh;
-    Static::Prepared& by = static_->of(*request.type, request.loaded, fresh);
-    auto options = static_->assess(request, by, modes_of(*request.type));
+    std::unique_ptr<Tables::Prepared> fresh;
+    Tables::Prepared& by = tables_->of(*request.type, request.loaded, fresh);
+    auto options = tables_->assess(request, by, modes_of(*request.type));
     for (ModeOption& option : options) {
         if (option.plan) {
-            describe(by.passage.body, *static_->roads.obstacles(request.hall), standing,
+            describe(by.passage.body, *tables_->roads.obstacles(request.hall), standing,
                      *option.plan);
         }
     }
@@ -302,9 +322,9 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
                     {{"mode", std::string(plant::to_string(request.mode))},
                      {"vehicle_type", request.type->id.str()}});
     }
-    std::unique_ptr<Static::Prepared> fresh;
+    std::unique_ptr<Tables::Prepared> fresh;
     auto options =
-        static_->assess(request, static_->of(*request.type, request.loaded, fresh), modes);
+        tables_->assess(request, tables_->of(*request.type, request.loaded, fresh), modes);
     for (ModeOption& option : options) {
         if (option.suggested) return std::move(option.plan);
     }
@@ -315,8 +335,8 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
 std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,
                                                      int count) const {
     assert(request.type);
-    std::unique_ptr<Static::Prepared> fresh;
-    const auto task = static_->task_of(request, static_->of(*request.type, request.loaded, fresh));
+    std::unique_ptr<Tables::Prepared> fresh;
+    const auto task = tables_->task_of(request, tables_->of(*request.type, request.loaded, fresh));
     if (!task) return {};
     const plant::RoutingCost& k = task->cost;
     std::vector<LegAlternative> found;
@@ -342,16 +362,16 @@ std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, 
 }
 
 void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
-    static_->closures = std::move(closures);
-    for (auto& [key, prepared] : static_->prepared) {
-        prepared->lanes.set_closures(static_->closures);
+    tables_->closures = std::move(closures);
+    for (auto& [key, prepared] : tables_->prepared) {
+        prepared->lanes.set_closures(tables_->closures);
     }
 }
 
 MotionGraph LegPlanner::motion_graph(const plant::VehicleType& type, bool loaded) const {
-    std::unique_ptr<Static::Prepared> fresh;
-    const Passage& passage = static_->of(type, loaded, fresh).passage;
-    return planning::motion_graph(static_->plant, static_->roads, passage, type);
+    std::unique_ptr<Tables::Prepared> fresh;
+    const Passage& passage = tables_->of(type, loaded, fresh).passage;
+    return planning::motion_graph(tables_->plant, tables_->roads, passage, type);
 }
 
 }  // namespace pulseline::planning

@@ -75,6 +75,8 @@ struct LegAlternative {
 class LegPlanner {
 public:
     explicit LegPlanner(const plant::Plant& plant);
+    /// Another one for the same plant, without closures: shares what the plant alone decides.
+    LegPlanner again() const;
     ~LegPlanner();
     LegPlanner(LegPlanner&&) noexcept;
     LegPlanner& operator=(LegPlanner&&) noexcept;
@@ -109,8 +111,9 @@ public:
     MotionGraph motion_graph(const plant::VehicleType& type, bool loaded) const;
 
 private:
-    struct Static;
-    std::unique_ptr<Static> static_;
+    struct Tables;
+    explicit LegPlanner(std::unique_ptr<Tables> tables);
+    std::unique_ptr<Tables> tables_;
 };
 
 }  // namespace pulseline::planning

@@ -148,6 +148,14 @@ public:
     /// Plan changes of others that the last `replace` brought: moves with new waits_for.
     const std::vector<MoveRef>& touched_moves() const { return touched_moves_; }
 
+    /// Shows a visitor all that counts, for snapshots. The stamp only tells one prediction's work
+    /// from the next one's.
+    template <class V, class Self>
+    static void members(V& visit, Self& self) {
+        auto& [vehicles, queues, closed, closed_now, touched_moves, stamp] = self;
+        visit(vehicles, queues, closed, closed_now, touched_moves);
+    }
+
 private:
     struct OpenUse {
         TileIndex tile;

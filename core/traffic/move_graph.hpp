@@ -46,6 +46,20 @@ public:
     TileId id_of(TileIndex index) const { return ids_[index]; }
     TileSet ids_of(const TileIndexes& tiles) const;
     std::size_t size() const { return ids_.size(); }
+    const std::vector<TileId>& ids() const { return ids_; }
+
+    /// Shows a visitor all that counts, for snapshots; one that reads may change it.
+    template <class V, class Self>
+    static void members(V& visit, Self& self) {
+        auto& [indexes, ids] = self;
+        visit(ids);
+        if constexpr (!std::is_const_v<Self>) {
+            indexes.clear();
+            for (std::size_t i = 0; i < ids.size(); ++i) {
+                indexes.emplace(ids[i], static_cast<TileIndex>(i));
+            }
+        }
+    }
 
 private:
     std::unordered_map<TileId, TileIndex> indexes_;

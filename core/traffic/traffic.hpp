@@ -211,6 +211,18 @@ public:
     /// The whole state as changes: what a new monitor has to be told first.
     std::vector<Change> all_as_changes() const;
 
+    /// Shows a visitor all that counts, for snapshots. Graphs come from the plant: a visitor that
+    /// reads needs them added before, in the same order. Changes for the monitor are left out, a
+    /// new monitor is told everything; the searches' memory and tables are worked out again.
+    template <class V, class Self>
+    static void members(V& visit, Self& self) {
+        auto& [report_changes, tiles, graphs, joint, vehicles, closures, changes, replanned, untold,
+               predicted, predicted_s, search, times, times_kept] = self;
+        visit(tiles, joint, vehicles, closures, replanned, untold, predicted, predicted_s);
+    }
+    /// Tiles as they became known.
+    const std::vector<TileId>& tile_order() const { return tiles_.ids(); }
+
 private:
     struct Vehicle {
         std::string name;
@@ -223,10 +235,22 @@ private:
         bool postponed = false;
         std::optional<Block> blocked_by;
         double tried_s = -1e9;  // the last search by improve()
+        template <class V, class Self>
+        static void members(V& visit, Self& self) {
+            auto& [its_name, its_graph, is_gone, leaves, its_task, its_visit, admitted,
+                   is_postponed, blocked, tried] = self;
+            visit(its_name, its_graph, is_gone, leaves, its_task, its_visit, admitted, is_postponed,
+                  blocked, tried);
+        }
     };
     struct Closure {
         TileIndexes tiles;
         bool open = false;
+        template <class V, class Self>
+        static void members(V& visit, Self& self) {
+            auto& [its_tiles, is_open] = self;
+            visit(its_tiles, is_open);
+        }
     };
     using Undos = std::vector<JointPlan::Undo>;
     using Times = std::shared_ptr<const std::vector<float>>;

@@ -26,7 +26,7 @@ function plans() {
     for (const point of NAMES) {
       if (point === MIGRATION) continue;
       const stop = point.startsWith("stop_");
-      const once = stop || point.startsWith("start_") || point.startsWith("checkpoint_");
+      const once = stop || point.startsWith("start_") || point.startsWith("snapshot_") || point.startsWith("checkpoint_");
       all.push({ point, stop, passage: once ? 1 : 1 + Math.floor(20 * random()), after_ms: Math.floor(800 * random()) });
     }
   }
@@ -59,6 +59,7 @@ test(`the server killed under load, seed ${SEED}`, async (t) => {
   t.diagnostic(`${total.kills} kills, ${NAMES.length - 1} named places: ${JSON.stringify(total)}`);
   assert.equal(total.kills, KILLS + ROUNDS * (NAMES.length - 1));
   assert.ok(total.created >= total.kills, "there was load");
+  assert.ok(total.replayed >= 10 * total.kills, "the journals held what happened");
 });
 
 test("the server killed while it makes a new database", async (t) => {

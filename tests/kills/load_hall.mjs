@@ -27,7 +27,7 @@ export const pick = (random, list) => list[Math.floor(random() * list.length)];
 export class LoadHall {
   orders = new Map();  // by Idempotency-Key: what was asked and the most that was answered
   seen = new Map();    // events the stream has shown, by sequence number
-  counts = { kills: 0, created: 0, unanswered: 0, changes: 0, refused: 0, released: 0 };
+  counts = { kills: 0, created: 0, unanswered: 0, changes: 0, refused: 0, released: 0, replayed: 0, events_replayed: 0 };
   loading = false;
   next = 0;
 
@@ -210,7 +210,16 @@ export class LoadHall {
     for (const end of ["", "-wal"]) {
       if (existsSync(this.system.database + end)) copyFileSync(this.system.database + end, join(folder, `p.db${end}`));
     }
+    this.checkJournal(join(folder, "p.db"));
     return JSON.parse(execFileSync(join(BUILD, "stored"), ["check", join(folder, "p.db")], { encoding: "utf8", maxBuffer: 1 << 28 }));
+  }
+
+  /** Its snapshots and journal replay to what is stored, to the last byte. */
+  checkJournal(file) {
+    const { inputs, events, difference } = JSON.parse(execFileSync(join(BUILD, "pulseline"), ["journal", "verify", "--db", file, "--json"], { encoding: "utf8" }));
+    assert.equal(difference, null, `journal: ${JSON.stringify(difference)}`);
+    this.counts.replayed += inputs;
+    this.counts.events_replayed += events;
   }
 
   /** Either outcome of what was not answered, never both; all of what was. */

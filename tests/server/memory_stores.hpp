@@ -34,11 +34,32 @@ public:
             stored.last_event_seq = events_.back().seq;
             stored.last_time = events_.back().at;
         }
+        if (!journal_.empty()) stored.last_journal_seq = journal_.back().seq;
         return stored;
+    }
+    fleet::StoredJournal load_journal() override {
+        const std::lock_guard lock(mutex_);
+        fleet::StoredJournal stored;
+        stored.snapshot = snapshot_;
+        for (const auto& row : journal_) {
+            if (snapshot_ && row.seq > snapshot_->journal_seq) stored.rows.push_back(row);
+        }
+        return stored;
+    }
+    void put_snapshot(const fleet::SnapshotRow& snapshot) override {
+        if (fails) throw std::runtime_error("disk full (by the test)");
+        const std::lock_guard lock(mutex_);
+        snapshot_ = snapshot;
     }
     void commit(const fleet::Records& records) override {
         if (fails) throw std::runtime_error("disk full (by the test)");
         const std::lock_guard lock(mutex_);
+        for (const auto& row : records.journal) {
+            if (row.seq != (journal_.empty() ? 0 : journal_.back().seq) + 1) {
+                throw std::runtime_error("gap in the journal");
+            }
+            journal_.push_back(row);
+        }
         for (const auto& order : records.orders) orders_[order.id] = order;
         for (const auto& vehicle : records.vehicles) vehicles_[vehicle.id] = vehicle;
         for (const auto& event : records.events) {
@@ -110,6 +131,8 @@ private:
     std::map<std::string, fleet::OrderTemplate> templates_;
     std::vector<fleet::Event> events_;
     std::vector<fleet::StopRecord> stops_;
+    std::vector<fleet::JournalRow> journal_;
+    std::optional<fleet::SnapshotRow> snapshot_;
 };
 
 class MemoryAccess : public access::Store {

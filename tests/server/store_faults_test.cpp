@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "server/cli/journal_verify.hpp"
 #include "tests/db/fault_vfs.hpp"
 #include "tests/db/temp_folder.hpp"
 #include "tests/server/stored_fleet.hpp"
@@ -17,6 +18,7 @@ using Kind = FaultVfs::Kind;
 
 constexpr int kSteps = 200;
 constexpr int kStepsOfALife = 10;
+constexpr std::int64_t kReplayEvery = 8;
 constexpr Time kStart = time_from_ns(1'800'000'000'000'000'000);
 
 std::int64_t number(soci::session& sql, const std::string& query) {
@@ -49,6 +51,16 @@ void expect_kept(const std::string& path, const Ledger& ledger) {
         EXPECT_GE(found->second, asked.revision) << "false acknowledgement of a change of " << key;
     }
     EXPECT_EQ(revisions.size(), accepted) << "an order that was refused is stored";
+}
+
+/// Its journal replays to what is stored: a fleet that was brought back after a failed commit was
+/// the one it had been, else what followed would not fit.
+cli::JournalReport expect_replays(const std::string& path) {
+    db::ReadOnly database(path);
+    auto report = cli::verify_journal(database, fleet::testing::small_plant());
+    EXPECT_FALSE(report.difference)
+        << "journal row " << report.difference->journal_seq << ": " << report.difference->what;
+    return report;
 }
 
 /// The scenario's server starts anew every ten steps, so that a run need not begin at the first.
@@ -98,6 +110,7 @@ Run run(const Begin& begin, int first_step, const FaultVfs::Plan& plan) {
     run.hit = run.hit || FaultVfs::faults() > 0;
     FaultVfs::heal();
     expect_kept(path, ledger);
+    if (plan.at % kReplayEvery == 0) expect_replays(path);
     run.end.ledger = ledger;
     if (plan.at == 0) {
         run.end.file = ::testing::TempDir() + "pulseline-faults-" + std::to_string(::getpid()) +
@@ -147,6 +160,92 @@ TEST(StoreFaults, EveryCallOfTwoHundredStepsMayFailAndNothingIsFalselyAcknowledg
     ASSERT_GT(calls, 1000u) << "the scenario commits in most steps";
     // Which commits share a batch is up to the threads, so a number may be another call's.
     EXPECT_GE(hits, runs * 9 / 10);
+}
+
+TEST(StoreFaults, AfterAFailedCommitOrdersGoOnFromWhereTheyWere) {
+    FaultVfs::install();
+    spdlog::set_level(spdlog::level::off);
+    const db::TempFolder folder;
+    const std::string path = folder.file("p.db");
+    Ledger ledger;
+    FaultVfs::begin({});
+    auto server = std::make_unique<StoredFleet>(path, ledger, kStart);
+    ASSERT_TRUE(server->works_again());  // an order is under way
+
+    FaultVfs::begin({1, 1'000'000, Kind::kFull});
+    for (int step = 1; step <= 10; ++step) server->step(step);
+    EXPECT_GT(FaultVfs::faults(), 0);
+    FaultVfs::heal();
+    ASSERT_TRUE(server->works_again());
+    server.reset();
+
+    const auto report = expect_replays(path);
+    EXPECT_GT(report.inputs, 10);
+    EXPECT_GT(report.events, 5);
+    db::ReadOnly database(path);
+    const auto count = [&](const std::string& where) {
+        return number(database.sql(), "SELECT COUNT(*) FROM events WHERE " + where);
+    };
+    EXPECT_EQ(count("type = 'store.failed'"), 1);
+    EXPECT_EQ(count("type = 'store.recovered'"), 1);
+    EXPECT_EQ(count("type = 'vehicle.needs_resume'"), 0);
+    EXPECT_EQ(count("params LIKE '%server_restarted%'"), 0);
+    EXPECT_EQ(count("params LIKE '%Interrupted%'"), 0);
+}
+
+TEST(StoreFaults, AChangedRowOfTheJournalIsFoundWithItsNumber) {
+    FaultVfs::install();
+    spdlog::set_level(spdlog::level::off);
+    const db::TempFolder folder;
+    const std::string path = folder.file("p.db");
+    Ledger ledger;
+    FaultVfs::begin({});
+    {
+        StoredFleet server(path, ledger, kStart);
+        for (int step = 1; step <= 20; ++step) server.step(step);
+    }
+    std::int64_t seq = 0;
+    {
+        db::Database database(path);
+        seq = number(database.sql(), "SELECT MAX(seq) - 2 FROM journal");
+        database.sql() << "UPDATE journal SET bytes = CAST(bytes || x'00' AS BLOB) WHERE seq = " +
+                              std::to_string(seq);
+    }
+    db::ReadOnly broken(path);
+    const auto row = cli::verify_journal(broken, fleet::testing::small_plant()).difference;
+    ASSERT_TRUE(row);
+    EXPECT_EQ(row->journal_seq, seq);
+    EXPECT_NE(row->what.find("checksum"), std::string::npos) << row->what;
+
+    auto other = fleet::testing::small_plant();
+    ++other.revision;
+    const auto changed_plant = cli::verify_journal(broken, other);
+    EXPECT_EQ(changed_plant.snapshots, 0);
+    ASSERT_FALSE(changed_plant.passed_over.empty());
+    EXPECT_NE(changed_plant.passed_over.front().find("the plant was changed"), std::string::npos);
+}
+
+TEST(StoreFaults, AnEventThatTheReplayDoesNotGiveIsFound) {
+    FaultVfs::install();
+    spdlog::set_level(spdlog::level::off);
+    const db::TempFolder folder;
+    const std::string path = folder.file("p.db");
+    Ledger ledger;
+    FaultVfs::begin({});
+    {
+        StoredFleet server(path, ledger, kStart);
+        ASSERT_TRUE(server.works_again());
+    }
+    {
+        db::Database database(path);
+        database.sql() << "UPDATE events SET actor = 'somebody' WHERE type = 'job_order.created'";
+    }
+    db::ReadOnly changed(path);
+
+    const auto found = cli::verify_journal(changed, fleet::testing::small_plant()).difference;
+
+    ASSERT_TRUE(found);
+    EXPECT_NE(found->what.find("job_order.created"), std::string::npos) << found->what;
 }
 
 }  // namespace

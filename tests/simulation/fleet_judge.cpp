@@ -1,7 +1,8 @@
 // Simulation judge of the whole fleet: many seeds, each a random plant with the real fleet, real
 // vehicle executors and random faults. A seed that fails prints itself and its last events;
-// `--seed N` replays it identically, which every tenth seed proves.
-//   test_fleet_judge [--seeds N] [--first N] [--hours H] [--jobs N] [--seed N] [--trace 1]
+// `--seed N` replays it identically, which every tenth seed proves. With --journal a second fleet
+// follows the first one's snapshots and journal, byte for byte.
+//   test_fleet_judge [--seeds N] [--first N] [--hours H] [--jobs N] [--seed N] [--trace 1] [--journal 1]
 #include <unistd.h>
 
 #include <algorithm>
@@ -66,6 +67,8 @@ Arguments arguments_from(int argc, char** argv) {
             arguments.jobs = std::max(1, std::atoi(value));
         } else if (name == "--trace") {
             arguments.options.trace = *value == '1';
+        } else if (name == "--journal") {
+            arguments.options.journal = *value == '1';
         } else {
             std::fprintf(stderr, "unknown option %s\n", name.c_str());
             std::exit(2);
@@ -86,6 +89,10 @@ struct Sums {
     int most = 0;
     int fewest_classes = 1 << 30;
     double hours = 0;
+    std::uint64_t inputs = 0;
+    std::uint64_t input_bytes = 0;
+    std::uint64_t snapshots = 0;
+    std::uint64_t snapshot_bytes = 0;
 
     void add(const Outcome& outcome) {
         for (const auto& [name, count] : outcome.faults) {
@@ -100,6 +107,10 @@ struct Sums {
         most = std::max(most, outcome.vehicles);
         fewest_classes = std::min(fewest_classes, outcome.classes);
         hours += outcome.end_s / 3600;
+        inputs += outcome.inputs;
+        input_bytes += outcome.input_bytes;
+        snapshots += outcome.snapshots;
+        snapshot_bytes += outcome.snapshot_bytes;
     }
 };
 
@@ -233,6 +244,14 @@ int run(const Arguments& arguments) {
                     static_cast<unsigned long long>(counts.second));
     }
     const bool wide = is_wide(sums, arguments);
+    if (sums.snapshots > 0) {
+        std::printf(
+            "journal: %llu inputs replayed, %.0f bytes each; %llu snapshots of %.0f bytes\n",
+            static_cast<unsigned long long>(sums.inputs),
+            static_cast<double>(sums.input_bytes) / static_cast<double>(sums.inputs),
+            static_cast<unsigned long long>(sums.snapshots),
+            static_cast<double>(sums.snapshot_bytes) / static_cast<double>(sums.snapshots));
+    }
     std::printf("faults in %.0f %% of the seeds; %llu seeds failed\n", share,
                 static_cast<unsigned long long>(sums.failed));
     std::printf("# pass %llu\n# fail %llu\n",

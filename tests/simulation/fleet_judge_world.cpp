@@ -39,6 +39,7 @@ World::World(std::uint64_t seed, const Options& options) : random_(seed), option
     for (const auto& vehicle : plant_.vehicles) classes.insert(vehicle.type);
     const bool platform = classes.count(plant::VehicleTypeId("platform")) != 0;
     outcome_.classes = platform ? static_cast<int>(classes.size()) : 0;
+    if (options.journal) shadow_.emplace(plant_);
     start_server();
 }
 
@@ -50,6 +51,12 @@ Outcome World::run() {
     while (!all_over() && now_s_ < end_s_ + kDrain_s && outcome_.violations.empty()) step(kTick_s);
     if (outcome_.violations.empty()) check_end();
     outcome_.end_s = now_s_;
+    if (shadow_) {
+        outcome_.inputs = shadow_->inputs;
+        outcome_.input_bytes = shadow_->input_bytes;
+        outcome_.snapshots = shadow_->snapshots;
+        outcome_.snapshot_bytes = shadow_->snapshot_bytes;
+    }
     outcome_.orders = static_cast<int>(store_.orders.size());
     for (const auto& [id, order] : store_.orders) {
         outcome_.ended += order.state == fleet::JobState::kEnded ? 1 : 0;
@@ -125,6 +132,8 @@ void World::carry_messages() {
 void World::start_server() {
     fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now(),
                                             fleet_ ? fleet_->tables() : nullptr);
+    fleet_->leave_out_views();
+    if (shadow_) shadow_->follow(*fleet_);
     for (auto& [id, line] : lines_) {
         line.server_knows = false;
         line.up.clear();
@@ -139,9 +148,16 @@ void World::start_server() {
     }
 }
 
+fleet::Outputs World::take_outputs() {
+    fleet::Outputs out = fleet_->take_outputs(now());
+    if (!shadow_) return out;
+    if (const auto found = shadow_->step(fleet_, out); !found.empty()) violate(found);
+    return out;
+}
+
 void World::settle() {
     for (int round = 0; round < kRounds && !unstored_; ++round) {
-        fleet::Outputs out = fleet_->take_outputs(now(), false);
+        fleet::Outputs out = take_outputs();
         if (out.records.empty() && out.messages.empty()) break;
         if (!commit(out)) return;
         send(out);
@@ -166,7 +182,7 @@ bool World::commit(fleet::Outputs& out) {
                 ++outcome_.faults["commit fails"];
                 start_server();
                 fleet_->store_failed({"disk_full", now()}, now());
-                unstored_ = fleet_->take_outputs(now(), false);
+                unstored_ = take_outputs();
                 store_back_s_ = now_s_ + pick(1, 20);
                 return false;
         }

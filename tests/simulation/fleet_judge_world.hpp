@@ -10,6 +10,7 @@
 
 #include "core/fleet/fleet.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
+#include "tests/simulation/fleet_judge_journal.hpp"
 #include "tests/simulation/fleet_judge_vehicle.hpp"
 
 /// One seed: a plant, the real fleet over a store in memory, vehicles, lines that lose and delay,
@@ -26,11 +27,16 @@ struct Outcome {
     int ended = 0;
     double end_s = 0;
     std::uint64_t digest = 0;
+    std::uint64_t inputs = 0;  // replayed from the journal, with Options::journal
+    std::uint64_t input_bytes = 0;
+    std::uint64_t snapshots = 0;
+    std::uint64_t snapshot_bytes = 0;
 };
 
 struct Options {
     double hours = 1;
     bool trace = false;
+    bool journal = false;  // a replay runs beside the fleet
 };
 
 Outcome judge_seed(std::uint64_t seed, const Options& options);
@@ -91,6 +97,7 @@ private:
     void settle();
     bool commit(fleet::Outputs& out);
     void send(const fleet::Outputs& out);
+    fleet::Outputs take_outputs();
     void start_server();
     void retry_store();
     Time now() const { return base_ + from_seconds(now_s_) + clock_step_; }
@@ -139,6 +146,7 @@ private:
     plant::Plant plant_;
     fleet::testing::MemoryStore store_;
     std::unique_ptr<fleet::Fleet> fleet_;
+    std::optional<Shadow> shadow_;
     std::map<plant::VehicleId, Vehicle> vehicles_;
     std::map<plant::VehicleId, Line> lines_;
     std::map<plant::VehicleId, Watch> watch_;

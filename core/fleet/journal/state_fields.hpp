@@ -1,0 +1,119 @@
+#pragma once
+
+#include "core/fleet/journal/fields.hpp"
+#include "core/fleet/state.hpp"
+
+/// The fleet's own state, described as in fields.hpp. Not for use outside core/fleet.
+namespace pulseline {
+
+PULSELINE_LAST(traffic::BlockCause, kHalted)
+
+namespace planning {
+// The type is a pointer into the plant; PlannedLeg's reader finds it by the vehicle.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, LegRequest>
+void fields(V& visit, S& it) {
+    auto& [type, loaded, hall, start, from_station, target, mode] = it;
+    visit(loaded, hall, start, from_station, target, mode);
+}
+PULSELINE_FIELDS(LegPlan, mode, segments, route, length_m, turns, cost, duration_s, closures,
+                 clearance_m, nearest, swept_area_m2, swept)
+}  // namespace planning
+
+namespace traffic {
+PULSELINE_FIELDS(MoveRef, vehicle, move)
+PULSELINE_FIELDS(Visit, place, dwell_s)
+PULSELINE_FIELDS(Block, cause, vehicle, move, tile)
+PULSELINE_FIELDS(Use, vehicle, first, last)
+PULSELINE_FIELDS(Sequence::Step, swept, stand, duration_s, its_visit, place)
+PULSELINE_FIELDS(Sequence, steps, ends_at)
+PULSELINE_FIELDS(Task, visits, resting, sequences, may_delay_others)
+PULSELINE_FIELDS(Shape, swept, stand)
+PULSELINE_FIELDS(VehiclePlan, stand, place, passed, released, dropped, moves, since_s, halted)
+
+// Stamp and openness are a prediction's own notes.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, PlannedMove>
+void fields(V& visitor, S& it) {
+    auto& [shape, place, visit, duration_s, start_s, end_s, waits_for, stamp, open] = it;
+    visitor(shape, place, visit, duration_s, start_s, end_s, waits_for);
+}
+
+inline void write(fleet::journal::Writer& out, const ShapePtr& shape) { out.put(*shape); }
+inline void read(fleet::journal::Reader& in, ShapePtr& shape) {
+    auto made = std::make_shared<Shape>();
+    in.get(*made);
+    shape = std::move(made);
+}
+
+/// Most tiles have nobody in their queue: only the others, each behind its distance to the one
+/// before.
+inline void write(fleet::journal::Writer& out, const std::vector<std::vector<Use>>& queues) {
+    out.number(queues.size());
+    std::size_t next = 0;
+    for (std::size_t tile = 0; tile < queues.size(); ++tile) {
+        if (queues[tile].empty()) continue;
+        out.number(tile - next + 1);
+        out.put(queues[tile]);
+        next = tile + 1;
+    }
+    out.number(0);
+}
+constexpr std::uint64_t kMostTiles = 1U << 26;  // of 0.5 m: 16 square kilometres
+inline void read(fleet::journal::Reader& in, std::vector<std::vector<Use>>& queues) {
+    const std::uint64_t size = in.number();
+    if (size > kMostTiles) return in.refuse("too many tiles");
+    queues.assign(size, {});
+    std::uint64_t next = 0;
+    for (std::uint64_t step = in.number(); step != 0; step = in.number()) {
+        if (step > size - next) return in.refuse("a tile beyond the last");
+        next += step;
+        in.get(queues[next - 1]);
+    }
+}
+
+}  // namespace traffic
+
+namespace fleet {
+
+PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
+PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
+                 next_try, next_leave, idle_since)
+PULSELINE_FIELDS(PlannedLeg, vehicle, request, plan)
+PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
+
+// Vehicle and type are the plant's; the areas are only drawn and worked out when asked for.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, VehicleRun>
+void fields(V& visit, S& it) {
+    auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
+           state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
+           update_sends, order_sent, gave_up, cancelling, floor, leg_started, actions, charge_wait,
+           charge_retry, areas] = it;
+    visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
+          newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
+          gave_up, cancelling, floor, leg_started, actions, charge_wait, charge_retry);
+}
+
+// The monitor is told all that traffic knows; the classes come from the plant.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, Floor>
+void fields(V& visit, S& it) {
+    auto& [its_traffic, monitor, classes, stopped, improved, checked] = it;
+    visit(its_traffic, stopped, improved, checked);
+}
+
+/// All but plant, planner and vehicles, which snapshot.cpp puts together, and what a step puts out,
+/// which has been taken.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, FleetState>
+void fields(V& visit, S& it) {
+    auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
+           keys_swept, event_seq, order_number, newest_plan, standing, stored_seq, store_fault, out,
+           stored_vehicles, stored_orders, changed_vehicles, changed_stations] = it;
+    visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
+          newest_plan, standing, stored_seq, store_fault);
+}
+
+}  // namespace fleet
+}  // namespace pulseline

@@ -1,0 +1,111 @@
+// ./dev bench journal: what a journal and a snapshot weigh and cost, for fleets of some sizes at
+// work. One lane with two stations a vehicle, all of them on an order.
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+
+#include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/journal/snapshot.hpp"
+#include "tests/core/fleet/fleet_world.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+
+double ms_since(Steady::time_point start) {
+    return std::chrono::duration<double, std::milli>(Steady::now() - start).count();
+}
+
+plant::Plant lanes(int count) {
+    plant::Plant plant = testing::small_plant();
+    constexpr double kLane_m = 4;
+    constexpr double kLength_m = 24;
+    plant.halls.front().outline =
+        geometry::transformed({kLength_m / 2 + 10, kLane_m * count / 2 + 10, 0},
+                              geometry::rectangle(kLength_m + 40, kLane_m * count + 40));
+    const plant::Station station = plant.stations.front();
+    const plant::Vehicle vehicle = plant.vehicles.front();
+    const plant::RoadmapEdge edge = plant.edges.front();
+    plant.stations.clear();
+    plant.markers.clear();
+    plant.nodes.clear();
+    plant.edges.clear();
+    plant.vehicles.clear();
+    const auto node = [](int number) { return plant::NodeId("n" + std::to_string(number)); };
+    const auto join = [&](int from, int to) {
+        for (const auto& [a, b] : {std::pair{from, to}, std::pair{to, from}}) {
+            plant.edges.push_back(edge);
+            plant.edges.back().from = node(a);
+            plant.edges.back().to = node(b);
+            plant.edges.back().id = plant::EdgeId(node(a).str() + node(b).str());
+        }
+    };
+    for (int i = 0; i < count; ++i) {
+        for (int end = 0; end < 2; ++end) {
+            const int number = 2 * i + end + 1;
+            plant::Station made = station;
+            made.id = plant::StationId("s" + std::to_string(number));
+            made.number = number;
+            made.markers.clear();
+            made.resting_place = true;
+            made.pose = {10 + end * kLength_m, 10 + i * kLane_m, 0};
+            made.node = node(number);
+            plant.stations.push_back(made);
+            plant.nodes.push_back({made.node, made.hall, made.pose.position()});
+        }
+        join(2 * i + 1, 2 * i + 2);
+        plant.vehicles.push_back(vehicle);
+        plant::Vehicle& made = plant.vehicles.back();
+        made.id = plant::VehicleId("V" + std::to_string(i + 1));
+        made.serial_number = made.id.str();
+        made.home = plant.stations[static_cast<std::size_t>(2 * i)].id;
+    }
+    return plant;
+}
+
+void measure(int count) {
+    testing::World world(lanes(count));
+    journal::Recorder recorder;
+    world.fleet->journal_into(&recorder);
+    world.connect_all();
+    world.run(2);
+    for (int i = 0; i < count; ++i) {
+        const auto made = world.order("V" + std::to_string(i + 1), {2 * i + 2, 2 * i + 1});
+        if (!made) std::printf("order refused: %s\n", made.error().what.c_str());
+    }
+    world.run(5);
+    static_cast<void>(world.fleet->take_outputs(world.now));
+    const auto inputs = recorder.inputs();
+    const std::string written = recorder.take();
+    constexpr int kRounds = 20;
+    std::string bytes;
+    double worst_ms = 0;
+    const auto start = Steady::now();
+    for (int i = 0; i < kRounds; ++i) {
+        const auto one = Steady::now();
+        bytes = world.fleet->snapshot();
+        worst_ms = std::max(worst_ms, ms_since(one));
+    }
+    const double snapshot_ms = ms_since(start) / kRounds;
+    const auto from = Steady::now();
+    const auto restored = Fleet::from_snapshot(world.plant, bytes);
+    const double restore_ms = ms_since(from);
+    const bool same = restored && (*restored)->snapshot() == bytes;
+    std::printf(
+        "{\"vehicles\":%d,\"inputs\":%u,\"bytes_per_input\":%.0f,\"snapshot_bytes\":%zu,"
+        "\"snapshot_ms\":%.2f,\"snapshot_max_ms\":%.2f,\"restore_ms\":%.0f,\"same\":%s}\n",
+        count, inputs, static_cast<double>(written.size()) / inputs, bytes.size(), snapshot_ms,
+        worst_ms, restore_ms, same ? "true" : "false");
+}
+
+}  // namespace
+}  // namespace pulseline::fleet
+
+int main(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        if (std::atoi(argv[i]) > 0) pulseline::fleet::measure(std::atoi(argv[i]));
+    }
+    if (argc > 1 && std::atoi(argv[argc - 1]) > 0) return 0;
+    for (const int count : {12, 100, 1000}) pulseline::fleet::measure(count);
+}
