@@ -108,7 +108,6 @@ void put_on_floor(FleetState& fleet, Closure closure, Time now) {
     closed.in_traffic = fleet.floor.traffic.close(closed.tiles, now);
     closed.closure = std::move(closure);
     fleet.closures.push_back(std::move(closed));
-    tell_planner(fleet);
 }
 
 }  // namespace
@@ -124,6 +123,7 @@ Result<Closure> close_floor(FleetState& fleet, const NewClosure& wanted, const s
                     actor,
                     now};
     put_on_floor(fleet, closure, now);
+    tell_planner(fleet);
     fleet.out.records.closures.push_back(closure);
     fleet.out.fleet_changed = true;
     add_event(fleet, now, "floor.closed", {}, {}, {}, actor,
@@ -154,6 +154,7 @@ Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, T
 
 void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now) {
     for (auto& closure : closures) put_on_floor(fleet, std::move(closure), now);
+    tell_planner(fleet);
     floor_is_sound(fleet, now);
 }
 

@@ -41,18 +41,41 @@ std::vector<LaneRules> rules_of(const RoadmapIndex& roads, const Passage& passag
     return rules;
 }
 
+bool near(const geometry::Box& box, const geometry::Box& other, double within_m) {
+    const double dx = std::max(box.min.x_m - other.max.x_m, other.min.x_m - box.max.x_m);
+    const double dy = std::max(box.min.y_m - other.max.y_m, other.min.y_m - box.max.y_m);
+    return std::max(dx, dy) <= within_m;
+}
+
 bool meets(const ClosedFloor& closure, const std::vector<geometry::Polygon>& swept) {
     for (const auto& piece : swept) {
         const auto box = geometry::bounding_box(piece);
         for (const auto& closed : closure.pieces) {
-            const auto other = geometry::bounding_box(closed);
-            const double dx = std::max(box.min.x_m - other.max.x_m, other.min.x_m - box.max.x_m);
-            const double dy = std::max(box.min.y_m - other.max.y_m, other.min.y_m - box.max.y_m);
-            if (std::max(dx, dy) > closure.margin_m) continue;
+            if (!near(box, geometry::bounding_box(closed), closure.margin_m)) continue;
             if (geometry::distance(piece, closed) <= closure.margin_m) return true;
         }
     }
     return false;
+}
+
+double reach_of(const Body& body) {
+    double reach_m = 0;
+    for (const auto& piece : body.pieces) {
+        for (const auto& corner : piece) reach_m = std::max(reach_m, norm(corner));
+    }
+    return reach_m;
+}
+
+/// Whether a body could touch any of them between two points: spares most lanes their sweep.
+bool any_near(const std::vector<ClosedFloor>& closures, const plant::HallId& hall,
+              geometry::Point2 from, geometry::Point2 to, double reach_m) {
+    const auto way = geometry::bounding_box({from, to});
+    return std::any_of(closures.begin(), closures.end(), [&](const ClosedFloor& closure) {
+        return closure.hall == hall &&
+               std::any_of(closure.pieces.begin(), closure.pieces.end(), [&](const auto& piece) {
+                   return near(way, geometry::bounding_box(piece), reach_m + closure.margin_m);
+               });
+    });
 }
 
 }  // namespace
@@ -80,11 +103,15 @@ LegRoads::LegRoads(const RoadmapIndex& roads, const Passage& passage,
 }
 
 void LegRoads::set_closures(const std::vector<ClosedFloor>& closures) {
+    const RoadGraph& graph = roads_.graph();
+    const double reach_m = reach_of(passage_.body);
     for (std::size_t i = 0; i < over_.size(); ++i) {
         const int arc = static_cast<int>(i);
+        const auto& hall = roads_.node(graph.arcs[i].from).hall;
         over_[i].clear();
-        if (!closures.empty() && roads_.usable(passage_, arc)) {
-            const auto& hall = roads_.node(roads_.graph().arcs[i].from).hall;
+        if (roads_.usable(passage_, arc) &&
+            any_near(closures, hall, graph.nodes[static_cast<std::size_t>(graph.arcs[i].from)],
+                     graph.nodes[static_cast<std::size_t>(graph.arcs[i].to)], reach_m)) {
             over_[i] = driven_over(closures, hall, roads_.swept(passage_.body, arc));
         }
         router_.set_closed(arc, !over_[i].empty());
