@@ -121,6 +121,7 @@ void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
 }
 
 void dispatch(FleetState& fleet, Time now) {
+    update_links(fleet, now);  // a command may be the first thing after the server stood still
     halt_those_that_cannot_move(fleet, now);
     extend_bases(fleet, now);  // vehicles at work
     release_withdrawn(fleet, now);

@@ -178,7 +178,8 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     Leg& leg = run.leg();
     if (state.order_id != leg.id.str()) {
-        if (run.leg_seen) {
+        // Without pose it has restarted: an order sent before must not set it in motion.
+        if (run.leg_seen || (!run.record.pose_known && !run.gave_up)) {
             lose_order(fleet, run, now);
         } else if (run.gave_up) {
             forget_leg(fleet, run, now);

@@ -120,7 +120,9 @@ void World::check_given_floor(const plant::VehicleId& id) {
     if (record.needs_resume || record.paused || watch.needs_person) {
         violate(id.str() + " is given floor while it waits for a person");
     }
-    if (watch.counted.unfit) violate(id.str() + " is given floor and says that it cannot drive");
+    // Before and after what was heard last: it may have become fit in between.
+    if (watch.counted.unfit && watch.told.unfit)
+        violate(id.str() + " is given floor and says that it cannot drive");
     if (now_s_ - watch.told.at_s > kHeard_s) violate(id.str() + " is silent and is given floor");
 }
 

@@ -225,6 +225,22 @@ TEST(TrafficScenarios, OnTheOnlyRoadABreakdownIsWaitedForWithItsName) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << "it made way once it could";
 }
 
+TEST(TrafficScenarios, AnIdleVehicleBesideAllPlacesLeavesTheWayOfAnother) {
+    plant::Plant plant = plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"far", 90, 40, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"east", "far"}}, 2);
+    plant.vehicles[1].home = plant::StationId("s3");
+    World world(plant);
+    world.vehicle("V2").state.pose->x_m += 0.9;
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_GE(world.count_events("vehicle.makes_way"), 1);
+}
+
 TEST(TrafficScenarios, ClosedLanesAreGoneRoundAndKeptOverARestart) {
     plant::Plant plant = two_ways();
     plant.vehicles[1].home = plant::StationId("s4");

@@ -1,0 +1,155 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/fleet/fleet_world.hpp"
+
+// Legs that server and vehicle know differently: what the simulation judge found.
+namespace pulseline::fleet::testing {
+namespace {
+
+const plant::VehicleId kV1("V1");
+const plant::VehicleId kV2("V2");
+
+/// The server hears the vehicle, whose messages from the server are under way.
+void hear_only(World& world, double duration_s) {
+    world.connected[kV1] = false;
+    const Time end = world.now + from_seconds(duration_s);
+    while (world.now < end) {
+        world.now += std::chrono::milliseconds(100);
+        world.fleet->vehicle_state(kV1, world.vehicle("V1").state, world.now);
+        world.fleet->tick(world.now);
+        world.settle();
+    }
+}
+
+void give_up_order(FakeVehicle& vehicle) {
+    Action cancel;
+    cancel.type = "cancelOrder";
+    cancel.id = "by hand";
+    vehicle.receive({kV1, std::nullopt, InstantActionsMessage{{cancel}}});
+}
+
+TEST(LostLegs, OneGivenUpWhileTheServerWasDownIsBegunAnewAfterThePersonsAct) {
+    World world;
+    world.connect_all();
+    world.vehicles_move = false;
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(1);
+    ASSERT_GT(world.store.vehicles.at(kV1).leg_data.released_nodes, 1u);
+    const LegId leg = world.store.vehicles.at(kV1).leg;
+
+    give_up_order(world.vehicle("V1"));
+    world.crash_server();
+    world.vehicles_move = true;
+    world.run(2);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    EXPECT_NE(world.store.stops.at(0).leg, leg);
+}
+
+TEST(LostLegs, OneThatMayStillReachTheVehicleIsAskedForAgainAndNotForgotten) {
+    World world;
+    world.connect_all();
+    world.connected[kV1] = false;
+    ASSERT_TRUE(world.order("V1", {3}));
+    hear_only(world, 15);
+    ASSERT_EQ(world.only_order().reason.code, "order_not_accepted");
+    const LegId leg = world.store.vehicles.at(kV1).leg;
+    hear_only(world, 0.1);
+
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.settle();
+    EXPECT_EQ(world.store.vehicles.at(kV1).leg, leg);
+    world.connected[kV1] = true;
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    EXPECT_EQ(world.store.stops.at(0).leg, leg);
+}
+
+TEST(LostLegs, ACancelThatOvertookItsOrderIsNotTheEndOfIt) {
+    World world;
+    world.connect_all();
+    world.connected[kV1] = false;
+    const auto created = world.order("V1", {3});
+    ASSERT_TRUE(created);
+    hear_only(world, 0.5);
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+    ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
+    const Outputs out = world.fleet->take_outputs(world.now);
+    world.store.commit(out.records);
+    std::string cancel;
+    for (const auto& message : out.messages) {
+        if (message.instant_actions) cancel = message.instant_actions->actions.front().id;
+    }
+    ASSERT_FALSE(cancel.empty());
+
+    world.vehicle("V1").state.action_states.push_back(
+        {cancel, "cancelOrder", ActionStatus::kFailed, "noOrderToCancel", {}});
+    hear_only(world, 2);
+    EXPECT_NE(world.only_order().state, JobState::kAborted) << "the order may still arrive";
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg);
+
+    hear_only(world, 15);
+    EXPECT_EQ(world.only_order().state, JobState::kAborted);
+    EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+}
+
+TEST(LostLegs, AVehicleThatRestartsBeforeItShowedItsOrderWaitsForAPerson) {
+    World world;
+    world.connect_all();
+    world.connected[kV1] = false;
+    ASSERT_TRUE(world.order("V1", {3}));
+    hear_only(world, 0.5);
+
+    world.vehicle("V1").restart();
+    world.connected[kV1] = true;
+    world.fleet->vehicle_connected(kV1, world.now);
+    world.run(10);
+    EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->pose_known) << "by its codes";
+    EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->needs_resume);
+    EXPECT_EQ(world.vehicle("V1").node_steps, 0);
+
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
+TEST(LostLegs, OneOfAVehicleWithoutPoseIsKeptUntilItIsKnownWhereItStands) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(0.8);
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+
+    world.vehicle("V1").restart();
+    world.vehicle("V1").sees_codes = false;
+    world.run(5);
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
+
+    const Pose2 pose = *world.vehicle("V1").state.pose;
+    ASSERT_TRUE(world.fleet->init_position(kV1, pose, "op", world.now));
+    world.run(2);
+    EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+}
+
+TEST(LostLegs, AVehicleWithoutPoseKeepsItsFloorOverARestart) {
+    World world;
+    world.connect_all();
+    world.vehicle("V2").sees_codes = false;
+    world.vehicle("V2").restart();
+    world.run(2);
+    ASSERT_FALSE(world.fleet->vehicle(kV2, world.now)->pose_known);
+
+    world.crash_server();
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {4}));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kRunning);
+    EXPECT_EQ(world.only_order().reason.code, "floor_held");
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing
