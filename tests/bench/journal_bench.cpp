@@ -1,8 +1,8 @@
 // ./dev bench journal: what a journal and a snapshot weigh and cost, for fleets of some sizes at
 // work. One lane with two stations a vehicle, all of them on an order.
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/journal/snapshot.hpp"
@@ -11,11 +11,9 @@
 namespace pulseline::fleet {
 namespace {
 
-using Steady = std::chrono::steady_clock;
-
-double ms_since(Steady::time_point start) {
-    return std::chrono::duration<double, std::milli>(Steady::now() - start).count();
-}
+// Of the processor: what others do on the machine does not count.
+double now_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+double ms_since(double start_ms) { return now_ms() - start_ms; }
 
 plant::Plant lanes(int count) {
     plant::Plant plant = testing::small_plant();
@@ -81,14 +79,14 @@ void measure(int count) {
     constexpr int kRounds = 20;
     std::string bytes;
     double worst_ms = 0;
-    const auto start = Steady::now();
+    const auto start = now_ms();
     for (int i = 0; i < kRounds; ++i) {
-        const auto one = Steady::now();
+        const auto one = now_ms();
         bytes = world.fleet->snapshot();
         worst_ms = std::max(worst_ms, ms_since(one));
     }
     const double snapshot_ms = ms_since(start) / kRounds;
-    const auto from = Steady::now();
+    const auto from = now_ms();
     const auto restored = Fleet::from_snapshot(world.plant, bytes);
     const double restore_ms = ms_since(from);
     const bool same = restored && (*restored)->snapshot() == bytes;
