@@ -59,6 +59,7 @@ void JournalKeeper::follow(fleet::Fleet& fleet, std::int64_t seq) {
     seq_ = seq;
     inputs_ = 0;
     ticks_ = 0;
+    bytes_ = 0;
     fleet.journal_into(&recorder_);
 }
 
@@ -79,18 +80,23 @@ void JournalKeeper::flush(const fleet::Fleet& fleet, fleet::Records& records, Ti
     const auto inputs = static_cast<std::int64_t>(recorder_.inputs());
     records.journal.push_back(
         {++seq_, now, fleet.last_event_seq(), inputs, journal::sealed(recorder_.take())});
+    bytes_ += records.journal.back().bytes.size();
     inputs_ += inputs;
     waits_since_.reset();
 }
 
 bool JournalKeeper::snapshot_is_due() const {
-    return inputs_ >= kSnapshotInputs || ticks_ >= kSnapshotTicks;
+    // A week of finished orders weighs more than the journal: then it is not written at every turn.
+    return ticks_ >= kSnapshotTicks || (inputs_ >= kSnapshotInputs && bytes_ >= snapshot_bytes_);
 }
 
 fleet::SnapshotRow JournalKeeper::snapshot(const fleet::Fleet& fleet, const plant::Plant& plant) {
+    fleet::SnapshotRow row{seq_, journal::kFormat, plant.revision, fleet.snapshot()};
+    snapshot_bytes_ = row.bytes.size();
     inputs_ = 0;
     ticks_ = 0;
-    return {seq_, journal::kFormat, plant.revision, fleet.snapshot()};
+    bytes_ = 0;
+    return row;
 }
 
 }  // namespace pulseline::server

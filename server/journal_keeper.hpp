@@ -40,6 +40,8 @@ private:
     std::optional<Time> waits_since_;
     std::int64_t inputs_ = 0;  // since the newest snapshot
     std::int64_t ticks_ = 0;
+    std::size_t bytes_ = 0;
+    std::size_t snapshot_bytes_ = 0;  // of the newest
 };
 
 }  // namespace pulseline::server

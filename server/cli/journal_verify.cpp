@@ -162,6 +162,8 @@ std::string foreign(const fleet::SnapshotRow& snapshot, const plant::Plant& plan
 
 JournalReport verify_journal(db::ReadOnly& database, const plant::Plant& plant) {
     JournalReport report;
+    // One view of the file, whatever a running server adds and drops meanwhile.
+    const soci::transaction view(database.sql());
     const auto snapshots = db::load_snapshots(database.sql());
     for (std::size_t i = 0; i < snapshots.size() && !report.difference; ++i) {
         if (auto why = foreign(snapshots[i], plant); !why.empty()) {

@@ -23,6 +23,12 @@ fleet::SnapshotRow snapshot(std::int64_t seq, std::string bytes = "state") {
     return {seq, 1, 7, std::move(bytes)};
 }
 
+std::string large() {
+    std::string bytes;
+    while (bytes.size() < 100'000) bytes.append("\0x\xff", 3);
+    return bytes;
+}
+
 std::int64_t number(Database& database, const char* query) {
     std::int64_t value = 0;
     database.sql() << query, soci::into(value);
@@ -33,7 +39,7 @@ TEST(JournalStore, GivesBackTheNewestSnapshotAndTheRowsBehindItToTheLastByte) {
     Database database(":memory:");
     FleetStore store(database);
     store.commit(rows(1, 3));
-    store.put_snapshot(snapshot(3, std::string(100'000, '\0') + "x"));
+    store.put_snapshot(snapshot(3, large()));
     store.commit(rows(4, 5));
 
     const auto stored = store.load_journal();
@@ -42,7 +48,7 @@ TEST(JournalStore, GivesBackTheNewestSnapshotAndTheRowsBehindItToTheLastByte) {
     EXPECT_EQ(stored.snapshot->journal_seq, 3);
     EXPECT_EQ(stored.snapshot->format, 1);
     EXPECT_EQ(stored.snapshot->plant_revision, 7);
-    EXPECT_EQ(stored.snapshot->bytes, std::string(100'000, '\0') + "x");
+    EXPECT_EQ(stored.snapshot->bytes, large());
     ASSERT_EQ(stored.rows.size(), 2u);
     EXPECT_EQ(stored.rows[1].seq, 5);
     EXPECT_EQ(stored.rows[1].at, row(5).at);

@@ -31,7 +31,8 @@ namespace pulseline::fleet::journal {
 
 /// What a byte string of ours may be wrong in; no byte makes the reader do anything but refuse.
 tl::unexpected<Error> broken(const char* why);
-/// FNV-1a over 64 bits: finds what disks and hands do to bytes, not what an enemy does.
+/// FNV-1a in words of 64 bits, mixed: finds what disks and hands do to bytes, not what an enemy
+/// does.
 std::uint64_t checksum(std::string_view bytes);
 
 /// The last enumerator, so that a reader can refuse numbers behind it.
@@ -68,8 +69,11 @@ public:
                static_cast<std::uint64_t>(value < 0 ? -1 : 0));
     }
     void fixed(std::uint64_t value, int size = 8) {
-        for (int i = 0; i < size; ++i) byte(static_cast<std::uint8_t>(value >> (8 * i)));
+        char bytes[8];
+        for (int i = 0; i < size; ++i) bytes[i] = static_cast<char>(value >> (8 * i));
+        bytes_.append(bytes, static_cast<std::size_t>(size));
     }
+    void reserve(std::size_t size) { bytes_.reserve(size); }
     void raw(std::string_view bytes) { bytes_.append(bytes); }
 
     /// As a visitor of fields(): writes all of them.

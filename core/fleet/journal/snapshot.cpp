@@ -80,6 +80,7 @@ std::string Fleet::snapshot() const {
     assert(fleet.stored_orders.empty() && fleet.stored_vehicles.empty() &&
            fleet.changed_vehicles.empty() && fleet.out.records.empty());
     journal::Writer out;
+    out.reserve(std::size_t{1} << 20);
     out.number(fleet.vehicles.size());
     for (const auto& [id, run] : fleet.vehicles) out.put(run);
     out.put(fleet);
