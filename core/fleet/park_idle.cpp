@@ -82,9 +82,11 @@ void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
         std::erase_if(leg.nodes.back().actions,
                       [](const Action& action) { return action.type == "measureStop"; });
         const VehicleRecord before = run.record;
+        const auto idle_since = run.floor.idle_since;
         take_leg(run, std::move(leg));
         if (!plan_on_floor(fleet, run, now)) return tell_leaving(fleet, run, now);
         run.record = before;
+        run.floor.idle_since = idle_since;
     }
     run.floor.next_leave = now + kLeaveAgain;
 }
@@ -108,13 +110,16 @@ void park_idle(FleetState& fleet, Time now) {
             if (!idle) run.floor.idle_since.reset();
             continue;
         }
+        if (!run.floor.idle_since) run.floor.idle_since = now;
+        const bool long_idle = now - *run.floor.idle_since >= kParkAfter;
         if (astray) {
+            // Its own order's way from here may be barred for ever where the roads' is not.
+            const bool stuck = long_idle && fleet.orders.of(id);
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
-            if (!soon && is_wanted_away(run)) leave_from_anywhere(fleet, run, now);
+            if (!soon && (stuck || is_wanted_away(run))) leave_from_anywhere(fleet, run, now);
             continue;
         }
-        if (!run.floor.idle_since) run.floor.idle_since = now;
-        if (now - *run.floor.idle_since < kParkAfter && !is_wanted_away(run)) continue;
+        if (!long_idle && !is_wanted_away(run)) continue;
         if (!goes_by_places(fleet, run)) {
             settle(fleet, run, now, true);  // the rest of a way that was given up
             continue;
