@@ -41,9 +41,9 @@ constexpr Planted kPlanted[] = {{"none", 1},
                                 {"rerouted loses stop", 33},
                                 {"makes way elsewhere", 0},
                                 {"type ignored", 1},
-                                {"busy is free", 1},
+                                {"busy is free", 0},
                                 {"last step skipped", 1},
-                                {"lost pose loses floor", 11}};
+                                {"lost pose loses floor", 0}};
 static_assert(std::size(kPlanted) == fleet::kMutationCount);
 
 struct Hunt {
