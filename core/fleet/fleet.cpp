@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
 
@@ -132,7 +133,11 @@ Outputs Fleet::take_outputs(Time now) {
     Outputs out = std::exchange(fleet.out, {});
     take_standing(fleet, out.records);
     for (const auto& id : std::exchange(fleet.stored_orders, {})) {
-        if (const JobOrder* order = fleet.find(id)) out.records.orders.push_back(*order);
+        const JobOrder* order = fleet.find(id);
+        if (!order) continue;
+        const bool runs = order->state == JobState::kRunning;
+        if (runs && mutated(Mutation::kProgressNotStored)) continue;
+        out.records.orders.push_back(*order);
     }
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
         if (const VehicleRun* run = fleet.find(id)) out.records.vehicles.push_back(run->record);

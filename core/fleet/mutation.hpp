@@ -14,7 +14,7 @@ enum class Mutation {
     kSafetyStopIgnored,      // one with its safety stop pulled gets floor
     kSilentIsExtended,       // a silent vehicle gets floor
     kBaseNotStored,          // a base is sent that the store does not know
-    kGoodStopNotStored,      // a restart forgets that a step is done
+    kProgressNotStored,      // a restart forgets what a running order has done
     kCancelNotAwaited,       // the floor is free before the vehicle has confirmed
     kCancelFailedIsDone,     // a cancelOrder that found no order is the end of it
     kFailedStopWhileMoving,  // a stop that a cancel failed is taken while the vehicle brakes

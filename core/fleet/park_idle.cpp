@@ -83,9 +83,11 @@ void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
             build_leg(fleet, run, *plan, *station, run.record.pose, LegId(fleet.ids.next(now)));
         leg.nodes.back().actions = rest_actions(fleet, run, *station, leg);
         const VehicleRecord before = run.record;
+        const auto idle_since = run.floor.idle_since;
         take_leg(run, std::move(leg));
         if (!plan_on_floor(fleet, run, now)) return tell_leaving(fleet, run, now);
         run.record = before;
+        run.floor.idle_since = idle_since;
     }
     run.floor.next_leave = now + kLeaveAgain;
 }
@@ -109,14 +111,17 @@ void park_idle(FleetState& fleet, Time now) {
             if (!idle) run.floor.idle_since.reset();
             continue;
         }
+        if (!run.floor.idle_since) run.floor.idle_since = now;
+        const bool long_idle = now - *run.floor.idle_since >= kParkAfter;
         if (astray) {
+            // Its own order's way from here may be barred for ever where the roads' is not.
+            const bool stuck = long_idle && fleet.orders.of(id);
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
-            if (soon || !is_wanted_away(run) || ends_charging(fleet, run, now)) continue;
-            leave_from_anywhere(fleet, run, now);
+            if (soon || (!stuck && !is_wanted_away(run))) continue;
+            if (!ends_charging(fleet, run, now)) leave_from_anywhere(fleet, run, now);
             continue;
         }
-        if (!run.floor.idle_since) run.floor.idle_since = now;
-        if (now - *run.floor.idle_since < kParkAfter && !is_wanted_away(run)) continue;
+        if (!long_idle && !is_wanted_away(run)) continue;
         if (!goes_by_places(fleet, run)) {
             settle(fleet, run, now, true);  // the rest of a way that was given up
             continue;

@@ -81,6 +81,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     leg->step = static_cast<int>(order.current_step);
     leg->attempt = step.attempts + 1;
     const VehicleRecord before = run.record;
+    const auto idle_since = run.floor.idle_since;
     take_leg(run, std::move(*leg));
     const bool stays = run.leg().nodes.size() == 1;
     if (corrects) {
@@ -89,6 +90,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
         // Only actions: it stands on floor that it has.
     } else if (auto reason = plan_on_floor(fleet, run, now)) {
         run.record = before;
+        run.floor.idle_since = idle_since;
         name_what_cuts_off(fleet, run, step, *reason);
         set_order_reason(fleet, order, *reason, now);
         return;

@@ -27,7 +27,7 @@ void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now)
     if (mutated(Mutation::kLastStepSkipped) && order.current_step + 1 == order.steps.size()) {
         ++order.current_step;
     }
-    if (!mutated(Mutation::kGoodStopNotStored)) fleet.store(order);
+    fleet.store(order);
     if (order.current_step == order.steps.size()) {
         set_order_state(fleet, order, JobState::kEnded, {}, {}, now);
     } else if (order.cancel_requested) {
