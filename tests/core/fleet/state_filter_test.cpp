@@ -67,7 +67,9 @@ TEST(StateFilter, WhatTheFleetDecidesByPassesAtOnce) {
         [](auto& s) { s.field_violation = true; },
         [](auto& s) { s.action_states[0].status = ActionStatus::kFinished; },
         [](auto& s) { s.action_states[0].measurement = StopMeasurement{}; },
-        [](auto& s) { s.errors.push_back({"motor", true, "", {}}); },
+        [](auto& s) {
+            s.errors.push_back({"motor", true, "", {}});
+        },
         [](auto& s) { s.brackets[0].force_b_n = 5200; },
         [](auto& s) { s.wheels[0].fault = "hot"; },
         [](auto& s) { s.cameras[0].found = false; },
