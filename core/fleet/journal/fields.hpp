@@ -99,8 +99,8 @@ PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
                  released_nodes, passed_nodes, duration_s, attempt, actions_only, charges)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, at_station, leg, has_leg, leg_data,
-                 needs_resume, needs_resume_reason, paused, integration, last_stop, last_stop_station,
-                 last_stop_inside)
+                 needs_resume, needs_resume_reason, paused, integration, last_stop,
+                 last_stop_station, last_stop_inside)
 
 // --- new_order.hpp, closures.hpp, standing_orders.hpp, fleet.hpp
 PULSELINE_FIELDS(NewStep, station_number, mode, before, after)
@@ -124,7 +124,8 @@ PULSELINE_FIELDS(StoreFault, cause, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose, pose_at,
-                 hall, at_station, order, leg, paused, needs_resume, needs_resume_reason, state)
+                 hall, at_station, order, leg, paused, integration, needs_resume,
+                 needs_resume_reason, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

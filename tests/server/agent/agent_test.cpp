@@ -129,8 +129,11 @@ protected:
     }
 
     simulation::World world = simulation::make_world(small_plant(), 1);
-    Vehicle vehicle{
-        world, world.plant.vehicles[0], {20, 10, 0}, VehicleSettings{1, 10, false, 1, {}}, nullptr};
+    Vehicle vehicle{world,
+                    world.plant.vehicles[0],
+                    {20, 10, 0},
+                    VehicleSettings{1, 10, false, {}, 1, {}},
+                    nullptr};
     vda5050::HeaderSource headers{"Tang", "TP-01"};
     Vehicle::Steady::time_point now = Vehicle::Steady::time_point(1h);
     std::map<vda5050::Topic, int> sent;
