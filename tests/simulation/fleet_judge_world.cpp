@@ -132,7 +132,8 @@ void World::carry_messages() {
 void World::start_server() {
     fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now(),
                                             fleet_ ? fleet_->tables() : nullptr);
-    fleet_->leave_out_views();
+    if (!shadow_)
+        fleet_->leave_out_views();  // a restored fleet has them: all it puts out is compared
     if (shadow_) shadow_->follow(*fleet_);
     for (auto& [id, line] : lines_) {
         line.server_knows = false;

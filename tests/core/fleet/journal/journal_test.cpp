@@ -58,6 +58,7 @@ std::string every_call(Recorder& recorder) {
     static_cast<void>(fleet.delete_schedule(ScheduleId(Uuid{{9}}), 1, "me", kNow));
     static_cast<void>(fleet.pause_vehicle(v1, "me", kNow));
     static_cast<void>(fleet.init_position(v1, {1, 2, 3}, "me", kNow));
+    static_cast<void>(fleet.integrate(v1, Integration::kRespect, true, "me", kNow));
     fleet.pause_fleet("me", kNow);
     static_cast<void>(fleet.resume_fleet({v1}, "me", kNow));
     static_cast<void>(fleet.close_floor({"wet", {}, {{0, 0}, {1, 0}, {0, 1}}, {}}, "me", kNow));
