@@ -148,8 +148,8 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         fleet.store(run);
         if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
 
-        JobOrder* order = fleet.orders.of(id);
         resume_leg(fleet, run, now);
+        JobOrder* order = fleet.orders.of(id);  // none any more when that ended a cancel
         if (order) go_on_with(fleet, run, *order, actor, now);
     }
     dispatch(fleet, now);

@@ -23,7 +23,7 @@ async function hall(t, plant, battery) {
 }
 
 test("a platform with a low battery drives to the charger, and leaves it for an order when it is enough", async (t) => {
-  const { client } = await hall(t, PLANT, 14);
+  const { client } = await hall(t, { ...PLANT, battery: { critical_percent: 15, low_percent: 16, enough_percent: 18 } }, 14);
   const order = await client.order("V1", [3]);
   await client.untilVehicle("V1", (v) => v.activity === "charging", "charges");
   assert.equal((await client.get("/api/v1/vehicles/V1")).at_station, "s4");
@@ -56,7 +56,7 @@ test("the order of a platform that is taken out goes to the other one", async (t
   assert.equal(answer.status, 202, JSON.stringify(answer.body));
   const refused = await client.request("PUT", `/api/v1/vehicles/${out}/integration`, { body: { level: "notice" } });
   assert.equal(refused.status, 409);
-  assert.equal(refused.body.type.split("/").at(-1), "off_floor_unconfirmed");
+  assert.equal(refused.body.type.split(":").at(-1), "off_floor_unconfirmed");
   const ended = await client.untilOrder(order.id, (o) => o.state === "Ended", "ended", 120);
   assert.equal(ended.vehicle, other);
 });

@@ -2,7 +2,8 @@
 // vehicle executors and random faults. A seed that fails prints itself and its last events;
 // `--seed N` replays it identically, which every tenth seed proves. With --journal a second fleet
 // follows the first one's snapshots and journal, byte for byte.
-//   test_fleet_judge [--seeds N] [--first N] [--hours H] [--jobs N] [--seed N] [--trace 1] [--journal 1]
+//   test_fleet_judge [--seeds N] [--first N] [--hours H] [--jobs N] [--seed N] [--trace 1]
+//   [--journal 1]
 #include <unistd.h>
 
 #include <algorithm>

@@ -135,6 +135,15 @@ void World::note_told(const plant::VehicleId& id, const fleet::StateMessage& sta
     for (const auto& error : state.errors) told.unfit |= error.fatal;
 }
 
+void World::check_transition(const fleet::Event& event) {
+    if (ended_.contains(event.order)) violate("over before: " + text_of(event));
+    for (const auto& param : event.params) {
+        const auto* to = std::get_if<std::string>(&param.value);
+        if (param.name == "to" && to && (*to == "Ended" || *to == "Aborted"))
+            ended_.insert(event.order);
+    }
+}
+
 void World::check_records(const fleet::Records& records) {
     for (const auto& event : records.events) {
         if (event.seq != last_seq_ + 1) {
@@ -142,6 +151,7 @@ void World::check_records(const fleet::Records& records) {
         }
         last_seq_ = event.seq;
         if (event.type == "traffic.violation") violate("traffic: " + text_of(event));
+        if (event.type == "job_order.state") check_transition(event);
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {

@@ -129,6 +129,7 @@ private:
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
     void check_records(const fleet::Records& records);
+    void check_transition(const fleet::Event& event);
     void check_all();
     void check_end();
     bool all_over() const;
@@ -170,6 +171,7 @@ private:
     std::uint64_t servers_ = 0;
     std::int64_t last_seq_ = 0;
     std::set<std::pair<fleet::JobOrderId, int>> good_stops_;
+    std::set<fleet::JobOrderId> ended_;
     std::set<std::pair<plant::VehicleId, plant::VehicleId>> meeting_;
     Outcome outcome_;
 };

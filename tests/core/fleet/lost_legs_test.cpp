@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/core/fleet/fleet_world.hpp"
 
 // Legs that server and vehicle know differently: what the simulation judge found.
@@ -46,6 +48,30 @@ TEST(LostLegs, OneGivenUpWhileTheServerWasDownIsBegunAnewAfterThePersonsAct) {
 
     EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
     EXPECT_NE(world.store.stops.at(0).leg, leg);
+}
+
+TEST(LostLegs, TheCancelOfOneThatWasGivenUpWhileTheServerWasDownEndsTheOrderOnce) {
+    World world;
+    world.connect_all();
+    world.vehicles_move = false;
+    const auto created = world.order("V1", {3});
+    ASSERT_TRUE(created);
+    world.run(1);
+    give_up_order(world.vehicle("V1"));
+    world.crash_server();
+    world.run(2);
+    ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
+    world.run(1);
+
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(5);
+
+    EXPECT_EQ(world.only_order().state, JobState::kAborted);
+    const Param aborted{"to", std::string("Aborted")};
+    const auto ends = [&](const Event& event) {
+        return std::count(event.params.begin(), event.params.end(), aborted) > 0;
+    };
+    EXPECT_EQ(std::count_if(world.store.events.begin(), world.store.events.end(), ends), 1);
 }
 
 TEST(LostLegs, OneThatMayStillReachTheVehicleIsAskedForAgainAndNotForgotten) {
