@@ -401,6 +401,7 @@ void check_whole_floor(FleetState& fleet, Time now) {
     if (floor.checked && now - *floor.checked < kCheckEvery) return;
     floor.checked = now;
     if (!floor_is_sound(fleet, now)) return;
+    if (!floor.monitor.changed()) return;
     const auto violations = floor.monitor.check_all();
     if (violations.empty()) return;
     floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};

@@ -6,14 +6,6 @@
 namespace pulseline::geometry {
 namespace {
 
-double signed_area(const Polygon& polygon) {
-    double twice = 0;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-        twice += cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
-    }
-    return twice / 2;
-}
-
 bool in_triangle(Point2 p, Point2 a, Point2 b, Point2 c) {
     return cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
 }

@@ -118,6 +118,14 @@ double distance(const Polygon& a, const Polygon& b) {
     return least <= kOnEdge_m ? 0 : least;
 }
 
+double signed_area(const Polygon& polygon) {
+    double twice = 0;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        twice += cross(polygon[i] - polygon[0], polygon[(i + 1) % polygon.size()] - polygon[0]);
+    }
+    return twice / 2;
+}
+
 Polygon convex_hull(std::vector<Point2> points) {
     std::sort(points.begin(), points.end(), [](Point2 a, Point2 b) {
         return a.x_m < b.x_m || (a.x_m == b.x_m && a.y_m < b.y_m);

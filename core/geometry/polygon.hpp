@@ -22,6 +22,8 @@ bool contains(const Polygon& polygon, Point2 point);
 bool intersects(const Polygon& a, const Polygon& b);
 /// Smallest distance between two polygons; 0 when they meet.
 double distance(const Polygon& a, const Polygon& b);
+/// > 0 when counterclockwise.
+double signed_area(const Polygon& polygon);
 Polygon convex_hull(std::vector<Point2> points);
 /// Rectangle length x width about its centre, x along the length.
 Polygon rectangle(double length_m, double width_m);

@@ -124,6 +124,7 @@ void Monitor::on_passed(const Change& change, std::vector<Violation>& found) {
 }
 
 std::vector<Violation> Monitor::apply(const std::vector<Change>& changes) {
+    changed_ = changed_ || !changes.empty();
     std::vector<Violation> found;
     std::set<VehicleIndex> replanned;
     for (const Change& change : changes) {

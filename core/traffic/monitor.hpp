@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/traffic/record.hpp"
@@ -34,6 +35,8 @@ public:
     /// Everything from scratch: holders, cycles, and that for each tile the claimed order leaves no
     /// two stays unordered.
     std::vector<Violation> check_all() const;
+    /// Something has changed since the last call of this: what was sound then may not be now.
+    bool changed() { return std::exchange(changed_, false); }
 
 private:
     using Tile = std::uint32_t;
@@ -76,6 +79,7 @@ private:
     std::vector<Body> bodies_;
     std::vector<Owner> owners_;  // by tile
     std::vector<int> closures_;  // by tile
+    bool changed_ = true;
 };
 
 }  // namespace pulseline::traffic

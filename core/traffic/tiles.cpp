@@ -32,17 +32,49 @@ std::int64_t index_of(double coordinate_m) {
     return static_cast<std::int64_t>(std::floor(coordinate_m / kTile_m));
 }
 
+/// Counterclockwise from the lowest corner, as a convex polygon's edges are sorted by angle.
+Polygon from_lowest(const Polygon& convex) {
+    Polygon turned = convex;
+    if (geometry::signed_area(turned) < 0) std::reverse(turned.begin(), turned.end());
+    const auto lowest = std::min_element(turned.begin(), turned.end(), [](Point2 a, Point2 b) {
+        return a.y_m != b.y_m ? a.y_m < b.y_m : a.x_m < b.x_m;
+    });
+    std::rotate(turned.begin(), lowest, turned.end());
+    return turned;
+}
+
+/// Around a circle of radius 1 m.
+const Polygon& unit_circle() {
+    static const Polygon kCircle = [] {
+        Polygon corners;
+        for (int i = 0; i < kCorners; ++i) {
+            const double angle = 2 * kPi * i / kCorners;
+            corners.push_back({std::cos(angle) / std::cos(kPi / kCorners),
+                               std::sin(angle) / std::cos(kPi / kCorners)});
+        }
+        return from_lowest(corners);
+    }();
+    return kCircle;
+}
+
+/// Minkowski sum of the piece and the margin's circle: both have their edges sorted by angle, so
+/// the edges of the sum are theirs, merged.
 Polygon grown(const Polygon& piece, double margin_m) {
     if (margin_m <= 0) return piece;
-    const double radius = margin_m / std::cos(kPi / kCorners);
-    std::vector<Point2> points;
-    points.reserve(piece.size() * kCorners);
-    for (int i = 0; i < kCorners; ++i) {
-        const double angle = 2 * kPi * i / kCorners;
-        const Point2 offset{radius * std::cos(angle), radius * std::sin(angle)};
-        for (const Point2& p : piece) points.push_back(p + offset);
+    const Polygon body = from_lowest(piece);
+    const Polygon& circle = unit_circle();
+    const auto edge = [](const Polygon& ring, std::size_t i) {
+        return ring[(i + 1) % ring.size()] - ring[i];
+    };
+    Polygon sum;
+    sum.reserve(body.size() + circle.size());
+    for (std::size_t i = 0, j = 0; i < body.size() || j < circle.size();) {
+        sum.push_back(body[i % body.size()] + margin_m * circle[j % circle.size()]);
+        const bool of_body =
+            j == circle.size() || (i < body.size() && cross(edge(body, i), edge(circle, j)) >= 0);
+        ++(of_body ? i : j);
     }
-    return geometry::convex_hull(std::move(points));
+    return sum;
 }
 
 struct Run {
