@@ -71,7 +71,7 @@ traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
 /// Legs planned before do not count any more.
 void tell_planner(FleetState& fleet) {
     close_to_planner(fleet);
-    fleet.newest_plan.reset();
+    for (auto& [id, run] : fleet.vehicles) run.newest_plan.reset();
 }
 
 Status check(const FleetState& fleet, const NewClosure& wanted) {

@@ -12,9 +12,8 @@ bool raises_feet_first(const JobOrder& order) {
     if (order.current_step >= order.steps.size()) return false;
     const Step& step = order.steps[order.current_step];
     if (step.phase != StepPhase::kBefore) return false;
-    const auto todo =
-        step.before.begin() +
-        static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
+    const auto todo = step.before.begin() +
+                      static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
     return std::any_of(todo, step.before.end(),
                        [](const StepAction& action) { return action.type == "raiseParking"; });
 }

@@ -25,8 +25,8 @@ Fleet::Fleet(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
 
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
              std::shared_ptr<const PlantTables> tables)
-    : Fleet(std::make_unique<FleetState>(
-          plant, tables ? std::move(tables) : plant_tables(plant), id_seed, now)) {
+    : Fleet(std::make_unique<FleetState>(plant, tables ? std::move(tables) : plant_tables(plant),
+                                         id_seed, now)) {
     FleetState& fleet = state_.for_input();
     fleet.stored_seq = stored.last_event_seq;
     restore_standing(fleet, stored);

@@ -21,6 +21,7 @@ constexpr Duration kRetry = std::chrono::milliseconds(500);
 constexpr Duration kImproveEvery = std::chrono::seconds(1);
 constexpr Duration kCheckEvery = std::chrono::seconds(1);
 constexpr int kImproveSteps = 4;
+constexpr std::size_t kMostSwept = 256;  // segments of one leg or two
 
 const FloorClass& class_of(const FleetState& fleet, const VehicleRun& run) {
     return fleet.floor.classes[run.floor.of_class];
@@ -177,10 +178,18 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
                                const kinematics::Segment& segment) {
-    return traffic::tiles_under(
-        hall_index(fleet, run.leg().hall),
-        kinematics::sweep(plant::outline_with_load(*run.type, is_loaded(run)), {segment}),
-        kFloorMargin_m);
+    const bool loaded = is_loaded(run);
+    const std::string& hall = run.leg().hall;
+    for (const auto& known : run.swept) {
+        if (known.segment == segment && known.loaded == loaded && known.hall == hall)
+            return known.tiles;
+    }
+    if (run.swept.size() >= kMostSwept) run.swept.clear();
+    const auto body = plant::outline_with_load(*run.type, loaded);
+    run.swept.push_back({segment, loaded, hall,
+                         traffic::tiles_under(hall_index(fleet, hall),
+                                              kinematics::sweep(body, {segment}), kFloorMargin_m)});
+    return run.swept.back().tiles;
 }
 
 std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now) {

@@ -219,11 +219,10 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     const auto plan = plan_order(fleet, request, now);
     if (!plan) return fail(plan.error());
     if (plan->plans.front()) {
-        const VehicleRun& run = *fleet.find(plan->vehicle);
+        VehicleRun& run = *fleet.find(plan->vehicle);
         const auto* station =
             plant::find_station(fleet.plant, request.steps.front().station_number);
-        fleet.newest_plan = PlannedLeg{
-            plan->vehicle,
+        run.newest_plan = PlannedLeg{
             leg_request(fleet, run, plan->starts.front(), station->id, request.steps.front().mode),
             *plan->plans.front()};
     }

@@ -4,24 +4,28 @@
 namespace pulseline::fleet {
 namespace {
 
-Result<Leg> leg_to(FleetState& fleet, const VehicleRun& run, const Step& step, LegId id) {
-    const plant::Station* station = plant::find_station(fleet.plant, step.station);
+Result<planning::LegPlan> plan_step(FleetState& fleet, VehicleRun& run, const Step& step) {
     // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
-    const auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
-    const auto& newest = fleet.newest_plan;
-    const bool planned = newest && newest->vehicle == run.record.id && newest->request == request;
-    const auto plan =
-        planned ? Result<planning::LegPlan>(newest->plan) : fleet.planner.plan_leg(request);
+    auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
+    if (!run.newest_plan || run.newest_plan->request != request) {
+        auto plan = fleet.planner.plan_leg(request);
+        if (!plan) return plan;
+        run.newest_plan = PlannedLeg{std::move(request), std::move(*plan)};
+    }
+    return run.newest_plan->plan;
+}
+
+Result<Leg> leg_to(FleetState& fleet, VehicleRun& run, const Step& step, LegId id) {
+    const auto plan = plan_step(fleet, run, step);
     if (!plan) return fail(plan.error());
+    const plant::Station* station = plant::find_station(fleet.plant, step.station);
     return build_leg(fleet, run, *plan, *station, run.record.pose, id);
 }
 
 /// A station that closed floor cuts off: what would have to be reopened, not just the first of it.
-void name_what_cuts_off(FleetState& fleet, const VehicleRun& run, const Step& step,
-                        Reason& reason) {
+void name_what_cuts_off(FleetState& fleet, VehicleRun& run, const Step& step, Reason& reason) {
     if (reason.code != "floor_closed") return;
-    const auto plan =
-        fleet.planner.plan_leg(leg_request(fleet, run, run.record.pose, step.station, step.mode));
+    const auto plan = plan_step(fleet, run, step);
     if (plan) name_closures(fleet, plan->closures, reason);
 }
 
@@ -95,6 +99,9 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
         set_order_reason(fleet, order, *reason, now);
         return;
     }
+    // They served the tries.
+    run.newest_plan.reset();
+    run.swept = {};
     step.leg = id;
     if (!run.leg().actions_only) step.state = StepState::kDriving;
     order.reason = {};

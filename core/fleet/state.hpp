@@ -26,6 +26,21 @@ struct PendingAction {
     bool escalated = false;
 };
 
+/// The newest plan of a leg for a vehicle: an order is planned when it comes and starts at once, or
+/// is tried again and again from the same place.
+struct PlannedLeg {
+    planning::LegRequest request;
+    planning::LegPlan plan;
+};
+
+/// Floor of a move that is not of the class's roads; costs a sweep, and is asked for at every try.
+struct SweptSegment {
+    kinematics::Segment segment;
+    bool loaded = false;
+    std::string hall;
+    traffic::TileSet tiles;
+};
+
 /// One vehicle while the server runs. `record` is what survives a restart.
 struct VehicleRun {
     const plant::Vehicle* vehicle = nullptr;
@@ -66,17 +81,13 @@ struct VehicleRun {
         std::vector<geometry::Polygon> horizon;
     };
     mutable Areas areas;
+    // Worked out again when they are not there.
+    std::optional<PlannedLeg> newest_plan;
+    mutable std::vector<SweptSegment> swept;
 
     bool has_leg() const { return record.has_leg; }
     Leg& leg() { return record.leg_data; }
     const Leg& leg() const { return record.leg_data; }
-};
-
-/// The newest plan of a leg: an order is planned when it comes and, mostly, starts at once.
-struct PlannedLeg {
-    plant::VehicleId vehicle;
-    planning::LegRequest request;
-    planning::LegPlan plan;
 };
 
 struct FleetState {
@@ -107,7 +118,6 @@ struct FleetState {
     Time keys_swept;  // when old idempotency keys were last forgotten
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
-    std::optional<PlannedLeg> newest_plan;
     StandingOrders standing;
     std::int64_t stored_seq = 0;  // newest event of the store at start
     std::optional<StoreFault> store_fault;

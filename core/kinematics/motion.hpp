@@ -26,6 +26,7 @@ struct Segment {
     double direction_rad = 0;  // Straight only
     Point2 centre;             // Arc only
     double duration_s = 0;  // share of its run's trapezoidal profile (pieces of one arc, one line)
+    bool operator==(const Segment&) const = default;
 };
 
 struct MotionPlan {

@@ -8,7 +8,7 @@
 namespace pulseline::traffic {
 
 TileIndex TileTable::index_of(TileId tile) {
-    const auto [it, is_new] = indexes_.emplace(tile, static_cast<TileIndex>(ids_.size()));
+    const auto [it, is_new] = indexes_.try_emplace(tile, static_cast<TileIndex>(ids_.size()));
     if (is_new) ids_.push_back(tile);
     return it->second;
 }

@@ -46,11 +46,6 @@ void read_state(Reader& in, FleetState& fleet) {
     for (const auto& [id, run] : fleet.vehicles) {
         if (run.floor.vehicle >= fleet.vehicles.size()) in.refuse("a vehicle traffic has not");
     }
-    if (fleet.newest_plan) {
-        const VehicleRun* run = fleet.find(fleet.newest_plan->vehicle);
-        if (!run) return in.refuse("a plan of no vehicle");
-        fleet.newest_plan->request.type = run->type;
-    }
     close_to_planner(fleet);
     // What it found before has stopped the floor already (Floor::stopped).
     static_cast<void>(fleet.floor.monitor.apply(fleet.floor.traffic.all_as_changes()));

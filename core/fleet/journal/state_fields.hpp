@@ -8,18 +8,6 @@ namespace pulseline {
 
 PULSELINE_LAST(traffic::BlockCause, kHalted)
 
-namespace planning {
-// The type is a pointer into the plant; PlannedLeg's reader finds it by the vehicle.
-template <class V, class S>
-requires std::same_as<std::remove_const_t<S>, LegRequest>
-void fields(V& visit, S& it) {
-    auto& [type, loaded, hall, start, from_station, target, mode] = it;
-    visit(loaded, hall, start, from_station, target, mode);
-}
-PULSELINE_FIELDS(LegPlan, mode, segments, route, length_m, turns, cost, duration_s, closures,
-                 clearance_m, nearest, swept_area_m2, swept)
-}  // namespace planning
-
 namespace traffic {
 PULSELINE_FIELDS(MoveRef, vehicle, move)
 PULSELINE_FIELDS(Visit, place, dwell_s)
@@ -79,17 +67,17 @@ namespace fleet {
 PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
 PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
                  next_try, next_leave, idle_since)
-PULSELINE_FIELDS(PlannedLeg, vehicle, request, plan)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
-// Vehicle and type are the plant's; the areas are only drawn and worked out when asked for.
+// Vehicle and type are the plant's; the areas are only drawn. Areas, plan and swept floor are
+// worked out when asked for and not there, and come out the same.
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, VehicleRun>
 void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, leg_started, actions, charge_wait,
-           charge_retry, areas] = it;
+           charge_retry, areas, newest_plan, swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
           gave_up, cancelling, floor, leg_started, actions, charge_wait, charge_retry);
@@ -109,10 +97,10 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
     auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
-           keys_swept, event_seq, order_number, newest_plan, standing, stored_seq, store_fault, out,
+           keys_swept, event_seq, order_number, standing, stored_seq, store_fault, out,
            stored_vehicles, stored_orders, changed_vehicles, changed_stations] = it;
     visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
-          newest_plan, standing, stored_seq, store_fault);
+          standing, stored_seq, store_fault);
 }
 
 }  // namespace fleet
