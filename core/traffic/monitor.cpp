@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <set>
 
 namespace pulseline::traffic {
@@ -188,7 +187,9 @@ std::vector<Violation> Monitor::check_footprint(VehicleIndex vehicle,
 /// Looks for a way back to a move of the vehicle from a later one of it, against the edges.
 bool Monitor::on_cycle(VehicleIndex vehicle) const {
     // Per vehicle the greatest move known to come before; earlier ones come before it anyway.
-    std::map<VehicleIndex, MoveNumber> before;
+    std::vector<MoveNumber> before;
+    before.reserve(bodies_.size());
+    for (const Body& any : bodies_) before.push_back(any.granted);
     const Body& body = bodies_[vehicle];
     for (MoveNumber n = body.granted + 1; n <= body.end(); ++n) {
         std::vector<MoveRef> open = body.step(n).waits_for;
@@ -201,7 +202,7 @@ bool Monitor::on_cycle(VehicleIndex vehicle) const {
                 continue;
             }
             const Body& other = bodies_[ref.vehicle];
-            MoveNumber& known = before.try_emplace(ref.vehicle, other.granted).first->second;
+            MoveNumber& known = before[ref.vehicle];
             for (MoveNumber m = known + 1; m <= std::min(ref.move, other.end()); ++m) {
                 const auto& waits = other.step(m).waits_for;
                 open.insert(open.end(), waits.begin(), waits.end());

@@ -73,6 +73,7 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
     labels_.clear();
     open_.clear();
     pool_.clear();
+    busy_.clear();
     obstacle_ = {};
     obstacle_bound_s_ = kEver_s;
 
@@ -197,26 +198,47 @@ bool WindowSearch::is_end(const Label& label) const {
            task_->resting.end();
 }
 
+/// When others stay on the tile, from the start on and in the order of its queue. Floors overlap a
+/// lot, and each stay's times have to be looked up in its vehicle's plan: once a search.
+const WindowSearch::Range& WindowSearch::busy_windows(TileIndex tile) {
+    if (tile >= tile_ranges_.size()) tile_ranges_.resize(tile + std::size_t{1});
+    Range& range = tile_ranges_[tile];
+    if (range.stamp == stamp_) return range;
+    range = {static_cast<std::uint32_t>(busy_.size()), 0, stamp_};
+    for (const Use& use : joint_->queue(tile)) {
+        if (use.vehicle == task_->vehicle) continue;
+        const double end_s = joint_->end_of(use);
+        if (end_s <= task_->start_s) continue;  // over before anything begins
+        if (task_->only_lasting && end_s < task_->now_s + kBlocked_s / 2) continue;
+        busy_.push_back({joint_->start_of(use), end_s});
+    }
+    range.count = static_cast<std::uint32_t>(busy_.size()) - range.begin;
+    return range;
+}
+
 /// Intervals from the start on in which no other vehicle stays on any of the tiles.
 WindowSearch::Range WindowSearch::free_windows(const TileIndexes& tiles) {
+    const auto same = [](const Window& a, const Window& b) {
+        return a.from_s == b.from_s && a.to_s == b.to_s;
+    };
     blocked_.clear();
-    seen_.clear();
-    const std::vector<Use>* last = nullptr;
+    Range last;
     for (const TileIndex tile : tiles) {
         // Neighbouring tiles mostly have the same stays: a long body covers hundreds of tiles, but
         // only a few queues differ.
-        const std::vector<Use>& uses = joint_->queue(tile);
-        if (uses.empty() || (last && *last == uses)) continue;
-        last = &uses;
-        for (const Use& use : uses) {
-            if (use.vehicle == task_->vehicle) continue;
-            const auto recent = seen_.size() > kRecent ? seen_.end() - kRecent : seen_.begin();
-            if (std::find(recent, seen_.end(), use) != seen_.end()) continue;
-            seen_.push_back(use);
-            const double end_s = joint_->end_of(use);
-            if (end_s <= task_->start_s) continue;  // over before anything begins
-            if (task_->only_lasting && end_s < task_->now_s + kBlocked_s / 2) continue;
-            blocked_.push_back({joint_->start_of(use), end_s});
+        const Range range = busy_windows(tile);
+        const auto begin = busy_.begin() + range.begin;
+        if (range.count == last.count &&
+            std::equal(begin, begin + range.count, busy_.begin() + last.begin, same)) {
+            continue;
+        }
+        last = range;
+        for (auto busy = begin; busy != begin + range.count; ++busy) {
+            const auto recent =
+                blocked_.size() > kRecent ? blocked_.end() - kRecent : blocked_.begin();
+            const bool seen = std::any_of(recent, blocked_.end(),
+                                          [&](const Window& other) { return same(*busy, other); });
+            if (!seen) blocked_.push_back(*busy);
         }
     }
     const auto sooner = [](const Window& a, const Window& b) {

@@ -113,6 +113,7 @@ private:
     OpenEntry entry_of(std::uint32_t index) const;
     void find_earliest();
     Range free_windows(const TileIndexes& tiles);
+    const Range& busy_windows(TileIndex tile);
     const Range& place_windows(PlaceIndex place);
     const Range& arc_windows(std::uint32_t arc);
     const TileIndexes& stand_of(PlaceIndex place) const;
@@ -135,8 +136,9 @@ private:
     std::vector<OpenEntry> open_;
     std::vector<Window> pool_;
     std::vector<Window> blocked_;
-    std::vector<Use> seen_;
-    std::vector<Range> place_ranges_;
+    std::vector<Window> busy_;         // of the tiles looked at, in runs
+    std::vector<Range> tile_ranges_;   // of busy_
+    std::vector<Range> place_ranges_;  // of pool_
     std::vector<Range> floor_ranges_;
     std::uint32_t stamp_ = 0;
     double greed_ = 1;
