@@ -1,5 +1,8 @@
-// Planted bugs of the fleet (core/fleet/mutation.hpp): the fleet judge has to find each.
+// Planted bugs of the fleet (core/fleet/mutation.hpp): each has to be found, by the fleet judge or,
+// where it would take the judge too long, by a unit test of the fleet. --rare 1 has the judge hunt
+// those.
 //   test_fleet_mutations [--seeds N] [--hours H] [--only NUMBER] [--rare 1]
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,7 +24,7 @@ constexpr unsigned kSecondsPerRareOne = 1800;
 constexpr std::size_t kAtOnce = 2;
 struct Planted {
     const char* name;
-    std::uint64_t found_by;  // a seed that finds it; 0: it is rare, only hunted with --rare 1
+    std::uint64_t found_by;  // a seed that finds it; 0: it is rare, a unit test has to find it
 };
 constexpr Planted kPlanted[] = {{"none", 1},
                                 {"repeat makes another", 1},
@@ -46,13 +49,34 @@ constexpr Planted kPlanted[] = {{"none", 1},
                                 {"lost pose loses floor", 0}};
 static_assert(std::size(kPlanted) == fleet::kMutationCount);
 
+class FirstFailure : public testing::EmptyTestEventListener {
+public:
+    explicit FirstFailure(int out) : out_(out) {}
+    void OnTestEnd(const testing::TestInfo& test) override {
+        if (!test.result()->Failed()) return;
+        dprintf(out_, "the unit test %s.%s\n", test.test_suite_name(), test.name());
+        _exit(1);
+    }
+
+private:
+    int out_;
+};
+
+[[noreturn]] void run_unit_tests(int out) {
+    auto& listeners = testing::UnitTest::GetInstance()->listeners();
+    delete listeners.Release(listeners.default_result_printer());
+    listeners.Append(new FirstFailure(out));
+    dprintf(out, "all unit tests\n");
+    _exit(RUN_ALL_TESTS() == 0 ? 0 : 1);
+}
+
 struct Hunt {
     int mutation = 0;
     int pipe = -1;
 };
 
 /// A child process, since a planted bug may crash it: writes each seed it begins and what it finds.
-Hunt start(int mutation, std::uint64_t seeds, const Options& options, pid_t& child) {
+Hunt start(int mutation, std::uint64_t seeds, bool rare, const Options& options, pid_t& child) {
     int pipes[2];
     if (pipe(pipes) != 0) std::exit(2);
     child = fork();
@@ -60,8 +84,9 @@ Hunt start(int mutation, std::uint64_t seeds, const Options& options, pid_t& chi
         close(pipes[1]);
         return {mutation, pipes[0]};
     }
-    alarm(kPlanted[mutation].found_by == 0 ? kSecondsPerRareOne : kSecondsPerMutation);
+    alarm(rare ? kSecondsPerRareOne : kSecondsPerMutation);
     fleet::planted_mutation = static_cast<fleet::Mutation>(mutation);
+    if (kPlanted[mutation].found_by == 0 && !rare) run_unit_tests(pipes[1]);
     // First the seed that found it last, which saves most of the time; then all.
     for (std::uint64_t number = 0; number <= seeds; ++number) {
         const std::uint64_t seed = number == 0 ? kPlanted[mutation].found_by : number;
@@ -109,11 +134,11 @@ int run(std::uint64_t seeds, int only, bool rare, const Options& options) {
         hunts.erase(hunt);
     };
     for (int m = 1; m < fleet::kMutationCount; ++m) {
-        if (only != 0 ? m != only : rare != (kPlanted[m].found_by == 0)) continue;
+        if (only != 0 ? m != only : rare && kPlanted[m].found_by != 0) continue;
         ++planted;
         while (hunts.size() >= kAtOnce) wait_for_one();
         pid_t child = 0;
-        const Hunt hunt = start(m, seeds, options, child);
+        const Hunt hunt = start(m, seeds, rare, options, child);
         hunts[child] = hunt;
     }
     while (!hunts.empty()) wait_for_one();
@@ -126,6 +151,7 @@ int run(std::uint64_t seeds, int only, bool rare, const Options& options) {
 }  // namespace pulseline::fleet_judge
 
 int main(int argc, char** argv) {
+    testing::InitGoogleTest(&argc, argv);
     std::uint64_t seeds = 100;
     int only = 0;
     bool rare = false;

@@ -30,6 +30,52 @@ void give_up_order(FakeVehicle& vehicle) {
     vehicle.receive({kV1, std::nullopt, InstantActionsMessage{{cancel}}});
 }
 
+void report_action(FakeVehicle& vehicle, const std::string& id, ActionStatus status) {
+    auto& states = vehicle.state.action_states;
+    std::erase_if(states, [&](const ActionState& action) { return action.id == id; });
+    states.push_back({id, "", status, "", {}});
+}
+
+TEST(LostLegs, AFailedCancelOfOneThatTheVehicleStillHasIsAskedForAgain) {
+    World world;
+    world.connect_all();
+    world.vehicles_move = false;
+    const auto created = world.order("V1", {3});
+    ASSERT_TRUE(created);
+    world.run(1);
+    ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
+    const Outputs out = world.fleet->take_outputs(world.now);
+    world.store.commit(out.records);
+    std::string cancel;
+    for (const auto& message : out.messages) {
+        if (message.instant_actions) cancel = message.instant_actions->actions.front().id;
+    }
+    ASSERT_FALSE(cancel.empty());
+    hear_only(world, 12);  // it got nothing of it, and no order is on its way any more
+
+    report_action(world.vehicle("V1"), cancel, ActionStatus::kFailed);
+    hear_only(world, 0.5);
+
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "it may drive on";
+    EXPECT_EQ(world.only_order().state, JobState::kRunning);
+}
+
+TEST(LostLegs, AStopThatFailedWhileTheVehicleDrivesIsNotTakenYet) {
+    World world;
+    world.connect_all();
+    world.vehicles_move = false;
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(1);
+    const LegId leg = world.store.vehicles.at(kV1).leg;
+
+    world.vehicle("V1").state.driving = true;
+    report_action(world.vehicle("V1"), leg.str() + "-measureStop", ActionStatus::kFailed);
+    hear_only(world, 0.5);
+
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg);
+    EXPECT_EQ(world.only_order().state, JobState::kRunning) << world.only_order().reason.code;
+}
+
 TEST(LostLegs, OneGivenUpWhileTheServerWasDownIsBegunAnewAfterThePersonsAct) {
     World world;
     world.connect_all();

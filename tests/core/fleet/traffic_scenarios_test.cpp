@@ -369,6 +369,94 @@ TEST(TrafficScenarios, APauseThatOutlivedItsDriveEndsWithResume) {
     EXPECT_EQ(world.stored(id).state, JobState::kEnded) << world.stored(id).reason.code;
 }
 
+TEST(TrafficScenarios, ASilentVehicleGetsNoFloorThatBecomesFree) {
+    plant::Plant plant = corridor();
+    World world(plant);
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(2);
+    NewClosure closure{
+        "Door test", plant::HallId("h1"), {{30, 36}, {33, 36}, {33, 44}, {30, 44}}, {}};
+    const auto closed = world.fleet->close_floor(closure, "op", world.now);
+    ASSERT_TRUE(closed);
+    world.run(60);
+    const auto& leg = world.store.vehicles.at(VehicleId("V1")).leg_data;
+    ASSERT_GT(leg.released_nodes, 1u);
+    ASSERT_LT(leg.released_nodes, leg.nodes.size()) << "it waits before the door";
+    const std::size_t before = leg.released_nodes;
+
+    world.connected[VehicleId("V1")] = false;
+    world.run(4);
+    ASSERT_EQ(world.fleet->vehicle(VehicleId("V1"), world.now)->link, Link::kLate);
+    ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
+    world.run(20);
+
+    EXPECT_EQ(world.store.vehicles.at(VehicleId("V1")).leg_data.released_nodes, before);
+}
+
+TEST(TrafficScenarios, AVehicleWhoseOrderWaitsForFloorIsNotFreeForAnother) {
+    World world(corridor());
+    confirm_poses(world);
+    ASSERT_TRUE(world.fleet->close_floor(
+        {"Door test", plant::HallId("h1"), {{20, 36}, {24, 36}, {24, 44}, {20, 44}}, {}}, "op",
+        world.now));
+    const auto first = world.order("V1", {3});
+    ASSERT_TRUE(first);
+    world.vehicle("V2").state.operating_mode = "MANUAL";
+    world.run(2);
+    ASSERT_EQ(world.stored(first->order.id).reason.code, "floor_closed");
+
+    NewOrder any;
+    any.steps = {{1, plant::MotionMode::kAuto}};
+    const auto second = world.order(any);
+    ASSERT_TRUE(second);
+    world.run(5);
+
+    EXPECT_EQ(world.stored(second->order.id).assigned_vehicle, VehicleId());
+    EXPECT_EQ(world.stored(first->order.id).assigned_vehicle, VehicleId("V1"));
+}
+
+TEST(TrafficScenarios, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
+    plant::Plant plant = plant_of(
+        {{"west", 10, 40, 1},
+         {"east", 70, 40, 2},
+         {"middle", 40, 40, 3},
+         {"north", 40, 60, 4},
+         {"south", 40, 20, 5}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "north"}, {"middle", "south"}}, 2);
+    plant.vehicles[1].home = plant::StationId("s3");
+    World world(plant);
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    for (int i = 0; i < 100 && world.count_events("vehicle.makes_way") == 0; ++i) world.run(0.1);
+    const plant::StationId first = world.store.vehicles.at(VehicleId("V2")).leg_data.station;
+    const auto& there = plant::find_station(plant, first)->pose;
+
+    const double x = there.x_m;
+    const double y = there.y_m;
+    ASSERT_TRUE(
+        world.fleet->close_floor({"Wet",
+                                  plant::HallId("h1"),
+                                  {{x - 3, y - 3}, {x + 3, y - 3}, {x + 3, y + 3}, {x - 3, y + 3}},
+                                  {}},
+                                 "op", world.now));
+    for (int i = 0; i < 400; ++i) {
+        world.run(0.5);
+        const auto& record = world.store.vehicles.at(VehicleId("V2"));
+        if (!record.has_leg) continue;
+        const auto& end = record.leg_data.nodes.back().pose;
+        for (const auto& station : plant.stations) {
+            if (geometry::distance(station.pose.position(), end.position()) > 0.25) continue;
+            EXPECT_EQ(record.leg_data.station, station.id);
+        }
+    }
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    const auto view = world.fleet->vehicle(VehicleId("V2"), world.now);
+    EXPECT_FALSE(view->at_station.empty());
+    EXPECT_NE(view->at_station, first);
+}
+
 TEST(TrafficScenarios, WrongClosuresAreRefusedWithTheField) {
     World world(corridor());
     const auto refused = [&](NewClosure wanted) {
