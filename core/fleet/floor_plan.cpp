@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/fleet/floor.hpp"
 #include "core/fleet/mutation.hpp"
@@ -219,13 +220,24 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         sequence.ends_at = end ? static_cast<traffic::PlaceIndex>(*end) : kNoPlace;
         if (end) task.sequences = {std::move(sequence)};
     }
-    auto admitted = traffic.admit(stand.vehicle, task, now);
     const bool on_roads =
         plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;
-    if (!admitted && on_roads && !task.sequences.empty()) {
+    const auto admit = [&] {
+        auto admitted = traffic.admit(stand.vehicle, task, now);
+        if (admitted || !on_roads || task.sequences.empty()) return admitted;
         // The wanted way has no end of waiting: any other way is better.
-        task.sequences.clear();
-        if (auto other = traffic.admit(stand.vehicle, task, now)) admitted = std::move(other);
+        traffic::Task other = task;
+        other.sequences.clear();
+        auto elsewhere = traffic.admit(stand.vehicle, other, now);
+        return elsewhere ? elsewhere : admitted;
+    };
+    auto admitted = admit();
+    if (!admitted && leg.order.empty() && leg.released_nodes > 1) {
+        // It stands in others' way, halfway to a place that is not to be had: any other will do.
+        task.resting.clear();
+        const bool charges = std::exchange(leg.charges, false);
+        admitted = admit();
+        if (!admitted) leg.charges = charges;
     }
     if (!admitted) {
         stand.next_try = now + kRetry;

@@ -416,7 +416,8 @@ TEST(TrafficScenarios, AVehicleWhoseOrderWaitsForFloorIsNotFreeForAnother) {
     EXPECT_EQ(world.stored(first->order.id).assigned_vehicle, VehicleId("V1"));
 }
 
-TEST(TrafficScenarios, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
+/// V1 in the west and V2 in the middle of a cross.
+plant::Plant cross() {
     plant::Plant plant = plant_of(
         {{"west", 10, 40, 1},
          {"east", 70, 40, 2},
@@ -425,27 +426,37 @@ TEST(TrafficScenarios, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
          {"south", 40, 20, 5}},
         {{"west", "middle"}, {"middle", "east"}, {"middle", "north"}, {"middle", "south"}}, 2);
     plant.vehicles[1].home = plant::StationId("s3");
-    World world(plant);
-    confirm_poses(world);
-    ASSERT_TRUE(world.order("V1", {2}));
-    for (int i = 0; i < 100 && world.count_events("vehicle.makes_way") == 0; ++i) world.run(0.1);
-    const plant::StationId first = world.store.vehicles.at(VehicleId("V2")).leg_data.station;
-    const auto& there = plant::find_station(plant, first)->pose;
+    return plant;
+}
 
-    const double x = there.x_m;
-    const double y = there.y_m;
-    ASSERT_TRUE(
+/// The place where V2 is going to rest, and the floor there closed.
+plant::StationId close_where_it_goes(World& world) {
+    const auto id = world.store.vehicles.at(VehicleId("V2")).leg_data.station;
+    const auto* station = plant::find_station(world.plant, id);
+    if (!station) return {};
+    const double x = station->pose.x_m;
+    const double y = station->pose.y_m;
+    EXPECT_TRUE(
         world.fleet->close_floor({"Wet",
                                   plant::HallId("h1"),
                                   {{x - 3, y - 3}, {x + 3, y - 3}, {x + 3, y + 3}, {x - 3, y + 3}},
                                   {}},
                                  "op", world.now));
+    return id;
+}
+
+TEST(TrafficScenarios, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
+    World world(cross());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    for (int i = 0; i < 100 && world.count_events("vehicle.makes_way") == 0; ++i) world.run(0.1);
+    const plant::StationId first = close_where_it_goes(world);
     for (int i = 0; i < 400; ++i) {
         world.run(0.5);
         const auto& record = world.store.vehicles.at(VehicleId("V2"));
         if (!record.has_leg) continue;
         const auto& end = record.leg_data.nodes.back().pose;
-        for (const auto& station : plant.stations) {
+        for (const auto& station : world.plant.stations) {
             if (geometry::distance(station.pose.position(), end.position()) > 0.25) continue;
             EXPECT_EQ(record.leg_data.station, station.id);
         }
@@ -455,6 +466,45 @@ TEST(TrafficScenarios, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
     const auto view = world.fleet->vehicle(VehicleId("V2"), world.now);
     EXPECT_FALSE(view->at_station.empty());
     EXPECT_NE(view->at_station, first);
+}
+
+TEST(TrafficScenarios, OneThatMakesWayToAPlaceTakenSinceARestartGoesElsewhere) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1},
+                                   {"east", 70, 40, 2},
+                                   {"middle", 40, 40, 3},
+                                   {"north", 40, 58, 4},
+                                   {"south", 40, 15, 5},
+                                   {"far", 40, 70, 6}},
+                                  {{"west", "middle"},
+                                   {"middle", "east"},
+                                   {"middle", "north"},
+                                   {"middle", "south"},
+                                   {"north", "far"}},
+                                  3);
+    plant.vehicles[1].home = plant::StationId("s3");
+    plant.vehicles[2].home = plant::StationId("s6");
+    for (std::size_t nodes = 1; nodes < 4; ++nodes) {
+        World world(plant);
+        confirm_poses(world);
+        ASSERT_TRUE(world.order("V1", {2}));
+        const auto& record = world.store.vehicles[VehicleId("V2")];
+        for (int i = 0; i < 200 && (!record.has_leg || record.leg_data.passed_nodes < nodes); ++i)
+            world.run(0.1);
+        ASSERT_EQ(record.leg_data.station, plant::StationId("s4"));
+
+        world.crash_server();
+        world.run(2);
+        ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V3")}, "op", world.now));
+        ASSERT_TRUE(world.order("V3", {4}));
+        world.run(100);
+        ASSERT_EQ(order_of(world, "V3").state, JobState::kEnded)
+            << order_of(world, "V3").reason.code;
+        ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V1"), VehicleId("V2")}, "op", world.now));
+        world.run(400);
+
+        EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded)
+            << nodes << " nodes: " << order_of(world, "V1").reason.code;
+    }
 }
 
 TEST(TrafficScenarios, WrongClosuresAreRefusedWithTheField) {
