@@ -25,6 +25,10 @@ bool is_good(const Pose2& off) {
     return norm(off.position()) <= kGoodPosition_m && std::abs(off.heading_rad) <= kGoodHeading_rad;
 }
 
+bool is_in_reach(const Pose2& off) {
+    return norm(off.position()) <= kReach_m && std::abs(off.heading_rad) <= kReach_rad;
+}
+
 bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& target) {
     return std::abs(measured.pose.x_m - target.target.x_m) <= target.tolerance_x_m &&
            std::abs(measured.pose.y_m - target.target.y_m) <= target.tolerance_y_m &&
@@ -75,6 +79,14 @@ std::optional<StopProcedure::Outcome> StopProcedure::step(double dt_s) {
 
 std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     const auto measured = sensing_.measure(target_);
+    if (!measured && correct_ && !last_ && corrections_ < kCorrections) {
+        // It may know better where it is than when it drove here: a person has said so since.
+        const Pose2 off = inverse(motion_.believed_pose()) * target_.target;
+        if (!is_good(off) && is_in_reach(off)) {
+            begin_correction(off);
+            return std::nullopt;
+        }
+    }
     if (!measured) {
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
@@ -83,7 +95,7 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     if (!correct_) return finish(true, {});
     const Pose2 off = body_from_target(*measured, target_);
     if (is_good(off)) return finish(true, {});
-    if (norm(off.position()) > kReach_m || std::abs(off.heading_rad) > kReach_rad) {
+    if (!is_in_reach(off)) {
         return finish(false, "too_far_from_target: " + describe(off));
     }
     if (corrections_ == kCorrections) {
@@ -91,10 +103,14 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
         return finish(good_enough,
                       good_enough ? std::string{} : "out_of_tolerance: " + describe(off));
     }
+    begin_correction(off);
+    return std::nullopt;
+}
+
+void StopProcedure::begin_correction(const Pose2& off) {
     ++corrections_;
     settling_s_ = kSettle_s / motion_.time_factor();
     motion_.correct(off);
-    return std::nullopt;
 }
 
 StopProcedure::Outcome StopProcedure::finish(bool succeeded, std::string why_not) {

@@ -41,6 +41,7 @@ public:
 
 private:
     std::optional<Outcome> take_measurement();
+    void begin_correction(const Pose2& off);
     Outcome finish(bool succeeded, std::string why_not);
 
     VehicleMotion& motion_;

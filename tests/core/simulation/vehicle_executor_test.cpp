@@ -19,17 +19,20 @@ using testing::straight;
 
 constexpr double kStep_s = 0.05;
 
-/// Measures the true pose, or nothing while `covered`.
+/// Measures the true pose, or nothing while `covered` or out of sight of the code.
 class TrueSensing : public StopSensing {
 public:
     explicit TrueSensing(const VehicleMotion& motion) : motion_(motion) {}
     Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
-        if (covered) return fail(Errc::kNotFound, "no_marker_in_view", "no code in view");
+        const bool far = code && distance(motion_.true_pose().position(), *code) > kSight_m;
+        if (covered || far) return fail(Errc::kNotFound, "no_marker_in_view", "no code in view");
         return fleet::StopMeasurement{motion_.true_pose(), 1e-4, 1e-4, "test", {"ST01-F"}};
     }
     bool covered = false;
+    std::optional<geometry::Point2> code;
 
 private:
+    static constexpr double kSight_m = 0.04;
     const VehicleMotion& motion_;
 };
 
@@ -319,6 +322,17 @@ TEST_F(VehicleExecutorTest, AStopThatCannotBeSeenFailsWithTheReason) {
     EXPECT_EQ(status("id-measureStop"), ActionStatus::kFailed);
     EXPECT_NE(state().action_states.at(0).result_description.find("no_marker_in_view"),
               std::string::npos);
+}
+
+TEST_F(VehicleExecutorTest, ACodeOutOfSightIsLookedForWhereTheVehicleTakesTheTargetToBe) {
+    auto message = order("a", 2, 2);
+    const Pose2 target{2.06, 0, 0};
+    message.nodes[1].actions = {stop_action("adjustToMarker", target)};
+    sensing.code = target.position();
+    executor.handle(message);
+    run(60);
+    EXPECT_EQ(status("id-adjustToMarker"), ActionStatus::kFinished);
+    EXPECT_LT(distance(motion.true_pose().position(), target.position()), 0.002);
 }
 
 TEST_F(VehicleExecutorTest, ACorrectionFarFromTheTargetIsRefused) {
