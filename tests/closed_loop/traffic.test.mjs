@@ -58,7 +58,8 @@ function overlap(p, q, length = 9.5, width = 2.3) {
  * stands, says so, and lets the order go on. */
 const ended = async ({ system, client }, orders) => {
   for (const { id } of orders) {
-    for (;;) {
+    for (let looks = 0; ; ++looks) {
+      assert.ok(looks < 4, `${id}: told where it stands, the vehicle does not find its station`);
       const order = await client.untilOrder(id, (o) => ["Ended", "Aborted", "Interrupted"].includes(o.state), "ended", 120);
       if (order.state !== "Interrupted") { assert.equal(order.state, "Ended"); break; }
       assert.equal(order.reason.code, "stop_not_measured", JSON.stringify(order.reason));
