@@ -119,7 +119,9 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
                             (last ? 0.0 : rest_of_way_s_[k + 1]);
     }
 
-    const auto place = task.start != kNoPlace ? task.start : static_cast<PlaceIndex>(graph_places_);
+    // A sequence may come back to the place it starts at: being there before it is another thing.
+    const bool in_graph = task.start != kNoPlace && task.sequences.empty();
+    const auto place = in_graph ? task.start : static_cast<PlaceIndex>(graph_places_);
     const auto& windows = place_windows(place);
     for (std::uint32_t i = 0; i < windows.count; ++i) {
         const Window window = pool_[windows.begin + i];

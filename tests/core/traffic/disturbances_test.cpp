@@ -64,6 +64,20 @@ TEST(Disturbances, AVehicleFoundElsewhereHoldsThatFloorOnly) {
     EXPECT_EQ(hall.traffic.visits_done(b), 1);
 }
 
+TEST(Disturbances, ASequenceMayEndAtThePlaceItStartsAt) {
+    Hall hall({"r..r"});
+    const auto a = hall.add("A", 0, 0);
+    const TileId here = Floor::tile(0, 0);
+    Task task;
+    task.visits = {{hall.floor.place(0, 0), 1}};
+    task.sequences = {{{{{here}, {here}, 4, kNoVisit}}, hall.floor.place(0, 0)}};  // a turn
+
+    ASSERT_TRUE(hall.traffic.admit(a, task, at(0)));
+    hall.watch();
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(a), 1);
+}
+
 TEST(Disturbances, AVehicleThatStoodWiderThanItsPlaceLeavesAllOfItBehind) {
     Hall hall({"r...r", "r    "});
     const auto a = hall.add("A", 0, 0);
