@@ -28,11 +28,11 @@ struct Planted {
 };
 constexpr Planted kPlanted[] = {{"none", 1},
                                 {"repeat makes another", 1},
-                                {"key not stored", 24},
+                                {"key not stored", 10},
                                 {"restart needs nobody", 2},
                                 {"pause not kept", 4},
                                 {"manual is driven", 9},
-                                {"safety stop ignored", 24},
+                                {"safety stop ignored", 0},
                                 {"silent is extended", 0},
                                 {"base not stored", 1},
                                 {"progress not stored", 1},

@@ -394,6 +394,28 @@ TEST(TrafficScenarios, ASilentVehicleGetsNoFloorThatBecomesFree) {
     EXPECT_EQ(world.store.vehicles.at(VehicleId("V1")).leg_data.released_nodes, before);
 }
 
+TEST(TrafficScenarios, AVehicleWithItsSafetyStopPulledGetsNoFloorThatBecomesFree) {
+    World world(corridor());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(2);
+    const auto closed = world.fleet->close_floor(
+        {"Door test", plant::HallId("h1"), {{30, 36}, {33, 36}, {33, 44}, {30, 44}}, {}}, "op",
+        world.now);
+    ASSERT_TRUE(closed);
+    world.run(60);
+    const auto& leg = world.store.vehicles.at(VehicleId("V1")).leg_data;
+    ASSERT_LT(leg.released_nodes, leg.nodes.size()) << "it waits before the door";
+    const std::size_t before = leg.released_nodes;
+
+    world.vehicle("V1").state.e_stop = "MANUAL";
+    world.run(2);
+    ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
+    world.run(20);
+
+    EXPECT_EQ(world.store.vehicles.at(VehicleId("V1")).leg_data.released_nodes, before);
+}
+
 TEST(TrafficScenarios, AVehicleWhoseOrderWaitsForFloorIsNotFreeForAnother) {
     World world(corridor());
     confirm_poses(world);
