@@ -340,7 +340,11 @@ void pass_stop(FleetState& fleet, VehicleRun& run, Time now) {
     const auto& plan = traffic.plan(run.floor.vehicle);
     const MoveNumber stop = plan.passed + 1;
     if (stop > plan.last() || plan.at(stop).visit == kNoVisit) return;
-    if (traffic.extend(run.floor.vehicle, 1, now) < stop) return;
+    if (traffic.extend(run.floor.vehicle, 1, now) < stop) {
+        // Halted, for it was silent: the stop is made all the same, and is not to be made again.
+        static_cast<void>(traffic.cancel(run.floor.vehicle, now));
+        return;
+    }
     static_cast<void>(traffic.passed(run.floor.vehicle, stop, now));
 }
 

@@ -132,6 +132,30 @@ TEST(TrafficScenarios, AnIdleVehicleInABayLeavesItForAnother) {
     EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
 }
 
+TEST(TrafficScenarios, OneThatMeasuredItsStopWhileItWasLostMakesWayAfterwards) {
+    World world(plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"bay", 40, 52, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "bay"}}, 2));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {3}));
+    const auto& leg = world.store.vehicles[VehicleId("V1")].leg_data;
+    for (int i = 0; i < 1000 && (leg.nodes.empty() || leg.released_nodes < leg.nodes.size()); ++i)
+        world.run(0.1);
+    ASSERT_EQ(leg.released_nodes, leg.nodes.size());
+    world.connected[VehicleId("V1")] = false;
+    world.run(15);
+    ASSERT_EQ(world.fleet->vehicle(VehicleId("V1"), world.now)->link, Link::kLost);
+    world.connected[VehicleId("V1")] = true;
+    world.run(1);
+    ASSERT_EQ(order_of(world, "V1").state, JobState::kEnded);
+    ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V1")}, "op", world.now));
+
+    ASSERT_TRUE(world.order("V2", {1}));
+    world.run(400);
+
+    EXPECT_EQ(order_of(world, "V2").state, JobState::kEnded) << order_of(world, "V2").reason.code;
+}
+
 TEST(TrafficScenarios, ALoadedVehicleStaysWhereItStands) {
     plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
                                   {{"west", "middle"}, {"middle", "east"}}, 2);
