@@ -246,6 +246,7 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     }
     stand.next_try.reset();
     stand.leg_planned = true;
+    run.swept = {};  // it was for the tries
     take_horizon(fleet, run);
     return std::nullopt;
 }
@@ -426,7 +427,7 @@ void check_whole_floor(FleetState& fleet, Time now) {
     if (floor.checked && now - *floor.checked < kCheckEvery) return;
     floor.checked = now;
     if (!floor_is_sound(fleet, now)) return;
-    if (!floor.monitor.changed()) return;
+    if (!floor.monitor.take_changed()) return;
     const auto violations = floor.monitor.check_all();
     if (violations.empty()) return;
     floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};

@@ -99,9 +99,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
         set_order_reason(fleet, order, *reason, now);
         return;
     }
-    // They served the tries.
-    run.newest_plan.reset();
-    run.swept = {};
+    run.newest_plan.reset();  // it was for the tries
     step.leg = id;
     if (!run.leg().actions_only) step.state = StepState::kDriving;
     order.reason = {};

@@ -35,8 +35,8 @@ public:
     /// Everything from scratch: holders, cycles, and that for each tile the claimed order leaves no
     /// two stays unordered.
     std::vector<Violation> check_all() const;
-    /// Something has changed since the last call of this: what was sound then may not be now.
-    bool changed() { return std::exchange(changed_, false); }
+    /// True once after changes came in: only then has check_all() anything new to look at.
+    bool take_changed() { return std::exchange(changed_, false); }
 
 private:
     using Tile = std::uint32_t;
