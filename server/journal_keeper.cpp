@@ -25,8 +25,9 @@ fleet::SnapshotRow JournalKeeper::begin(fleet::Fleet& fleet, const plant::Plant&
     return snapshot(fleet, plant);
 }
 
-Result<std::unique_ptr<fleet::Fleet>> JournalKeeper::rebuild(const plant::Plant& plant,
-                                                             const fleet::StoredJournal& stored) {
+Result<std::unique_ptr<fleet::Fleet>> JournalKeeper::rebuild(
+    const plant::Plant& plant, std::shared_ptr<const fleet::PlantTables> tables,
+    const fleet::StoredJournal& stored) {
     const auto& snapshot = stored.snapshot;
     if (!snapshot || snapshot->format != journal::kFormat ||
         snapshot->plant_revision != plant.revision) {
@@ -35,7 +36,7 @@ Result<std::unique_ptr<fleet::Fleet>> JournalKeeper::rebuild(const plant::Plant&
     }
     const auto bytes = journal::unsealed(snapshot->bytes);
     if (!bytes) return fail(bytes.error());
-    auto fleet = fleet::Fleet::from_snapshot(plant, *bytes);
+    auto fleet = fleet::Fleet::from_snapshot(plant, *bytes, std::move(tables));
     if (!fleet) return fleet;
     std::int64_t seq = snapshot->journal_seq;
     for (const auto& row : stored.rows) {

@@ -86,23 +86,11 @@ std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Sta
     if (!leg) return leg.error().reason;
     leg->charges = true;
     leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);
-    const VehicleRecord before = run.record;
-    take_leg(run, std::move(*leg));
-    const bool stays = run.leg().nodes.size() == 1;
-    if (!stays) {
-        if (auto reason = plan_on_floor(fleet, run, now)) {
-            run.record = before;
-            return reason;
-        }
-    }
+    if (auto reason = try_leg(fleet, run, std::move(*leg), now)) return reason;
     fleet.store(run);
     add_event(fleet, now, "vehicle.goes_charging", {}, id, run.record.id, {},
               {{"station", std::int64_t{charger.number}}, {"percent", run.state.battery_percent}});
-    if (stays) {
-        send_order_update(fleet, run, 0, now);
-    } else {
-        extend_base(fleet, run, now);
-    }
+    send_leg(fleet, run, now);
     return std::nullopt;
 }
 

@@ -179,6 +179,27 @@ void take_leg(VehicleRun& run, Leg leg) {
     run.floor.idle_since.reset();
 }
 
+std::optional<Reason> try_leg(FleetState& fleet, VehicleRun& run, Leg leg, Time now) {
+    const VehicleRecord before = run.record;
+    const auto idle_since = run.floor.idle_since;
+    take_leg(run, std::move(leg));
+    if (run.leg().nodes.size() == 1) return std::nullopt;
+    auto reason = plan_on_floor(fleet, run, now);
+    if (reason) {
+        run.record = before;
+        run.floor.idle_since = idle_since;
+    }
+    return reason;
+}
+
+void send_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.leg().nodes.size() == 1) {
+        send_order_update(fleet, run, 0, now);
+    } else {
+        extend_base(fleet, run, now);
+    }
+}
+
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     Leg& leg = run.leg();
     if (leg.released_nodes >= leg.nodes.size() || run.cancelling) return;

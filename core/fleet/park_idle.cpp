@@ -82,12 +82,7 @@ void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
         Leg leg =
             build_leg(fleet, run, *plan, *station, run.record.pose, LegId(fleet.ids.next(now)));
         leg.nodes.back().actions = rest_actions(fleet, run, *station, leg);
-        const VehicleRecord before = run.record;
-        const auto idle_since = run.floor.idle_since;
-        take_leg(run, std::move(leg));
-        if (!plan_on_floor(fleet, run, now)) return tell_leaving(fleet, run, now);
-        run.record = before;
-        run.floor.idle_since = idle_since;
+        if (!try_leg(fleet, run, std::move(leg), now)) return tell_leaving(fleet, run, now);
     }
     run.floor.next_leave = now + kLeaveAgain;
 }

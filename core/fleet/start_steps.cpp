@@ -84,21 +84,12 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     leg->order = order.id;
     leg->step = static_cast<int>(order.current_step);
     leg->attempt = step.attempts + 1;
-    const VehicleRecord before = run.record;
-    const auto idle_since = run.floor.idle_since;
-    take_leg(run, std::move(*leg));
-    const bool stays = run.leg().nodes.size() == 1;
-    if (corrects) {
-        hold_for_correction(fleet, run, station->pose, now);
-    } else if (stays) {
-        // Only actions: it stands on floor that it has.
-    } else if (auto reason = plan_on_floor(fleet, run, now)) {
-        run.record = before;
-        run.floor.idle_since = idle_since;
+    if (auto reason = try_leg(fleet, run, std::move(*leg), now)) {
         name_what_cuts_off(fleet, run, step, *reason);
         set_order_reason(fleet, order, *reason, now);
         return;
     }
+    if (corrects) hold_for_correction(fleet, run, station->pose, now);
     run.newest_plan.reset();  // it was for the tries
     step.leg = id;
     if (!run.leg().actions_only) step.state = StepState::kDriving;
@@ -112,11 +103,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
                {"station", std::int64_t{station->number}},
                {"mode", plant::to_string(run.leg().mode)},
                {"attempt", std::int64_t{run.leg().attempt}}});
-    if (stays) {
-        send_order_update(fleet, run, 0, now);
-    } else {
-        extend_base(fleet, run, now);
-    }
+    send_leg(fleet, run, now);
 }
 
 void start_steps(FleetState& fleet, Time now) {

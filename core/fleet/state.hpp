@@ -195,6 +195,11 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now);
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
 /// The vehicle gets this leg; nothing of it is sent yet.
 void take_leg(VehicleRun& run, Leg leg);
+/// As take_leg, and plans its way on the floor (a leg of one node needs none). Nothing is changed
+/// when there is no way: the reason says who or what is in it.
+std::optional<Reason> try_leg(FleetState& fleet, VehicleRun& run, Leg leg, Time now);
+/// The first message of a leg just taken.
+void send_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
 
