@@ -20,6 +20,7 @@
 namespace pulseline::fleet_judge {
 namespace {
 
+constexpr std::uint64_t kTellEvery = 100;  // a minute or so
 constexpr std::uint64_t kReplayEvery = 20;
 /// Each in one seed of twenty at least.
 constexpr const char* kFaults[] = {"message late, others overtake it",
@@ -53,9 +54,9 @@ struct Arguments {
 
 Arguments arguments_from(int argc, char** argv) {
     Arguments arguments;
-    for (int i = 1; i + 1 < argc; i += 2) {
+    for (int i = 1; i < argc; i += 2) {
         const std::string name = argv[i];
-        const char* value = argv[i + 1];
+        const char* value = i + 1 < argc ? argv[i + 1] : "";
         if (name == "--seeds") {
             arguments.seeds = std::strtoull(value, nullptr, 10);
         } else if (name == "--first" || name == "--seed") {
@@ -193,9 +194,16 @@ private:
         }
         sums_.replayed += judged.replayed ? 1 : 0;
         sums_.add(outcome);
-        if (outcome.violations.empty()) return;
-        ++sums_.failed;
-        print_failure(seed, outcome, arguments_.options);
+        if (!outcome.violations.empty()) {
+            ++sums_.failed;
+            print_failure(seed, outcome, arguments_.options);
+        }
+        if (told_ % kTellEvery == 0) {
+            std::fprintf(stderr, "%llu of %llu seeds, %llu failed\n",
+                         static_cast<unsigned long long>(told_),
+                         static_cast<unsigned long long>(arguments_.seeds),
+                         static_cast<unsigned long long>(sums_.failed));
+        }
     }
 
     const Arguments& arguments_;
