@@ -1,26 +1,14 @@
 // What a platform does standing, with a real agent: charging of its own accord, parking feet round assembly work, being taken out.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Client } from "../harness/client.mjs";
-import { plantOf } from "../harness/hall.mjs";
-import { System } from "../harness/processes.mjs";
+import { startHall } from "../harness/hall.mjs";
 
 const PLANT = {
   spots: { west: [20, 40, 1], middle: [45, 40, 2], east: [70, 40, 3], bay: [45, 62, 4] }, lanes: ["west-middle", "middle-east", "middle-bay"],
   vehicles: [1], chargers: [4],
 };
 
-async function hall(t, plant, battery) {
-  const system = await System.create(plantOf(plant));
-  t.after(() => system.stop());
-  const ids = plant.vehicles.map((_, i) => `V${i + 1}`);
-  system.prepareVehicles(ids);
-  await system.startServer();
-  const client = new Client(system.url, system.apiToken);
-  ids.forEach((id, i) => system.startAgent(id, { seed: i + 1, sensing: "analytic", extra: ["--battery", String(battery)] }));
-  await Promise.all(ids.map((id) => client.untilReady(id)));
-  return { system, client };
-}
+const hall = (t, plant, battery) => startHall(t, plant, () => ({ extra: ["--battery", String(battery)] }));
 
 test("a platform with a low battery drives to the charger, and leaves it for an order when it is enough", async (t) => {
   const { client } = await hall(t, { ...PLANT, battery: { critical_percent: 15, low_percent: 16, enough_percent: 18 } }, 14);

@@ -2,20 +2,12 @@
 // for another, a breakdown on the only road. Each wait has to show in the wait-for graph.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Client } from "../harness/client.mjs";
-import { plantOf } from "../harness/hall.mjs";
-import { System, until } from "../harness/processes.mjs";
+import { startHall } from "../harness/hall.mjs";
+import { until } from "../harness/processes.mjs";
 
 /** Runs `act` with server and agents up; watches the wait-for graph all the while. */
 async function meeting(t, plant, act, agentOptions = {}) {
-  const system = await System.create(plantOf(plant));
-  t.after(() => system.stop());
-  const ids = plant.vehicles.map((_, i) => `V${i + 1}`);
-  system.prepareVehicles(ids);
-  await system.startServer();
-  const client = new Client(system.url, system.apiToken);
-  ids.forEach((id, i) => system.startAgent(id, { seed: i + 1, sensing: "analytic", ...(agentOptions[id] ?? {}) }));
-  await Promise.all(ids.map((id) => client.untilReady(id)));
+  const { system, client, ids } = await startHall(t, plant, (id) => agentOptions[id] ?? {});
   const seen = new Set();
   let watching = true;
   const watch = (async () => {

@@ -2,7 +2,8 @@
 import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { ROOT } from "./processes.mjs";
+import { Client } from "./client.mjs";
+import { ROOT, System } from "./processes.mjs";
 
 const CAMERA_M = 5.346; // ahead of and behind the platform's centre
 
@@ -39,4 +40,17 @@ export function plantOf({ spots, lanes, vehicles, obstacles = [], chargers = [],
   const file = join(mkdtempSync(join(tmpdir(), "pulseline-plant-")), "meeting.json");
   writeFileSync(file, JSON.stringify(model));
   return file;
+}
+
+/** Server and one agent a vehicle up and ready in the hall; `agentOptions(id)`: what an agent gets besides. */
+export async function startHall(t, plant, agentOptions = () => ({})) {
+  const system = await System.create(plantOf(plant));
+  t.after(() => system.stop());
+  const ids = plant.vehicles.map((_, i) => `V${i + 1}`);
+  system.prepareVehicles(ids);
+  await system.startServer();
+  const client = new Client(system.url, system.apiToken);
+  ids.forEach((id, i) => system.startAgent(id, { seed: i + 1, sensing: "analytic", ...agentOptions(id) }));
+  await Promise.all(ids.map((id) => client.untilReady(id)));
+  return { system, client, ids };
 }

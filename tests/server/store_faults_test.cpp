@@ -120,8 +120,9 @@ Run run(const Begin& begin, int first_step, const FaultVfs::Plan& plan) {
     return run;
 }
 
-/// Between the calls that fail; 1 in the nightly: every one. The others are prime to the kinds'
-/// turns.
+/// Every how many-th call fails, by PULSELINE_FAULT_EVERY; every one without it (nightly). Take a
+/// number that neither 2 nor 3 divides: in steps of 2 or 3, plans_for would only ever get to some
+/// of its kinds.
 std::int64_t stride() {
     const char* every = std::getenv("PULSELINE_FAULT_EVERY");
     return every ? std::max(1, std::atoi(every)) : 1;

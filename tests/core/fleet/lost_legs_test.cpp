@@ -23,6 +23,17 @@ void hear_only(World& world, double duration_s) {
     }
 }
 
+/// What the fleet put out is stored, but its messages get lost; gives the id of the instant action
+/// among them.
+std::string lose_action(World& world) {
+    const Outputs out = world.fleet->take_outputs(world.now);
+    world.store.commit(out.records);
+    for (const auto& message : out.messages) {
+        if (message.instant_actions) return message.instant_actions->actions.front().id;
+    }
+    return {};
+}
+
 void give_up_order(FakeVehicle& vehicle) {
     Action cancel;
     cancel.type = "cancelOrder";
@@ -44,12 +55,7 @@ TEST(LostLegs, AFailedCancelOfOneThatTheVehicleStillHasIsAskedForAgain) {
     ASSERT_TRUE(created);
     world.run(1);
     ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
-    const Outputs out = world.fleet->take_outputs(world.now);
-    world.store.commit(out.records);
-    std::string cancel;
-    for (const auto& message : out.messages) {
-        if (message.instant_actions) cancel = message.instant_actions->actions.front().id;
-    }
+    const std::string cancel = lose_action(world);
     ASSERT_FALSE(cancel.empty());
     hear_only(world, 12);  // it got nothing of it, and no order is on its way any more
 
@@ -149,12 +155,7 @@ TEST(LostLegs, ACancelThatOvertookItsOrderIsNotTheEndOfIt) {
     hear_only(world, 0.5);
     ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
     ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
-    const Outputs out = world.fleet->take_outputs(world.now);
-    world.store.commit(out.records);
-    std::string cancel;
-    for (const auto& message : out.messages) {
-        if (message.instant_actions) cancel = message.instant_actions->actions.front().id;
-    }
+    const std::string cancel = lose_action(world);
     ASSERT_FALSE(cancel.empty());
 
     world.vehicle("V1").state.action_states.push_back(

@@ -1,0 +1,175 @@
+#include <gtest/gtest.h>
+
+#include "tests/core/fleet/traffic_halls.hpp"
+
+// Idle vehicles leave the way of others.
+namespace pulseline::fleet::testing {
+namespace {
+
+using plant::VehicleId;
+
+TEST(MakingWay, AnIdleVehicleInABayLeavesItForAnother) {
+    World world(plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+                         {{"west", "middle"}, {"middle", "east"}}, 2));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V2", {3}));
+    world.run(200);
+    ASSERT_EQ(order_of(world, "V2").state, JobState::kEnded);
+
+    // V2 rests in the middle of the only lane; V1 has to get past it.
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(400);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
+    EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s2"));
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
+}
+
+TEST(MakingWay, OneThatMeasuredItsStopWhileItWasLostMakesWayAfterwards) {
+    World world(plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"bay", 40, 52, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "bay"}}, 2));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {3}));
+    const auto& leg = world.store.vehicles[VehicleId("V1")].leg_data;
+    for (int i = 0; i < 1000 && (leg.nodes.empty() || leg.released_nodes < leg.nodes.size()); ++i)
+        world.run(0.1);
+    ASSERT_EQ(leg.released_nodes, leg.nodes.size());
+    world.connected[VehicleId("V1")] = false;
+    world.run(15);
+    ASSERT_EQ(world.fleet->vehicle(VehicleId("V1"), world.now)->link, Link::kLost);
+    world.connected[VehicleId("V1")] = true;
+    world.run(1);
+    ASSERT_EQ(order_of(world, "V1").state, JobState::kEnded);
+    ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V1")}, "op", world.now));
+
+    ASSERT_TRUE(world.order("V2", {1}));
+    world.run(400);
+
+    EXPECT_EQ(order_of(world, "V2").state, JobState::kEnded) << order_of(world, "V2").reason.code;
+}
+
+TEST(MakingWay, ALoadedVehicleStaysWhereItStands) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+                                  {{"west", "middle"}, {"middle", "east"}}, 2);
+    plant.vehicles[1].load_name = "A-101";
+    World world(plant);
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(200);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kRunning);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 0);
+}
+
+TEST(MakingWay, AnIdleVehicleBesideAllPlacesLeavesTheWayOfAnother) {
+    plant::Plant plant = plant_of(
+        {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"far", 90, 40, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"east", "far"}}, 2);
+    plant.vehicles[1].home = plant::StationId("s3");
+    World world(plant);
+    world.vehicle("V2").state.pose->x_m += 0.9;
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_GE(world.count_events("vehicle.makes_way"), 1);
+}
+
+/// V1 in the west and V2 in the middle of a cross.
+plant::Plant cross() {
+    plant::Plant plant = plant_of(
+        {{"west", 10, 40, 1},
+         {"east", 70, 40, 2},
+         {"middle", 40, 40, 3},
+         {"north", 40, 60, 4},
+         {"south", 40, 20, 5}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "north"}, {"middle", "south"}}, 2);
+    plant.vehicles[1].home = plant::StationId("s3");
+    return plant;
+}
+
+/// The place where V2 is going to rest, and the floor there closed.
+plant::StationId close_where_it_goes(World& world) {
+    const auto id = world.store.vehicles.at(VehicleId("V2")).leg_data.station;
+    const auto* station = plant::find_station(world.plant, id);
+    if (!station) return {};
+    const double x = station->pose.x_m;
+    const double y = station->pose.y_m;
+    EXPECT_TRUE(
+        world.fleet->close_floor({"Wet",
+                                  plant::HallId("h1"),
+                                  {{x - 3, y - 3}, {x + 3, y - 3}, {x + 3, y + 3}, {x - 3, y + 3}},
+                                  {}},
+                                 "op", world.now));
+    return id;
+}
+
+TEST(MakingWay, OneThatMakesWayElsewhereThanPlannedIsKnownToStandThere) {
+    World world(cross());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    for (int i = 0; i < 100 && world.count_events("vehicle.makes_way") == 0; ++i) world.run(0.1);
+    const plant::StationId first = close_where_it_goes(world);
+    for (int i = 0; i < 400; ++i) {
+        world.run(0.5);
+        const auto& record = world.store.vehicles.at(VehicleId("V2"));
+        if (!record.has_leg) continue;
+        const auto& end = record.leg_data.nodes.back().pose;
+        for (const auto& station : world.plant.stations) {
+            if (geometry::distance(station.pose.position(), end.position()) > 0.25) continue;
+            EXPECT_EQ(record.leg_data.station, station.id);
+        }
+    }
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    const auto view = world.fleet->vehicle(VehicleId("V2"), world.now);
+    EXPECT_FALSE(view->at_station.empty());
+    EXPECT_NE(view->at_station, first);
+}
+
+TEST(MakingWay, OneThatMakesWayToAPlaceTakenSinceARestartGoesElsewhere) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1},
+                                   {"east", 70, 40, 2},
+                                   {"middle", 40, 40, 3},
+                                   {"north", 40, 58, 4},
+                                   {"south", 40, 15, 5},
+                                   {"far", 40, 70, 6}},
+                                  {{"west", "middle"},
+                                   {"middle", "east"},
+                                   {"middle", "north"},
+                                   {"middle", "south"},
+                                   {"north", "far"}},
+                                  3);
+    plant.vehicles[1].home = plant::StationId("s3");
+    plant.vehicles[2].home = plant::StationId("s6");
+    for (std::size_t nodes = 1; nodes < 4; ++nodes) {
+        World world(plant);
+        confirm_poses(world);
+        ASSERT_TRUE(world.order("V1", {2}));
+        const auto& record = world.store.vehicles[VehicleId("V2")];
+        for (int i = 0; i < 200 && (!record.has_leg || record.leg_data.passed_nodes < nodes); ++i)
+            world.run(0.1);
+        ASSERT_EQ(record.leg_data.station, plant::StationId("s4"));
+
+        world.crash_server();
+        world.run(2);
+        ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V3")}, "op", world.now));
+        ASSERT_TRUE(world.order("V3", {4}));
+        world.run(100);
+        ASSERT_EQ(order_of(world, "V3").state, JobState::kEnded)
+            << order_of(world, "V3").reason.code;
+        ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V1"), VehicleId("V2")}, "op", world.now));
+        world.run(400);
+
+        EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded)
+            << nodes << " nodes: " << order_of(world, "V1").reason.code;
+    }
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing
