@@ -13,7 +13,8 @@ constexpr double kFresh_s = 5;           // predictions serve as long: they stee
 constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
 constexpr std::size_t kMostRestsTried = 8;  // for one of them
 
-bool is_stop(const PlannedMove& move) { return move.shape->swept == move.shape->stand; }
+// Not by its floor: a turn on the spot may sweep no more tiles than it stands on.
+bool is_stop(const PlannedMove& move) { return move.visit != kNoVisit; }
 
 }  // namespace
 

@@ -104,12 +104,28 @@ void World::check_sent(const fleet::VehicleMessage& message) {
         }
         if (node.released) base = std::max(base, node.sequence_id);
     }
+    check_way(message);
     auto& known = watch_[message.vehicle].base;
     const auto before = known.find(message.order->order_id);
     const bool extends = before == known.end() || before->second < base;
     if (!extends) return;
     known[message.order->order_id] = base;
     if (base > 0) check_given_floor(message.vehicle);
+}
+
+/// Nobody is told to drive sideways who cannot, as a way with a turn left out would.
+void World::check_way(const fleet::VehicleMessage& message) {
+    constexpr double kLong_m = 1;  // a short one may make up for where it stands
+    const auto& vehicle = *plant::find_vehicle(plant_, message.vehicle);
+    const auto& modes = plant::find_vehicle_type(plant_, vehicle.type)->motion_modes;
+    if (std::find(modes.begin(), modes.end(), plant::MotionMode::kLateral) != modes.end()) return;
+    for (const auto& edge : message.order->edges) {
+        const auto& way = edge.segment;
+        if (way.kind != kinematics::Segment::Kind::kStraight) continue;
+        if (std::abs(way.length_m) < kLong_m || std::abs(std::sin(way.direction_rad)) < 0.3)
+            continue;
+        violate(message.vehicle.str() + " is told to drive sideways on " + edge.edge_id);
+    }
 }
 
 /// Nobody gets floor who waits for a person, cannot drive or is not heard, as far as the server had

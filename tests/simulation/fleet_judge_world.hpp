@@ -134,6 +134,7 @@ private:
     void check_end();
     bool all_over() const;
     void violate(const std::string& what);
+    void check_way(const fleet::VehicleMessage& message);
     void check_given_floor(const plant::VehicleId& id);
     void take_in(const fleet::Outputs& out);
     void take_in(const std::string& text);

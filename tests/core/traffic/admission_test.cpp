@@ -106,6 +106,34 @@ TEST(Admission, CancelEndsAtTheRestOrWhereTheBaseEnds) {
     EXPECT_EQ(hall.traffic.visits_done(v), 0);
 }
 
+TEST(Admission, CancelOfAHaltedVehicleKeepsTheTurnsOfItsWay) {
+    Floor floor({"r..r"});
+    // The way through leads over a turn on the spot that sweeps no more than it stands on.
+    MoveGraph& graph = floor.graph;
+    const auto turned = static_cast<PlaceIndex>(graph.places.size());
+    graph.places.push_back({{Floor::tile(1, 0)}, false});
+    std::erase_if(graph.moves, [](const Move& move) { return move.from == 1 && move.to == 2; });
+    graph.moves.push_back({1, turned, {Floor::tile(1, 0)}, kMove_s});
+    graph.moves.push_back({turned, 2, {Floor::tile(1, 0), Floor::tile(2, 0)}, kMove_s});
+    Traffic traffic(true);
+    traffic.add_graph(graph);
+    const auto v = *traffic.add_vehicle({"A", 0, 0, {}}, at(0));
+    Task task;
+    task.visits = {{1, 10}};
+    task.resting = {3};
+    ASSERT_TRUE(traffic.admit(v, task, at(0)));
+    ASSERT_EQ(traffic.extend(v, 1, at(0)), 1u);
+    ASSERT_TRUE(traffic.passed(v, 1, at(5)));
+    traffic.halt(v, at(5));
+
+    ASSERT_TRUE(traffic.cancel(v, at(6)));
+
+    std::vector<PlaceIndex> way;
+    const auto& plan = traffic.plan(v);
+    for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) way.push_back(plan.at(n).place);
+    EXPECT_EQ(way, (std::vector<PlaceIndex>{turned, 2, 3})) << "all but the stop";
+}
+
 TEST(Admission, RerouteTakesTheOpenWayAroundAClosure) {
     Hall ring({"r...r",  //
                " . . ",  //
