@@ -175,6 +175,12 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     return true;
 }
 
+/// Nothing is granted any more.
+void stop_floor(FleetState& fleet, const traffic::Violation& violation, Time now) {
+    fleet.floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violation)}}};
+    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, fleet.floor.stopped->params);
+}
+
 }  // namespace
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
@@ -308,6 +314,26 @@ void follow_replans(FleetState& fleet, Time now) {
     }
 }
 
+namespace {
+
+/// What the vehicle is about to be told, held against the floor that the monitor knows it to hold:
+/// leg and plan must not have come apart.
+bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t nodes, Time now) {
+    const Leg& leg = run.leg();
+    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
+    for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
+        const auto under = traffic::tiles_under(
+            hall_index(fleet, leg.hall), kinematics::sweep(body, {leg.edges[i - 1].segment}), 0);
+        const auto outside = fleet.floor.monitor.check_footprint(run.floor.vehicle, under);
+        if (outside.empty()) continue;
+        stop_floor(fleet, outside.front(), now);
+        return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_node, Time now) {
     auto& traffic = fleet.floor.traffic;
     const Leg& leg = run.leg();
@@ -318,8 +344,9 @@ std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_n
     const MoveNumber granted = traffic.extend(run.floor.vehicle, wanted - passed, now);
     if (!floor_is_sound(fleet, now)) return leg.released_nodes;
     const auto nodes = static_cast<std::int64_t>(granted) - run.floor.moves_before_leg + 1;
-    return std::clamp(static_cast<std::size_t>(std::max<std::int64_t>(nodes, 1)),
-                      leg.released_nodes, leg.nodes.size());
+    const auto reached = std::clamp(static_cast<std::size_t>(std::max<std::int64_t>(nodes, 1)),
+                                    leg.released_nodes, leg.nodes.size());
+    return keeps_to_its_floor(fleet, run, reached, now) ? reached : leg.released_nodes;
 }
 
 void pass_nodes(FleetState& fleet, VehicleRun& run, Time now) {
@@ -417,8 +444,7 @@ bool floor_is_sound(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
     const auto violations = floor.monitor.apply(floor.traffic.take_changes());
     if (violations.empty() || floor.stopped) return !floor.stopped;
-    floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};
-    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, floor.stopped->params);
+    stop_floor(fleet, violations.front(), now);
     return false;
 }
 
@@ -429,9 +455,7 @@ void check_whole_floor(FleetState& fleet, Time now) {
     if (!floor_is_sound(fleet, now)) return;
     if (!floor.monitor.take_changed()) return;
     const auto violations = floor.monitor.check_all();
-    if (violations.empty()) return;
-    floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violations.front())}}};
-    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, floor.stopped->params);
+    if (!violations.empty()) stop_floor(fleet, violations.front(), now);
 }
 
 }  // namespace pulseline::fleet

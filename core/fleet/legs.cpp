@@ -201,6 +201,7 @@ void send_leg(FleetState& fleet, VehicleRun& run, Time now) {
 }
 
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
+    follow_replans(fleet, now);  // what is released has to be what the plan has now
     Leg& leg = run.leg();
     if (leg.released_nodes >= leg.nodes.size() || run.cancelling) return;
     const double speed = speed_of(run);
