@@ -42,6 +42,14 @@ bool has_stood(const VehicleRecord& record) {
     return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
 }
 
+/// One that has never told where it stands is taken to stand at home, until it tells or another one
+/// is found there.
+std::optional<Pose2> presumed_pose(const FleetState& fleet, const VehicleRun& run) {
+    if (has_stood(run.record) || run.has_leg()) return std::nullopt;
+    const auto* home = plant::find_station(fleet.plant, run.vehicle->home);
+    return home ? std::optional(home->pose) : std::nullopt;
+}
+
 /// What the vehicle's record says of its floor: where it stands and the rest of its base.
 traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     traffic::VehicleRecord row;
@@ -54,6 +62,8 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     } else if (mutated(Mutation::kLostPoseLosesFloor) ? run.record.pose_known
                                                       : has_stood(run.record)) {
         pose = run.record.pose;
+    } else if (!mutated(Mutation::kLostPoseLosesFloor)) {
+        pose = presumed_pose(fleet, run);
     }
     if (!pose) return row;
     row.stand = floor_under(fleet, run, *pose);
@@ -93,14 +103,30 @@ TileSet without(const TileSet& set, const std::unordered_set<traffic::TileId>& t
 
 /// Rows may contradict each other when a vehicle was moved by hand while the server was down: the
 /// first one keeps the floor, the other holds the rest and is not moved until that is cleared up.
+/// What is only presumed comes last.
 void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& rows) {
     std::unordered_set<traffic::TileId> taken;
-    for (auto& row : rows) {
+    const auto is_presumed = [&](const traffic::VehicleRecord& row) {
+        const VehicleRun& run = *fleet.find(plant::VehicleId(row.name));
+        return presumed_pose(fleet, run).has_value();
+    };
+    std::vector<traffic::VehicleRecord*> in_order;
+    for (auto& row : rows) in_order.push_back(&row);
+    std::stable_partition(in_order.begin(), in_order.end(),
+                          [&](const auto* row) { return !is_presumed(*row); });
+    for (auto* at : in_order) {
+        traffic::VehicleRecord& row = *at;
         TileSet needed = row.stand;
         for (const auto& move : row.moves) needed = traffic::merge(needed, move.swept);
         const TileSet left = without(needed, taken);
         if (left.size() < needed.size()) {
             VehicleRun& run = *fleet.find(plant::VehicleId(row.name));
+            if (is_presumed(row)) {
+                row.stand.clear();
+                row.place = traffic::kNoPlace;
+                run.floor.pose.reset();
+                continue;
+            }
             run.floor.conflict = Reason{"floor_conflict", {{"vehicle", row.name}}};
             row.stand = without(row.stand, taken);
             row.place = traffic::kNoPlace;
@@ -112,6 +138,21 @@ void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& r
         }
         taken.insert(left.begin(), left.end());
     }
+}
+
+/// Those that were only presumed to stand here do not: they are somewhere else. True when there were
+/// any.
+bool release_presumed(FleetState& fleet, const VehicleRun& run, const TileSet& stand, Time now) {
+    bool any = false;
+    for (const auto tile : stand) {
+        const auto holder = fleet.floor.traffic.holder(tile);
+        if (!holder || *holder == run.floor.vehicle) continue;
+        VehicleRun* other = fleet.find(plant::VehicleId(fleet.floor.traffic.name(*holder)));
+        if (!other || !presumed_pose(fleet, *other)) continue;
+        leave_floor(fleet, *other, now);
+        any = true;
+    }
+    return any;
 }
 
 /// Others may not be sent to where it stands, although it stands on another's floor, too.
@@ -186,7 +227,10 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
     if (place != traffic::kNoPlace) {
         stand = traffic::merge(stand, fleet.floor.classes[run.floor.of_class].stands[place]);
     }
-    const auto found = traffic.found_at(run.floor.vehicle, stand, place, now);
+    auto found = traffic.found_at(run.floor.vehicle, stand, place, now);
+    if (!found && release_presumed(fleet, run, stand, now)) {
+        found = traffic.found_at(run.floor.vehicle, stand, place, now);
+    }
     run.floor.leg_planned = false;
     if (!found) hold_what_is_free(fleet, run, stand, now);
     if (found) {

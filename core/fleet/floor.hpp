@@ -71,6 +71,9 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
 bool stands_at_stop(const FleetState& fleet, const VehicleRun& run);
 /// The leg ended beside all places without its stop, so no plan leads on from there.
 bool is_dead_end(const FleetState& fleet, const VehicleRun& run);
+/// REQUIRES: the leg has no plan. At the end of its base, and who bars the rest has no plan to leave
+/// (maybe because of this one), or has made it make way: it goes elsewhere only without its leg.
+bool is_stuck(const FleetState& fleet, const VehicleRun& run);
 /// The rest of the vehicle's plan is the graph's alone.
 bool goes_by_places(const FleetState& fleet, const VehicleRun& run);
 /// A leg of one node becomes the drive that the vehicle's plan already has.

@@ -275,6 +275,14 @@ bool is_dead_end(const FleetState& fleet, const VehicleRun& run) {
     return leg.nodes.size() == leg.released_nodes || !end;
 }
 
+bool is_stuck(const FleetState& fleet, const VehicleRun& run) {
+    if (run.state.driving || run.leg().passed_nodes < run.leg().released_nodes) return false;
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle);
+    if (!block || block->cause != traffic::BlockCause::kVehicle) return false;
+    return block->move == traffic::kForever || plan.last() > plan.passed;
+}
+
 bool goes_by_places(const FleetState& fleet, const VehicleRun& run) {
     const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
     for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n) {

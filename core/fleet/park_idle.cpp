@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <set>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -56,18 +57,31 @@ void leave(FleetState& fleet, VehicleRun& run, const plant::StationId& station, 
     tell_leaving(fleet, run, now);
 }
 
-/// Resting places that the vehicle may have, nearest first.
+/// Resting places that the vehicle may have: those first on which nobody stands, nearest first.
 std::vector<const plant::Station*> resting_places(const FleetState& fleet, const VehicleRun& run) {
-    std::vector<const plant::Station*> found;
-    const auto& motion = fleet.floor.classes[run.floor.of_class].motion;
-    for (const auto& station : fleet.plant.stations) {
-        if (station.resting_place && motion.station_place(station.id)) found.push_back(&station);
-    }
+    struct Rest {
+        bool held;
+        double away_m;
+        const plant::Station* station;
+    };
+    std::vector<Rest> rests;
+    const auto& of_class = fleet.floor.classes[run.floor.of_class];
     const auto at = run.record.pose.position();
-    std::stable_sort(found.begin(), found.end(), [&](const auto* a, const auto* b) {
-        return geometry::distance(a->pose.position(), at) <
-               geometry::distance(b->pose.position(), at);
+    for (const auto& station : fleet.plant.stations) {
+        const auto place = of_class.motion.station_place(station.id);
+        if (!station.resting_place || !place) continue;
+        const auto& stand = of_class.stands[*place];
+        const bool held = std::any_of(stand.begin(), stand.end(), [&](traffic::TileId tile) {
+            const auto holder = fleet.floor.traffic.holder(tile);
+            return holder && *holder != run.floor.vehicle;
+        });
+        rests.push_back({held, geometry::distance(station.pose.position(), at), &station});
+    }
+    std::stable_sort(rests.begin(), rests.end(), [](const Rest& a, const Rest& b) {
+        return std::tie(a.held, a.away_m) < std::tie(b.held, b.away_m);
     });
+    std::vector<const plant::Station*> found;
+    for (const Rest& rest : rests) found.push_back(rest.station);
     return found;
 }
 

@@ -48,6 +48,10 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.leg_seen || run.update_sent) return;
     const bool had_horizon = run.leg().nodes.size() > run.leg().released_nodes;
     const auto reason = plan_on_floor(fleet, run, now);
+    if (reason && is_stuck(fleet, run)) {
+        cancel_leg(fleet, run, now);
+        return;
+    }
     // It ends where its base ends. The vehicle waits for more, and nodes it has take no stop any
     // more: it gives up the leg and gets one of its own for the rest.
     if (!reason && had_horizon && run.leg().nodes.size() == run.leg().released_nodes) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "core/traffic/mutation.hpp"
 #include "core/traffic/traffic.hpp"
@@ -242,22 +243,35 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
     return admission;
 }
 
-/// The nearest other resting place at which the vehicle is out of the task's way.
+/// The nearest other resting place at which the vehicle is out of the task's way, first of those on
+/// which nobody stands.
 bool Traffic::rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
                              double now_s) {
     const GraphIndex number = vehicles_[resting].graph;
     const CompiledGraph& graph = *graphs_[number];
     const VehiclePlan& plan = joint_.plan(resting);
     const TileIndexes& here = graph.places[plan.place].stand;
-    std::vector<std::pair<float, PlaceIndex>> others;
+    struct Rest {
+        bool held;
+        float away_s;
+        PlaceIndex place;
+    };
+    std::vector<Rest> others;
     for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
-        if (!graph.places[p].resting || meet(graph.places[p].stand, here)) continue;
+        const TileIndexes& stand = graph.places[p].stand;
+        if (!graph.places[p].resting || meet(stand, here)) continue;
         const float away_s = (*times_to_places(number, {p}))[plan.place];
-        if (!std::isinf(away_s)) others.push_back({away_s, p});
+        if (std::isinf(away_s)) continue;
+        const bool held = std::any_of(stand.begin(), stand.end(), [&](TileIndex tile) {
+            return joint_.holder(tile).has_value();
+        });
+        others.push_back({held, away_s, p});
     }
-    std::sort(others.begin(), others.end());
+    std::sort(others.begin(), others.end(), [](const Rest& a, const Rest& b) {
+        return std::tie(a.held, a.away_s, a.place) < std::tie(b.held, b.away_s, b.place);
+    });
     if (others.size() > kMostRestsTried) others.resize(kMostRestsTried);
-    for (const auto& [away_s, place] : others) {
+    for (const auto& [held, away_s, place] : others) {
         Undos undos;
         Task elsewhere;
         elsewhere.resting = {place};

@@ -80,6 +80,61 @@ TEST(MakingWay, AnIdleVehicleBesideAllPlacesLeavesTheWayOfAnother) {
     EXPECT_GE(world.count_events("vehicle.makes_way"), 1);
 }
 
+TEST(MakingWay, OneBesideAllPlacesFindsTheFreeOneBehindManyThatAreTaken) {
+    World world(plant_of({{"west", 10, 40, 1},
+                          {"middle", 40, 40, 2},
+                          {"a", 36, 50, 3},
+                          {"b", 40, 50, 4},
+                          {"c", 44, 52, 5},
+                          {"d", 36, 30, 6},
+                          {"e", 40, 30, 7},
+                          {"f", 44, 28, 8},
+                          {"free", 70, 70, 9},
+                          {"east", 80, 40, 10}},
+                         {{"west", "middle"},
+                          {"middle", "a"},
+                          {"middle", "b"},
+                          {"middle", "c"},
+                          {"middle", "d"},
+                          {"middle", "e"},
+                          {"middle", "f"},
+                          {"middle", "free"},
+                          {"middle", "east"}},
+                         8));
+    world.vehicle("V2").state.pose->x_m += 0.9;
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {10}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
+TEST(MakingWay, TwoHeadOnBetweenPlacesAfterARestartFindAWayApart) {
+    for (const std::size_t passed : {2, 4, 6}) {
+        World world(corridor());
+        confirm_poses(world);
+        ASSERT_TRUE(world.order("V1", {2}));
+        ASSERT_TRUE(world.order("V2", {1}));
+        const auto on_the_way = [&](const char* id) {
+            const auto& record = world.store.vehicles[VehicleId(id)];
+            return record.has_leg && record.leg_data.passed_nodes >= passed;
+        };
+        for (int i = 0; i < 2000 && !(on_the_way("V1") && on_the_way("V2")); ++i) world.run(0.1);
+        ASSERT_TRUE(on_the_way("V1") && on_the_way("V2"));
+
+        world.crash_server();
+        world.run(2);
+        ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V1"), VehicleId("V2")}, "op", world.now));
+        world.run(900);
+
+        for (const char* id : {"V1", "V2"}) {
+            const auto order = order_of(world, id);
+            EXPECT_EQ(order.state, JobState::kEnded) << passed << id << order.reason.code;
+        }
+    }
+}
+
 /// V1 in the west and V2 in the middle of a cross.
 plant::Plant cross() {
     plant::Plant plant = plant_of(

@@ -79,6 +79,43 @@ TEST(TrafficScenarios, ABrokenDownVehicleOnTheShortWayIsPassedOnTheLongOne) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
 }
 
+/// V1 in the west of the only lane, V2 at home in its middle, a bay beside it.
+plant::Plant one_lane() {
+    return plant_of(
+        {{"west", 10, 40, 1}, {"middle", 40, 40, 2}, {"east", 70, 40, 3}, {"bay", 40, 52, 4}},
+        {{"west", "middle"}, {"middle", "east"}, {"middle", "bay"}}, 2);
+}
+
+TEST(TrafficScenarios, AVehicleThatHasNotToldWhereItStandsIsPresumedAtHome) {
+    World world(one_lane());
+    world.connect_all();
+    world.vehicle("V1").state.position_initialized = true;
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(120);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
+    EXPECT_EQ(world.vehicle("V1").state.pose->x_m, 10);
+
+    world.vehicle("V2").state.position_initialized = true;
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << "V2 made way";
+}
+
+TEST(TrafficScenarios, WhoIsFoundAtTheHomeOfOneThatHasNotToldWhereItStandsHasTheFloor) {
+    World world(one_lane());
+    world.connect_all();
+    world.vehicle("V1").state.pose->x_m = 40;
+    world.vehicle("V1").state.position_initialized = true;
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {3}));
+
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_EQ(world.count_events("vehicle.floor_conflict"), 0);
+}
+
 TEST(TrafficScenarios, OnTheOnlyRoadABreakdownIsWaitedForWithItsName) {
     plant::Plant plant = plant_of(
         {{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}, {"far", 90, 40, 4}},
