@@ -140,8 +140,8 @@ void without_conflicts(FleetState& fleet, std::vector<traffic::VehicleRecord>& r
     }
 }
 
-/// Those that were only presumed to stand here do not: they are somewhere else. True when there were
-/// any.
+/// Those that were only presumed to stand here do not: they are somewhere else. True when there
+/// were any.
 bool release_presumed(FleetState& fleet, const VehicleRun& run, const TileSet& stand, Time now) {
     bool any = false;
     for (const auto tile : stand) {

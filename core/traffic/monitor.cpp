@@ -21,7 +21,8 @@ std::vector<Monitor::Tile> Monitor::tiles(const TileSet& set) {
     std::vector<Tile> numbers;
     numbers.reserve(set.size());
     for (const TileId id : set) {
-        const auto [it, is_new] = tile_numbers_.try_emplace(id, static_cast<Tile>(tile_ids_.size()));
+        const auto [it, is_new] =
+            tile_numbers_.try_emplace(id, static_cast<Tile>(tile_ids_.size()));
         if (is_new) {
             tile_ids_.push_back(id);
             owners_.emplace_back();
