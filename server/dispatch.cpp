@@ -33,7 +33,7 @@ net::awaitable<Response> on_fleet(Context& context, const api::Route& route,
     };
     const std::function<void(Done<FleetAnswer>)> begin = [&context, &route,
                                                           job](Done<FleetAnswer> done) {
-        if (route.changes()) {
+        if (route.changes() && !route.only_asks) {
             context.runtime.command(job, std::move(done));
         } else {
             context.runtime.read(job, std::move(done));

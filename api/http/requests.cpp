@@ -237,6 +237,7 @@ Result<planning::WhatIf> read_what_if(const Request& request) {
         read.from = static_cast<int>(in.integer("from", {0, kMaxStation}));
         read.to = static_cast<int>(in.integer("to", {0, kMaxStation}));
         read.loaded = in.boolean_or("loaded", false);
+        read.present_closures = in.boolean_or("present_closures", true);
         read.alternatives = static_cast<int>(in.integer_or("alternatives", 2, {0, kMaxRoutes}));
         in.items_if_any(
             "closed_edges", {0, kMaxClosed}, [&](const Json& item, const std::string& pointer) {

@@ -68,17 +68,25 @@ const char* text(Bar bar) {
     return "closed";
 }
 
-Json bar_json(const planning::WhatIfBar& bar) {
-    return {{"edge", bar.edge.str()}, {"why", text(bar.bar)}};
+Json bar_json(const planning::WhatIf& question, const planning::WhatIfBar& bar) {
+    Json json{{"edge", bar.edge.str()}, {"why", text(bar.bar)}};
+    for (const std::size_t i : bar.closures) {
+        const auto& closure = question.closures[i];
+        json["closures"].push_back({{"id", closure.id}, {"name", closure.name}});
+    }
+    return json;
 }
 
 Json answer_json(const planning::WhatIf& question, const planning::WhatIfAnswer& answer) {
     Json json = {{"alternatives", Json::array()}};
+    const auto bars = [&](const std::vector<planning::WhatIfBar>& all) {
+        return list_json(all, [&](const auto& bar) { return bar_json(question, bar); });
+    };
     if (answer.routes.empty()) {
         json["reason"] = reason_json(
             {"no_route",
              {{"from", std::int64_t{question.from}}, {"to", std::int64_t{question.to}}}});
-        json["blocking"] = list_json(answer.blocking, bar_json);
+        json["blocking"] = bars(answer.blocking);
         return json;
     }
     json["route"] = route_json(answer.routes.front());
@@ -90,20 +98,24 @@ Json answer_json(const planning::WhatIf& question, const planning::WhatIfAnswer&
     }
     if (!answer.shortcut_bars.empty()) {
         json["barred_shortcut"] = {{"cost", in_k(answer.shortcut_cost)},
-                                   {"blocking", list_json(answer.shortcut_bars, bar_json)}};
+                                   {"blocking", bars(answer.shortcut_bars)}};
     }
     return json;
 }
 
 }  // namespace
 
-Response find_routes(const HistoryContext& context, const Request& request) {
-    const auto question = read_what_if(request);
-    if (!question) return problem(400, question.error(), request);
-    const auto answer = planning::what_if(context.plant, *question);
-    // The request is well formed; what it names is not there. That is 422, never 404.
-    if (!answer) return problem(422, answer.error(), request);
-    return json_response(200, answer_json(*question, *answer));
+FleetAnswer find_routes(FleetContext& context, const Request& request) {
+    auto question = read_what_if(request);
+    if (!question) return {problem(400, question.error(), request)};
+    question->closures = context.fleet.closed_floors();
+    // The search takes its time, and not the fleet's.
+    return {{}, [question = std::move(*question), &request](const HistoryContext& history) {
+                const auto answer = planning::what_if(history.plant, question);
+                // The request is well formed; what it names is not there: 422, never 404.
+                if (!answer) return problem(422, answer.error(), request);
+                return json_response(200, answer_json(question, *answer));
+            }};
 }
 
 }  // namespace pulseline::api

@@ -52,6 +52,7 @@ struct Route {
     std::optional<access::Role> least;  // none: public
     std::vector<const char*> query;     // parameters it knows; others are refused
     std::variant<InlineHandler, FleetHandler, HistoryHandler, WorkerHandler, Socket> handler;
+    bool only_asks = false;  // a POST that changes nothing: answered while nothing can be stored
 
     bool changes() const;  // not GET
 };

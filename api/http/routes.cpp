@@ -128,7 +128,7 @@ std::span<const Route> routes() {
          {},
          resume_schedule},
 
-        {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes},
+        {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes, true},
 
         {"GET",
          "/api/v1/stop-records",

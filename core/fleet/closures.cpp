@@ -158,7 +158,7 @@ void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now
     floor_is_sound(fleet, now);
 }
 
-void close_to_planner(FleetState& fleet) {
+std::vector<planning::ClosedFloor> closed_floors(const FleetState& fleet) {
     std::vector<planning::ClosedFloor> floors;
     const auto add = [&](const Closure& closure, const plant::HallId& hall,
                          std::vector<geometry::Polygon> pieces) {
@@ -177,8 +177,10 @@ void close_to_planner(FleetState& fleet) {
         }
         for (auto& [hall, in_hall] : pieces) add(closure, hall, std::move(in_hall));
     }
-    fleet.planner.set_closures(std::move(floors));
+    return floors;
 }
+
+void close_to_planner(FleetState& fleet) { fleet.planner.set_closures(closed_floors(fleet)); }
 
 void name_closures(const FleetState& fleet, const std::vector<std::string>& ids, Reason& reason) {
     std::string names;

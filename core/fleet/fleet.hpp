@@ -176,6 +176,8 @@ public:
     std::int64_t last_event_seq() const;
     /// Who waits for whom on the floor, and what is closed.
     TrafficView traffic(Time now) const;
+    /// What is closed, as planning takes it.
+    std::vector<planning::ClosedFloor> closed_floors() const;
 
 private:
     explicit Fleet(std::unique_ptr<FleetState> state);

@@ -18,6 +18,10 @@ TrafficView::Wait shown(const FleetState& fleet, const plant::VehicleId& vehicle
 
 }  // namespace
 
+std::vector<planning::ClosedFloor> Fleet::closed_floors() const {
+    return fleet::closed_floors(*state_);
+}
+
 TrafficView Fleet::traffic(Time) const {
     const Floor& floor = state_->floor;
     TrafficView view;

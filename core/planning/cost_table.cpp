@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace pulseline::planning {
+namespace {
+
+constexpr std::uint32_t kLookEvery = 1024;  // arcs, at the flag to cancel
+
+}  // namespace
 
 CostTable::CostTable(const RoadView& view, int goal, Scratch& scratch)
     : goal_(goal),
@@ -24,7 +29,12 @@ inline void CostTable::reach(int arc, RoadCost cost, int next, Scratch& scratch)
 }
 
 void CostTable::settle(const RoadView& view, Scratch& scratch) {
+    std::uint32_t settled = 0;
     while (scratch.queue.least() != BucketQueue<Open>::kNone) {
+        if (scratch.cancel && settled++ % kLookEvery == 0 && *scratch.cancel) {
+            complete_ = false;
+            return;
+        }
         const Open top = scratch.queue.pop();
         if (top.cost != left(top.arc)) continue;  // reached at less since
         const RoadCost cost[] = {view.cost(top.arc, false), view.cost(top.arc, true)};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,7 @@ public:
         BucketQueue<Open> queue;
         std::vector<std::int32_t> affected;
         std::vector<char> is_affected;
+        const std::atomic<bool>* cancel = nullptr;  // set by anyone, looked at every 1,000 arcs
     };
 
     CostTable(const RoadView& view, int goal, Scratch& scratch);
@@ -34,6 +36,8 @@ public:
     void repair(const RoadView& view, std::span<const int> arcs, Scratch& scratch);
 
     int goal() const { return goal_; }
+    /// False when the last build or repair was cancelled: it knows nothing to rely on.
+    bool complete() const { return complete_; }
     /// From the end of the arc; kNoWay when no way leads there.
     RoadCost left(int arc) const { return left_[static_cast<std::size_t>(arc)]; }
     /// The arc to drive after this one; kArrived at the goal.
@@ -47,6 +51,7 @@ private:
     void settle(const RoadView& view, Scratch& scratch);
 
     int goal_;
+    bool complete_ = true;
     std::vector<RoadCost> left_;
     std::vector<std::int32_t> next_;
 };

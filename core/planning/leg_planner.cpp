@@ -287,9 +287,7 @@ struct LegPlanner::Tables {
 
 LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
 LegPlanner::LegPlanner(std::unique_ptr<Tables> tables) : tables_(std::move(tables)) {}
-LegPlanner LegPlanner::again() const {
-    return LegPlanner(std::make_unique<Tables>(*tables_));
-}
+LegPlanner LegPlanner::again() const { return LegPlanner(std::make_unique<Tables>(*tables_)); }
 LegPlanner::~LegPlanner() = default;
 LegPlanner::LegPlanner(LegPlanner&&) noexcept = default;
 LegPlanner& LegPlanner::operator=(LegPlanner&&) noexcept = default;

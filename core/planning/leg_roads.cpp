@@ -90,6 +90,23 @@ std::vector<std::size_t> driven_over(const std::vector<ClosedFloor>& closures,
     return over;
 }
 
+std::vector<std::vector<std::size_t>> closures_over_arcs(const RoadmapIndex& roads,
+                                                         const Passage& passage,
+                                                         const std::vector<ClosedFloor>& closures) {
+    const RoadGraph& graph = roads.graph();
+    const double reach_m = reach_of(passage.body);
+    std::vector<std::vector<std::size_t>> over(graph.arcs.size());
+    for (std::size_t i = 0; i < over.size(); ++i) {
+        const int arc = static_cast<int>(i);
+        const auto& hall = roads.node(graph.arcs[i].from).hall;
+        const auto& from = graph.nodes[static_cast<std::size_t>(graph.arcs[i].from)];
+        const auto& to = graph.nodes[static_cast<std::size_t>(graph.arcs[i].to)];
+        if (!roads.usable(passage, arc) || !any_near(closures, hall, from, to, reach_m)) continue;
+        over[i] = driven_over(closures, hall, roads.swept(passage.body, arc));
+    }
+    return over;
+}
+
 LegRoads::LegRoads(const RoadmapIndex& roads, const Passage& passage,
                    const plant::RoutingCost& cost)
     : roads_(roads),
@@ -103,18 +120,9 @@ LegRoads::LegRoads(const RoadmapIndex& roads, const Passage& passage,
 }
 
 void LegRoads::set_closures(const std::vector<ClosedFloor>& closures) {
-    const RoadGraph& graph = roads_.graph();
-    const double reach_m = reach_of(passage_.body);
+    over_ = closures_over_arcs(roads_, passage_, closures);
     for (std::size_t i = 0; i < over_.size(); ++i) {
-        const int arc = static_cast<int>(i);
-        const auto& hall = roads_.node(graph.arcs[i].from).hall;
-        over_[i].clear();
-        if (roads_.usable(passage_, arc) &&
-            any_near(closures, hall, graph.nodes[static_cast<std::size_t>(graph.arcs[i].from)],
-                     graph.nodes[static_cast<std::size_t>(graph.arcs[i].to)], reach_m)) {
-            over_[i] = driven_over(closures, hall, roads_.swept(passage_.body, arc));
-        }
-        router_.set_closed(arc, !over_[i].empty());
+        router_.set_closed(static_cast<int>(i), !over_[i].empty());
     }
 }
 

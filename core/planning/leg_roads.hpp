@@ -22,6 +22,12 @@ std::vector<std::size_t> driven_over(const std::vector<ClosedFloor>& closures,
                                      const plant::HallId& hall,
                                      const std::vector<geometry::Polygon>& swept);
 
+/// By arc the closures that the body would drive over on it, by their place in `closures`; none for
+/// arcs that it cannot use anyway.
+std::vector<std::vector<std::size_t>> closures_over_arcs(const RoadmapIndex& roads,
+                                                         const Passage& passage,
+                                                         const std::vector<ClosedFloor>& closures);
+
 /// The roadmap as the legs of one body search it: which arcs lead over closed floor, and exact
 /// costs of what is left to a node. Tables are built when a node is first driven to and follow
 /// closures when they are next used, so a query expands little more than its path.

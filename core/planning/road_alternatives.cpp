@@ -12,7 +12,10 @@ struct Forwards {
     std::vector<std::int32_t> before;
 };
 
-Forwards search_forwards(const RoadView& view, const std::vector<RoadSeed>& seeds, RoadCost most) {
+bool is_set(const std::atomic<bool>* cancel) { return cancel && *cancel; }
+
+Forwards search_forwards(const RoadView& view, const std::vector<RoadSeed>& seeds, RoadCost most,
+                         const std::atomic<bool>* cancel) {
     const auto arcs = static_cast<std::size_t>(view.arcs());
     Forwards result{std::vector<RoadCost>(arcs, kNoWay), std::vector<std::int32_t>(arcs, -1)};
     using Open = std::pair<RoadCost, int>;
@@ -27,7 +30,7 @@ Forwards search_forwards(const RoadView& view, const std::vector<RoadSeed>& seed
     for (const RoadSeed& seed : seeds) {
         if (view.cost(seed.arc, false) != kNoWay) reach(seed.arc, 0, seed.cost, -1);
     }
-    while (!open.empty()) {
+    while (!open.empty() && !is_set(cancel)) {
         const auto [cost, arc] = open.top();
         open.pop();
         if (cost != result.cost[static_cast<std::size_t>(arc)]) continue;
@@ -84,7 +87,8 @@ void add_different(const RoadView& view, const CostTable& table, const std::vect
                    std::optional<double> heading, RoadCost least, std::size_t count,
                    const AlternativesWanted& wanted, std::vector<RoadRoute>& chosen) {
     const double most = std::min(wanted.most_cost * least, double{kMostRoadCost} - 1);
-    const Forwards forwards = search_forwards(view, seeds, static_cast<RoadCost>(most));
+    const Forwards forwards =
+        search_forwards(view, seeds, static_cast<RoadCost>(most), wanted.cancel);
     std::vector<std::pair<RoadCost, int>> via;  // cost of the best route over an arc
     for (int arc = 0; arc < view.arcs(); ++arc) {
         const RoadCost before = forwards.cost[static_cast<std::size_t>(arc)];
@@ -96,7 +100,7 @@ void add_different(const RoadView& view, const CostTable& table, const std::vect
     std::vector<char> visited(view.graph().nodes.size(), 0);
     std::vector<RoadCost> examined(static_cast<std::size_t>(view.arcs()), kNoWay);
     for (const auto& [cost, arc] : via) {
-        if (chosen.size() >= count) break;
+        if (chosen.size() >= count || is_set(wanted.cancel)) break;
         // On a route of the same cost already looked at: most likely that very route.
         if (examined[static_cast<std::size_t>(arc)] == cost) continue;
         RoadRoute route = route_over(view, table, forwards, heading, arc, visited);

@@ -10,6 +10,7 @@ struct AlternativesWanted {
     int count = 3;             // routes, the best included
     double most_shared = 0.6;  // share of a route's length that it may have in common with another
     double most_cost = 1.5;    // times the least cost
+    const std::atomic<bool>* cancel = nullptr;  // set by anyone; then the answer means nothing
 };
 
 /// The best route and others sufficiently different from it and from each other, by cost. An

@@ -59,6 +59,16 @@ const CostTable& RoadRouter::table(int user, int goal) {
     return kept->table;
 }
 
+bool RoadRouter::prepare(int user, int goal, const std::atomic<bool>* cancel) {
+    scratch_.cancel = cancel;
+    const bool complete = table(user, goal).complete();
+    scratch_.cancel = nullptr;
+    if (!complete) {
+        users_[static_cast<std::size_t>(user)]->tables[static_cast<std::size_t>(goal)].reset();
+    }
+    return complete;
+}
+
 /// Of driving onto an arc out of the start; kNoWay when it is barred.
 RoadCost RoadRouter::first_cost(const RoadView& view, const RoadStart& start, int arc) const {
     const bool turn = start.heading_rad &&

@@ -39,6 +39,9 @@ public:
     void set_rules(int arc, const LaneRules& rules);
     void set_closed(int arc, bool closed);
 
+    /// Brings the goal's table up to date, which is all that takes time in the queries below. False
+    /// when `cancel` was set meanwhile; nothing half made is kept.
+    bool prepare(int user, int goal, const std::atomic<bool>* cancel);
     /// Least-cost route; false without one. `route` is used again: no allocation once it is warm.
     bool find(int user, const RoadStart& start, int goal, RoadRoute& route);
     /// Its cost alone; kNoWay without one.

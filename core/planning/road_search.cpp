@@ -176,7 +176,7 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
               first.burden + arc.burden, -1, first.turn);
     }
     int expanded = 0;
-    while (!open.empty()) {
+    while (!open.empty() && !(query.cancel && *query.cancel)) {
         const Open top = open.top();
         open.pop();
         const Label label = labels[static_cast<std::size_t>(top.arc)];

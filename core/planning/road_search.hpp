@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -50,6 +51,7 @@ struct RoadQuery {
     /// Lower bound of what is left after an arc, infinite where no way leads on; none: from the
     /// geometry. The nearer to the truth, the fewer arcs are looked at; the answer is the same.
     std::function<double(int arc)> left;
+    const std::atomic<bool>* cancel = nullptr;  // set by anyone; then there is no route
 };
 
 struct RoadPath {

@@ -24,11 +24,13 @@ Result<const plant::Station*> station_of(const plant::Plant& plant, int number, 
 }
 
 std::vector<LaneRules> rules_of(const RoadmapIndex& roads, const Passage& passage,
-                                const std::vector<plant::EdgeId>& closed) {
+                                const std::vector<plant::EdgeId>& closed,
+                                const std::vector<std::vector<std::size_t>>& closures) {
     std::vector<LaneRules> rules(roads.graph().arcs.size());
     for (std::size_t i = 0; i < rules.size(); ++i) {
         const plant::RoadmapEdge& edge = roads.edge_of_arc(static_cast<int>(i));
-        rules[i].closed = std::find(closed.begin(), closed.end(), edge.id) != closed.end();
+        rules[i].closed = !closures[i].empty() ||
+                          std::find(closed.begin(), closed.end(), edge.id) != closed.end();
         rules[i].too_narrow = passage.arc_free[i] == 0;
         rules[i].classes = passage.arc_allowed[i] == 0           ? 0
                            : is_backwards(roads.graph().arcs[i]) ? kAnyWay
@@ -50,12 +52,18 @@ WhatIfRoute route_of(const RoadmapIndex& roads, const RoadRouter& router, int us
     return result;
 }
 
-std::vector<WhatIfBar> named(const RoadmapIndex& roads, const std::vector<BarredArc>& bars) {
+std::vector<WhatIfBar> named(const RoadmapIndex& roads, const std::vector<BarredArc>& bars,
+                             const std::vector<std::vector<std::size_t>>& closures) {
     std::vector<WhatIfBar> result;
     for (const BarredArc& barred : bars) {
-        result.push_back({roads.edge_of_arc(barred.arc).id, barred.bar});
+        result.push_back({roads.edge_of_arc(barred.arc).id, barred.bar,
+                          closures[static_cast<std::size_t>(barred.arc)]});
     }
     return result;
+}
+
+tl::unexpected<Error> cancelled() {
+    return fail(Errc::kUnavailable, "cancelled", "The question was withdrawn.");
 }
 
 }  // namespace
@@ -94,7 +102,10 @@ Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question) 
     if (start.node < 0 || goal < 0) return answer;
 
     const Passage passage = roads.passage(*type, question.loaded);
-    RoadRouter router(roads.graph(), rules_of(roads, passage, question.closed), {plant.routing});
+    const auto closures = closures_over_arcs(
+        roads, passage, question.present_closures ? question.closures : std::vector<ClosedFloor>{});
+    RoadRouter router(roads.graph(), rules_of(roads, passage, question.closed, closures),
+                      {plant.routing});
     const auto add_user = [&](std::uint64_t vehicle_class) {
         return router.add_user(
             {vehicle_class, question.loaded, type->max_speed_mps,
@@ -103,11 +114,16 @@ Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question) 
     // Backwards costs the same, so it is offered only where it saves something.
     const int forwards = add_user(kForwards);
     const int any_way = add_user(kAnyWay);
+    if (!router.prepare(any_way, goal, question.cancel) ||
+        !router.prepare(forwards, goal, question.cancel)) {
+        return cancelled();
+    }
     const RoadCost least = router.cost(any_way, start, goal);
     const bool forwards_will_do = least != kNoWay && router.cost(forwards, start, goal) == least;
     const int user = forwards_will_do ? forwards : any_way;
-    const auto routes =
-        alternatives(router, user, start, goal, {.count = question.alternatives + 1});
+    const auto routes = alternatives(
+        router, user, start, goal, {.count = question.alternatives + 1, .cancel = question.cancel});
+    if (question.cancel && *question.cancel) return cancelled();
     for (const RoadRoute& route : routes) {
         answer.routes.push_back(route_of(roads, router, user, start, route));
     }
@@ -117,11 +133,11 @@ Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question) 
     }
     if (!routes.empty()) {
         if (const auto barred = barred_shortcut(router, any_way, start, goal, routes[0].cost)) {
-            answer.shortcut_bars = named(roads, barred->bars);
+            answer.shortcut_bars = named(roads, barred->bars, closures);
             answer.shortcut_cost = barred->route.cost;
         }
     } else if (const auto set = blocking_set(router, any_way, start, goal)) {
-        answer.blocking = named(roads, *set);
+        answer.blocking = named(roads, *set, closures);
     }
     return answer;
 }

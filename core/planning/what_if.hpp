@@ -1,10 +1,12 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "core/planning/leg_roads.hpp"
 #include "core/planning/road_explain.hpp"
 #include "core/planning/roadmap_index.hpp"
 
@@ -17,7 +19,10 @@ struct WhatIf {
     int from = 0;  // station numbers
     int to = 0;
     std::vector<plant::EdgeId> closed;
+    bool present_closures = true;       // whether `closures` count
+    std::vector<ClosedFloor> closures;  // floor that people have closed
     int alternatives = 2;
+    const std::atomic<bool>* cancel = nullptr;  // set by anyone
 };
 
 struct WhatIfLeg {
@@ -37,6 +42,7 @@ struct WhatIfRoute {
 struct WhatIfBar {
     plant::EdgeId edge;
     Bar bar = Bar::kNone;
+    std::vector<std::size_t> closures;  // that it leads over, by their place in the question's
 };
 struct WhatIfAnswer {
     std::vector<WhatIfRoute> routes;           // the best first; empty: there is none
@@ -51,7 +57,7 @@ struct WhatIfAnswer {
 
 /// Start heading free; turns at nodes only where the body has room. Works the plant's lanes out
 /// anew for the vehicle type. Errors: unknown_vehicle_type, unknown_station, unknown_edge,
-/// other_hall.
+/// other_hall, cancelled.
 Result<WhatIfAnswer> what_if(const plant::Plant& plant, const WhatIf& question);
 
 }  // namespace pulseline::planning

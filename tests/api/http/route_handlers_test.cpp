@@ -40,6 +40,23 @@ TEST(Routes, NameTheReasonAndWhatToOpenWithoutOne) {
     EXPECT_EQ(answer.json()["blocking"], Json::parse(R"([{"edge":"n2n3","why":"closed"}])"));
 }
 
+TEST(Routes, NameTheClosureInTheWayUnlessAskedNotToCountIt) {
+    ApiWorld api;
+    const Answer closed =
+        api.post("/api/v1/closures", R"({"name":"Wet paint","edges":["n2n3","n3n2"]})");
+    ASSERT_EQ(closed.status, 201) << closed.body;
+
+    const Answer barred = api.post(kRoutes, R"({"vehicle_type":"small","from":1,"to":4})");
+    const Answer free =
+        api.post(kRoutes, R"({"vehicle_type":"small","from":1,"to":4,"present_closures":false})");
+
+    ASSERT_EQ(barred.status, 200) << barred.body;
+    EXPECT_FALSE(barred.json().contains("route"));
+    const Json closure{{"id", closed.json()["id"]}, {"name", "Wet paint"}};
+    EXPECT_EQ(barred.json()["blocking"][0]["closures"], Json::array({closure}));
+    EXPECT_TRUE(free.json().contains("route")) << free.body;
+}
+
 TEST(Routes, RefuseWhatTheyDoNotKnow) {
     ApiWorld api;
     const auto code = [&](const std::string& body, int status) {

@@ -229,6 +229,28 @@ TEST(RoadRouter, AllocatesNothingOnceWarm) {
     EXPECT_EQ(allocations(), before);
 }
 
+TEST(RoadRouter, KeepsNothingOfATableThatWasCancelled) {
+    Random random(7);
+    const World world = random_world(random, 60);
+    RoadRouter router(world.graph, world.rules, world.preferences);
+    RoadRouter other(world.graph, world.rules, world.preferences);
+    const int user = router.add_user(world.user);
+    other.add_user(world.user);
+    std::atomic<bool> cancel{true};
+
+    EXPECT_FALSE(router.prepare(user, 0, &cancel));
+    cancel = false;
+    EXPECT_TRUE(router.prepare(user, 0, &cancel));
+    // A change is followed by a repair, which can be cancelled like a build.
+    for (auto* each : {&router, &other}) each->set_closed(0, !world.rules[0].closed);
+    cancel = true;
+    static_cast<void>(router.prepare(user, 0, &cancel));
+
+    for (int from = 0; from < int(world.graph.nodes.size()); ++from) {
+        EXPECT_EQ(router.cost(user, {from, {}}, 0), other.cost(user, {from, {}}, 0)) << from;
+    }
+}
+
 TEST(RoadRouter, ManyThreadsReadOneTable) {
     Random random(8);
     const World world = random_world(random, 200);

@@ -65,6 +65,41 @@ TEST(WhatIf, OffersOtherLanesNotTheSameBackwards) {
     EXPECT_EQ(closed->shortcut_cost, open->routes[0].cost);
 }
 
+TEST(WhatIf, GoesByWhatIsClosedAtPresentUnlessAskedNotTo) {
+    LegWorld world(12);
+    WhatIf q = question("tug", 1, 2);
+    q.closures = {{"id-1", "Wet paint", plant::HallId("hall"), {geometry::rectangle(4, 4)}, 0.1}};
+    for (auto& corner : q.closures[0].pieces[0]) {
+        const auto middle = world.plant().nodes[1].position;
+        const auto next = world.plant().nodes[2].position;
+        corner = corner + (middle + next) * 0.5;
+    }
+
+    const auto closed = what_if(world.plant(), q);
+    q.present_closures = false;
+    const auto open = what_if(world.plant(), q);
+
+    ASSERT_TRUE(closed);
+    EXPECT_TRUE(closed->routes.empty());
+    ASSERT_EQ(closed->blocking.size(), 1u);
+    EXPECT_EQ(closed->blocking[0].edge, plant::EdgeId("b-c"));
+    EXPECT_EQ(closed->blocking[0].closures, std::vector<std::size_t>{0});
+    ASSERT_TRUE(open);
+    EXPECT_EQ(open->routes.size(), 1u);
+}
+
+TEST(WhatIf, CanBeWithdrawn) {
+    LegWorld world(12);
+    const std::atomic<bool> cancel{true};
+    WhatIf q = question("tug", 1, 2);
+    q.cancel = &cancel;
+
+    const auto answer = what_if(world.plant(), q);
+
+    ASSERT_FALSE(answer);
+    EXPECT_EQ(answer.error().reason.code, "cancelled");
+}
+
 TEST(WhatIf, RefusesWhatThePlantDoesNotHave) {
     LegWorld world(12);
     EXPECT_EQ(what_if(world.plant(), question("ship", 1, 2)).error().reason.code,
