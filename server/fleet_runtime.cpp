@@ -83,6 +83,7 @@ void FleetRuntime::stop() {
 }
 
 void FleetRuntime::submit(bool reading, Task task) {
+    task.asked = std::chrono::steady_clock::now();
     std::optional<Error> refused;
     {
         const std::lock_guard lock(mutex_);
@@ -102,7 +103,7 @@ void FleetRuntime::submit(bool reading, Task task) {
 }
 
 void FleetRuntime::input(std::function<void(fleet::Fleet&, Time)> f) {
-    submit(false, Task{std::move(f), nullptr});
+    submit(false, Task{std::move(f), nullptr, {}});
 }
 
 void FleetRuntime::write(Job job) {
@@ -148,11 +149,13 @@ void FleetRuntime::fleet_loop() {
 }
 
 FleetRuntime::Commit FleetRuntime::tick(Time now) {
+    const auto begin = std::chrono::steady_clock::now();
     last_tick_ = now;
     fleet_->tick(now);
     journal_.count_tick();
     Commit commit;
     commit.batch = take_published(now);
+    note_releases(commit, begin);
     return commit;
 }
 
@@ -160,6 +163,7 @@ FleetRuntime::Commit FleetRuntime::run_commands(std::deque<Task>& commands, Time
                                                 bool& broken) {
     Commit commit;
     if (commands.empty()) return commit;
+    const auto first_asked = commands.front().asked;
     for (auto& task : commands) {
         if (!run(task, now)) {
             broken = true;
@@ -169,6 +173,7 @@ FleetRuntime::Commit FleetRuntime::run_commands(std::deque<Task>& commands, Time
     }
     commands.clear();
     commit.batch = take_published(now);
+    note_releases(commit, first_asked);
     crash_point(CrashPoint::kBatchHandled);
     return commit;
 }
@@ -267,6 +272,16 @@ FleetRuntime::Published FleetRuntime::take_published(Time at) {
     return batch;
 }
 
+void FleetRuntime::note_releases(Commit& commit, std::chrono::steady_clock::time_point since) {
+    const auto& messages = commit.batch.outputs.messages;
+    const bool releases = std::ranges::any_of(
+        messages, [](const fleet::VehicleMessage& message) { return message.order.has_value(); });
+    if (!releases) return;
+    commit.releases_since = since;
+    ports_.metrics.release_decided(
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count());
+}
+
 void FleetRuntime::rebuild() {
     ++ports_.metrics.fleet_rebuilds;
     degraded_ = true;
@@ -321,8 +336,8 @@ bool FleetRuntime::build_from_tables(Time now) {
 /// REQUIRES: the commit thread has nothing to do. What it puts out is in unstored_.
 void FleetRuntime::begin_from_tables(fleet::StoredFleet stored, Time now) {
     const std::int64_t last_seq = stored.last_journal_seq;
-    fleet_ = std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now,
-                                            tables_);
+    fleet_ =
+        std::make_unique<fleet::Fleet>(ports_.plant, std::move(stored), id_seed_++, now, tables_);
     tables_ = fleet_->tables();
     if (const auto fault = store_fault()) fleet_->store_failed(*fault, now);
     unstored_ = {};

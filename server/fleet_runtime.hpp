@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -91,6 +92,7 @@ private:
     struct Task {
         std::function<void(fleet::Fleet&, Time)> run;
         Answer answer;  // empty: nobody waits
+        std::chrono::steady_clock::time_point asked;
     };
     struct Commit {
         Published batch;
@@ -98,6 +100,8 @@ private:
         std::vector<Task> reads;                     // handled; asked again when the batch is lost
         std::optional<fleet::SnapshotRow> snapshot;  // of the fleet behind the batch
         Job job;                                     // a write of others instead of a batch
+        /// It releases floor, which what was asked then made possible.
+        std::optional<std::chrono::steady_clock::time_point> releases_since;
         bool nothing() const;
     };
 
@@ -135,6 +139,7 @@ private:
     void note_fault(const std::exception_ptr& error);
     void show_fault();
     Published take_published(Time at);
+    void note_releases(Commit& commit, std::chrono::steady_clock::time_point since);
     void commit_loop();
     bool commit_group(std::vector<Commit> group, bool good);
     bool store(const std::vector<Commit>& group);

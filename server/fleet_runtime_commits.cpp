@@ -85,6 +85,12 @@ bool FleetRuntime::commit_group(std::vector<Commit> group, bool good) {
         std::optional<fleet::SnapshotRow> snapshot;
         for (auto& commit : group) {
             if (commit.snapshot) snapshot = std::move(commit.snapshot);
+            if (commit.releases_since) {
+                ports_.metrics.release_stored(
+                    std::chrono::duration<double>(std::chrono::steady_clock::now() -
+                                                  *commit.releases_since)
+                        .count());
+            }
             deliver(std::move(commit));
         }
         if (snapshot) try_snapshot(*snapshot);

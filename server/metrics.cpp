@@ -69,6 +69,16 @@ void Metrics::commit(double duration_s, std::size_t batches) {
     commit_latency_.observe(duration_s);
 }
 
+void Metrics::release_decided(double since_s) {
+    const std::lock_guard lock(mutex_);
+    release_decided_.observe(since_s);
+}
+
+void Metrics::release_stored(double since_s) {
+    const std::lock_guard lock(mutex_);
+    release_stored_.observe(since_s);
+}
+
 void Metrics::snapshot_taken(double duration_s) {
     const std::lock_guard lock(mutex_);
     snapshot_pause_.observe(duration_s);
@@ -110,6 +120,11 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
                batches_);
         header(out, "pulseline_commit_duration_seconds", "histogram", "Duration of a commit.");
         commit_latency_.write(out, "pulseline_commit_duration_seconds", "");
+        header(out, "pulseline_release_seconds", "histogram",
+               "From what makes a release of floor possible (a message, a command, a tick) to the "
+               "decision, and to its commit, behind which the vehicle is told.");
+        release_decided_.write(out, "pulseline_release_seconds", "until=\"decided\"");
+        release_stored_.write(out, "pulseline_release_seconds", "until=\"stored\"");
         header(out, "pulseline_snapshot_pause_seconds", "histogram",
                "How long the fleet waited for a snapshot of its state.");
         snapshot_pause_.write(out, "pulseline_snapshot_pause_seconds", "");

@@ -36,6 +36,10 @@ public:
     void snapshot_taken(double duration_s);
     void snapshot(double duration_s, std::size_t bytes);
     void commit_failed() { ++commits_failed_; }
+    /// Floor was released by a batch: since its first task was asked.
+    void release_decided(double since_s);
+    /// And is stored, so that the vehicles are told.
+    void release_stored(double since_s);
 
     std::atomic<std::int64_t> connections{0};
     std::atomic<std::int64_t> stream_clients{0};
@@ -61,6 +65,8 @@ private:
     std::map<std::pair<std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram, std::less<>> request_latency_;
     Histogram commit_latency_;
+    Histogram release_decided_;
+    Histogram release_stored_;
     Histogram snapshot_pause_;
     Histogram snapshot_latency_;
     std::size_t snapshot_bytes_ = 0;

@@ -8,6 +8,7 @@
 #include "core/base/id.hpp"
 #include "core/base/result.hpp"
 #include "core/base/time.hpp"
+#include "core/planning/leg_roads.hpp"
 #include "core/plant/plant.hpp"
 #include "core/traffic/record.hpp"
 

@@ -103,6 +103,17 @@ async function waysToTheAgent(client, sent, log) {
   return ways;
 }
 
+/** The server's own times of releases: the bounds below which half and 99 % of them lie. */
+function releases(metrics) {
+  const times = {};
+  for (const until of ["decided", "stored"]) {
+    const buckets = [...metrics.matchAll(new RegExp(`^pulseline_release_seconds_bucket\\{until="${until}",le="([^"]+)"\\} (\\d+)$`, "gm"))].map(([, le, n]) => ({ le_ms: le === "+Inf" ? Infinity : 1000 * Number(le), n: Number(n) }));
+    const count = buckets.at(-1).n, below = (share) => buckets.find(({ n }) => n >= share * count).le_ms;
+    times[until] = { n: count, p50_below_ms: below(0.5), p99_below_ms: below(0.99) };
+  }
+  return times;
+}
+
 /** A promise that must come true within seconds. */
 function within(seconds, what, promise) {
   let timer;
@@ -145,11 +156,12 @@ async function measure(count) {
     }
   }));
   const rss_end_kb = rss_kb(system.server.pid);
+  const release = releases(await (await fetch(`${client.url}/metrics`, { headers: { Authorization: `Bearer ${client.token}` } })).text());
   const dispatch = await waysToTheAgent(client, sent, readFileSync(join(system.directory, "agents.log"), "utf8"));
   events.stop();
   sender.close();
   await system.stop();
-  return { agents: count, start_to_ready_ms: Math.round(start_ms), accept: summary(accept), dispatch: summary(dispatch), rss_rest_mb: +(rss_rest_kb / 1024).toFixed(1), rss_agents_mb: +(rss_agents_kb / 1024).toFixed(1), rss_end_mb: +(rss_end_kb / 1024).toFixed(1), growth_kb: rss_agents_kb - rss_rest_kb };
+  return { agents: count, start_to_ready_ms: Math.round(start_ms), accept: summary(accept), dispatch: summary(dispatch), release, rss_rest_mb: +(rss_rest_kb / 1024).toFixed(1), rss_agents_mb: +(rss_agents_kb / 1024).toFixed(1), rss_end_mb: +(rss_end_kb / 1024).toFixed(1), growth_kb: rss_agents_kb - rss_rest_kb };
 }
 
 const results = [];

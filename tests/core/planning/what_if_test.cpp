@@ -72,7 +72,8 @@ TEST(WhatIf, GoesByWhatIsClosedAtPresentUnlessAskedNotTo) {
     for (auto& corner : q.closures[0].pieces[0]) {
         const auto middle = world.plant().nodes[1].position;
         const auto next = world.plant().nodes[2].position;
-        corner = corner + (middle + next) * 0.5;
+        corner = {corner.x_m + (middle.x_m + next.x_m) / 2,
+                  corner.y_m + (middle.y_m + next.y_m) / 2};
     }
 
     const auto closed = what_if(world.plant(), q);
