@@ -441,7 +441,9 @@ std::optional<Reason> floor_wait(const FleetState& fleet, const VehicleRun& run)
     const auto waits = fleet.floor.traffic.waits_of(run.floor.vehicle);
     if (waits.empty()) {
         if (fleet.floor.traffic.postponed(run.floor.vehicle)) {
-            return Reason{"gives_way", {{"vehicle", run.record.id.str()}}};
+            const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle);
+            return block ? floor_reason(fleet, *block)
+                         : Reason{"gives_way", {{"vehicle", run.record.id.str()}}};
         }
         return std::nullopt;
     }

@@ -73,6 +73,17 @@ double accel_of(const VehicleRun& run) {
                : run.type->max_accel_mps2;
 }
 
+/// Standing at the end of its base, it waits for somebody; still driving, it does not.
+void tell_wait(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.leg().passed_nodes < run.leg().released_nodes) return;
+    JobOrder* order = fleet.find(run.leg().order);
+    if (!order || order->state != JobState::kRunning) return;
+    const auto wait = floor_wait(fleet, run);
+    if (!wait) return;
+    set_order_reason(fleet, *order, *wait, now);
+    fleet.changed_vehicles.insert(run.record.id);
+}
+
 }  // namespace
 
 std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
@@ -203,7 +214,8 @@ void send_leg(FleetState& fleet, VehicleRun& run, Time now) {
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     follow_replans(fleet, now);  // what is released has to be what the plan has now
     Leg& leg = run.leg();
-    if (leg.released_nodes >= leg.nodes.size() || run.cancelling) return;
+    if (run.cancelling) return;
+    if (leg.released_nodes >= leg.nodes.size()) return tell_wait(fleet, run, now);
     const double speed = speed_of(run);
     const double wanted_m = speed * speed / (2 * accel_of(run)) + speed * kExtendLatency_s;
     double ahead_m = -run.state.distance_since_last_node_m;
@@ -219,22 +231,13 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     const std::size_t before = leg.released_nodes;
     if (wanted == before) return;
     const std::size_t granted = grant_nodes(fleet, run, wanted - 1, now);
-    JobOrder* order = fleet.find(leg.order);
-    if (granted == before) {
-        // Standing at the end of its base, it waits for somebody; still driving, it does not.
-        const auto wait = floor_wait(fleet, run);
-        if (wait && order && order->state == JobState::kRunning &&
-            leg.passed_nodes >= leg.released_nodes) {
-            set_order_reason(fleet, *order, *wait, now);
-            fleet.changed_vehicles.insert(run.record.id);
-        }
-        return;
-    }
+    if (granted == before) return tell_wait(fleet, run, now);
     for (std::size_t i = before; i < granted; ++i) {
         leg.edges[i - 1].released = true;
         leg.nodes[i].released = true;
     }
     leg.released_nodes = granted;
+    JobOrder* order = fleet.find(leg.order);
     if (order && order->state == JobState::kRunning) set_order_reason(fleet, *order, {}, now);
     const bool is_new = before == 1 && !run.update_sent && !run.leg_seen;
     if (!is_new) ++leg.update_id;

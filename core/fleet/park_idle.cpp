@@ -21,7 +21,8 @@ std::set<traffic::VehicleIndex> waited_for(const FleetState& fleet) {
     };
     for (const auto& wait : fleet.floor.traffic.waits()) add(wait.block);
     for (const auto& [id, run] : fleet.vehicles) {
-        if (!run.floor.next_try) continue;
+        // Those that try in vain, and those that gave way and find none back.
+        if (!run.floor.next_try && !fleet.floor.traffic.postponed(run.floor.vehicle)) continue;
         if (const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle)) add(*block);
     }
     return found;
