@@ -17,7 +17,20 @@ constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
 struct Incoming {
     error_code ec;
     bool nothing = false;  // ended between two requests
+    std::size_t body_limit = 0;
 };
+
+/// A stranger gets no more than the usual; who may ask a question that holds images gets room for
+/// them.
+std::size_t body_limit(Context& context, const Upgrade& header) {
+    const std::size_t usual = context.options.limits.body_bytes;
+    auto request = to_request(context, header, {}, false);
+    if (!request) return usual;
+    const auto known = api::match(*request);
+    if (!known.route || known.route->body_bytes <= usual) return usual;
+    request->identity = context.access.identify(request->headers, context.clock.now());
+    return api::admit(*request, context.policy).refusal ? usual : known.route->body_bytes;
+}
 
 template <class Stream>
 net::awaitable<Incoming> read_request(Context& context, Stream& stream, beast::flat_buffer& buffer,
@@ -43,6 +56,12 @@ net::awaitable<Incoming> read_request(Context& context, Stream& stream, beast::f
     socket.expires_after(limits.header_time);
     co_await http::async_read_header(stream, buffer, parser, into(in.ec));
     if (in.ec || parser.is_done()) co_return in;
+    in.body_limit = body_limit(context, parser.get());
+    parser.body_limit(in.body_limit);
+    if (parser.content_length().value_or(0) > in.body_limit) {
+        in.ec = http::error::body_limit;
+        co_return in;
+    }
     if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
         static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
         co_await net::async_write(stream, net::buffer(kContinue), into(in.ec));
@@ -161,7 +180,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
     for (int count = 0; keep && count < limits.requests_per_connection; ++count) {
         Parser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits.header_bytes));
-        parser.body_limit(limits.body_bytes);
+        parser.body_limit(boost::none);  // read_request sets it once it knows who asks for what
         const auto in = co_await read_request(context, stream, buffer, parser, count == 0);
         if (in.nothing) break;
         const auto start = Steady::now();
@@ -172,7 +191,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             partial.secure = kIsTls<Stream>;
             partial.method = "GET";
             partial.request_id = request_id(parser.get()["X-Request-Id"]);
-            const auto response = answer_to(in.ec, partial, limits);
+            const auto response = answer_to(in.ec, partial, in.body_limit);
             if (response) {
                 linger = true;
                 note(context, partial, "unreadable", response->status, start);

@@ -80,8 +80,8 @@ Result<api::Request> to_request(const Context& context, const Upgrade& message,
 }
 
 std::optional<api::Response> answer_to(const error_code& ec, const api::Request& request,
-                                       const Limits& limits) {
-    if (ec == http::error::body_limit) return api::too_large(request, limits.body_bytes);
+                                       std::size_t body_limit) {
+    if (ec == http::error::body_limit) return api::too_large(request, body_limit);
     if (ec == http::error::header_limit || ec == http::error::buffer_overflow) {
         return api::problem(431,
                             Error{Errc::kInvalid,

@@ -17,6 +17,6 @@ std::string request_id(beast::string_view offered);
 
 /// The answer to a request that could not be read; nothing when the connection just ended.
 std::optional<api::Response> answer_to(const error_code& ec, const api::Request& request,
-                                       const Limits& limits);
+                                       std::size_t body_limit);
 
 }  // namespace pulseline::server

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "api/access/secrets.hpp"
+#include "api/http/base64.hpp"
 #include "api/http/order_body.hpp"
 #include "api/http/page.hpp"
 #include "api/json/object_reader.hpp"
@@ -14,6 +15,8 @@ using json::FieldErrors;
 using json::Json;
 using json::ObjectReader;
 
+constexpr std::size_t kMaxImages = 2;
+constexpr std::size_t kMaxImageText = 6'000'000;
 constexpr std::size_t kMaxResumed = 1000;
 constexpr std::size_t kMaxClosed = 1000;
 constexpr std::int64_t kMaxRoutes = 10;
@@ -243,6 +246,30 @@ Result<planning::WhatIf> read_what_if(const Request& request) {
             "closed_edges", {0, kMaxClosed}, [&](const Json& item, const std::string& pointer) {
                 read.closed.emplace_back(json::read_text(item, pointer, in.errors(), kVehicleName));
             });
+        return read;
+    });
+}
+
+Result<vision::LocalizationQuestion> read_localization(const Request& request) {
+    return read_object<vision::LocalizationQuestion>(request, [](ObjectReader& in) {
+        vision::LocalizationQuestion read;
+        read.vehicle = plant::VehicleId(in.text("vehicle", kVehicleName));
+        if (in.has("station")) {
+            read.station = static_cast<int>(in.integer("station", {0, kMaxStation}));
+        }
+        in.items("images", {1, kMaxImages}, [&](const Json& item, const std::string& pointer) {
+            ObjectReader image(item, pointer, in.errors());
+            vision::CameraImage& added = read.images.emplace_back();
+            added.camera = image.text("camera", kVehicleName);
+            const std::string coded = image.text("image", {1, kMaxImageText});
+            if (auto bytes = from_base64(coded)) {
+                added.bytes = std::move(*bytes);
+            } else if (!coded.empty()) {
+                in.errors().add(pointer + "/image", {"not_base64", {}},
+                                "An image is the base64 of the file, without line breaks.");
+            }
+            image.refuse_unknown();
+        });
         return read;
     });
 }

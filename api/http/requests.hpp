@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/http/message.hpp"
+#include "api/vision/localization.hpp"
 #include "core/base/result.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/planning/what_if.hpp"
@@ -41,6 +42,7 @@ Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 
 Result<fleet::NewClosure> read_new_closure(const Request& request);
 Result<planning::WhatIf> read_what_if(const Request& request);
+Result<vision::LocalizationQuestion> read_localization(const Request& request);
 
 Result<bool> read_dry_run(const Request& request);
 Result<fleet::OrderQuery> read_order_query(const Request& request);

@@ -53,6 +53,7 @@ struct Route {
     std::vector<const char*> query;     // parameters it knows; others are refused
     std::variant<InlineHandler, FleetHandler, HistoryHandler, WorkerHandler, Socket> handler;
     bool only_asks = false;  // a POST that changes nothing: answered while nothing can be stored
+    std::size_t body_bytes = 0;  // of those who may use it; 0: what the server allows everybody
 
     bool changes() const;  // not GET
 };

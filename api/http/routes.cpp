@@ -1,4 +1,5 @@
 #include "api/http/job_order_handlers.hpp"
+#include "api/http/localization_handlers.hpp"
 #include "api/http/route_handlers.hpp"
 #include "api/http/router.hpp"
 #include "api/http/schedule_handlers.hpp"
@@ -15,6 +16,7 @@ namespace {
 constexpr std::nullopt_t kPublic = std::nullopt;
 constexpr auto kViewer = access::Role::kViewer;
 constexpr auto kOperator = access::Role::kOperator;
+constexpr std::size_t kImageBody = 8 * 1024 * 1024;  // two camera images as PNG, in base64
 
 }  // namespace
 
@@ -129,6 +131,7 @@ std::span<const Route> routes() {
          resume_schedule},
 
         {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes, true},
+        {"POST", "/api/v1/localizations", "localize", kOperator, {}, localize, true, kImageBody},
 
         {"GET",
          "/api/v1/stop-records",

@@ -1,20 +1,11 @@
-#include <cmath>
-
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
+#include "core/plant/deviation.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
 constexpr int kApproaches = 3;  // of one step before a person is asked
-
-bool is_inside(const plant::Tolerance& tolerance, double dx_m, double dy_m, double dheading_rad) {
-    if (std::abs(dheading_rad) > tolerance.dheading_rad) return false;
-    if (tolerance.shape == plant::Tolerance::Shape::kBox) {
-        return std::abs(dx_m) <= tolerance.dx_m && std::abs(dy_m) <= tolerance.dy_m;
-    }
-    return std::hypot(dx_m / tolerance.dx_m, dy_m / tolerance.dy_m) <= 1.0;
-}
 
 StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
                        const StopMeasurement& found, Time now) {
@@ -30,16 +21,16 @@ StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::St
     stop.mode = leg.mode;
     stop.theoretical = station.pose;
     stop.measured = found.pose;
-    stop.dx_m = found.pose.x_m - station.pose.x_m;
-    stop.dy_m = found.pose.y_m - station.pose.y_m;
-    stop.dheading_rad = wrap(found.pose.heading_rad - station.pose.heading_rad);
-    const Pose2 station_from_vehicle = geometry::inverse(station.pose) * found.pose;
-    stop.along_m = station_from_vehicle.x_m;
-    stop.left_m = station_from_vehicle.y_m;
+    const plant::Deviation by = plant::deviation(station, found.pose);
+    stop.dx_m = by.dx_m;
+    stop.dy_m = by.dy_m;
+    stop.dheading_rad = by.dheading_rad;
+    stop.along_m = by.along_m;
+    stop.left_m = by.left_m;
     stop.sigma_xy_m = found.sigma_xy_m;
     stop.sigma_heading_rad = found.sigma_heading_rad;
     stop.tolerance = station.tolerance;
-    stop.inside = is_inside(station.tolerance, stop.dx_m, stop.dy_m, stop.dheading_rad);
+    stop.inside = by.inside;
     stop.attempt = leg.attempt;
     stop.method = found.method;
     stop.markers = found.markers;

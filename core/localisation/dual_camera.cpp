@@ -11,6 +11,8 @@ constexpr double kResidualSigmas = 4;
 constexpr double kShortestBaseline_m = 0.05;
 // No camera and survey are better than this; keeps weights finite when a sigma is given as 0.
 constexpr double kSmallestSigma_m = 1e-9;
+// Of a code's own angle against the heading of all: what no careful gluing exceeds.
+constexpr double kLeastAngleLimit_rad = 0.01;
 
 struct Pair {
     Point2 body;
@@ -97,6 +99,28 @@ const SurveyedCode* find(std::span<const SurveyedCode> survey, const std::string
     return it == survey.end() ? nullptr : &*it;
 }
 
+/// Each code's own angle has to tell the heading that all of them tell by their places.
+Status check_angles(const PoseFix& fix, std::span<const CodeObservation> observations,
+                    std::span<const SurveyedCode> survey) {
+    for (const CodeObservation& seen : observations) {
+        const SurveyedCode& code = *find(survey, seen.payload);
+        const double residual_rad =
+            wrap(code.pose.heading_rad - seen.up_rad - fix.pose.heading_rad);
+        const double sigma_rad =
+            std::hypot(seen.sigma_up_rad, code.sigma_heading_rad, fix.sigma_heading_rad);
+        const double limit_rad = std::max(kResidualSigmas * sigma_rad, kLeastAngleLimit_rad);
+        if (std::abs(residual_rad) <= limit_rad) continue;
+        return fail(
+            Errc::kConflict, "code_angle_mismatch",
+            "The code \"" + seen.payload +
+                "\" lies turned against what its place tells. Codes or cameras were "
+                "exchanged for each other, or the code was turned.",
+            {},
+            {{"payload", seen.payload}, {"residual_rad", residual_rad}, {"limit_rad", limit_rad}});
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<PoseFix> locate(std::span<const CodeObservation> observations,
@@ -134,6 +158,9 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
         if (longest_baseline(pairs) >= kShortestBaseline_m) {
             fix.method = Method::kDualCamera;
             fit_rigid(fix, pairs);
+            if (const auto ok = check_angles(fix, observations, survey); !ok) {
+                return fail(ok.error());
+            }
             return fix;
         }
     }

@@ -55,6 +55,8 @@ struct PoseFix {
 /// - no_marker_in_view
 /// - unknown_code {payload}: a code the survey given does not contain
 /// - code_distance_mismatch {residual_m, limit_m}: a code moved, a wrong code, wrong camera scale
+/// - code_angle_mismatch {payload, residual_rad, limit_rad}: codes or cameras exchanged for each
+///   other, a code turned
 Result<PoseFix> locate(std::span<const CodeObservation> observations,
                        std::span<const SurveyedCode> survey);
 

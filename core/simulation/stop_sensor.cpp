@@ -37,6 +37,11 @@ vision::QrReading reinterpreted(vision::QrReading reading, const plant::Camera& 
 
 }  // namespace
 
+std::optional<Pose2> body_from_code(const fleet::CameraReading& reading) {
+    if (!reading.found) return std::nullopt;
+    return Pose2{reading.code.x_m, reading.code.y_m, reading.angle_rad};
+}
+
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
                                     const vision::QrReading& reading, double calibration_sigma_m) {
     const Pose2 code = vision::body_from_marker(reading, calibrated);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <opencv2/core/mat.hpp>
+#include <optional>
 #include <random>
 #include <span>
 #include <vector>
@@ -33,6 +34,9 @@ StopView sense_stop(std::span<const plant::Camera> actual,
                     std::span<const plant::Camera> calibrated, const Pose2& hall_from_body,
                     std::span<const FloorCode> codes, const SensingOptions& options,
                     std::mt19937_64& random);
+
+/// Where a reading has its code; nothing when it found none.
+std::optional<Pose2> body_from_code(const fleet::CameraReading& reading);
 
 /// The reading of one camera as the vehicle reports it, in the body frame.
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,

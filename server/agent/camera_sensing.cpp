@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/localisation/dual_camera.hpp"
-#include "core/simulation/camera_picture.hpp"
+#include "core/vision/camera_picture.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -84,9 +84,9 @@ std::vector<CameraSensing::Picture> CameraSensing::pictures() const {
     std::vector<Picture> pictures;
     const auto& cameras = motion_.type().cameras;
     for (std::size_t i = 0; i < images_.size(); ++i) {
-        const auto annotated =
-            simulation::annotate(images_[i], cameras[i], pictured_[i], options_.code_size_m);
-        const auto jpeg = simulation::encode_jpeg(annotated, cameras[i]);
+        const auto annotated = vision::annotate(
+            images_[i], cameras[i], simulation::body_from_code(pictured_[i]), options_.code_size_m);
+        const auto jpeg = vision::encode_jpeg(annotated, cameras[i]);
         pictures.push_back({cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }
     return pictures;

@@ -76,7 +76,8 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "deleteTemplate",   "createJobOrderOfTemplate",
                                              "createSchedule",   "deleteSchedule",
                                              "pauseSchedule",    "resumeSchedule",
-                                             "closeFloor",       "reopenFloor"};
+                                             "closeFloor",       "reopenFloor",
+                                             "localize"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

@@ -161,6 +161,25 @@ TEST_F(LocateRandomPoses, RefusesACodeThatWasMovedAlongTheBaseline) {
     EXPECT_NEAR(param(fix.error(), "limit_m"), 0.5657e-3, 1e-6);
 }
 
+TEST_F(LocateRandomPoses, RefusesCodesThatWereExchangedOrTurned) {
+    add_code({3, 4, 1}, {5, 0, 0.2}, 1e-4);
+    add_code({3, 4, 1}, {-5, 0, -0.1}, 1e-4);
+    auto exchanged = seen_;
+    std::swap(exchanged[0].payload, exchanged[1].payload);
+    auto turned = seen_;
+    turned[1].up_rad += 0.02;
+
+    EXPECT_TRUE(locate(seen_, survey_));
+    const auto none = locate(exchanged, survey_);
+    const auto other = locate(turned, survey_);
+
+    ASSERT_FALSE(none);
+    EXPECT_EQ(none.error().reason.code, "code_angle_mismatch");
+    ASSERT_FALSE(other);
+    EXPECT_EQ(other.error().reason.code, "code_angle_mismatch");
+    EXPECT_NEAR(param(other.error(), "residual_rad"), -0.02, 1e-9);
+}
+
 TEST_F(LocateRandomPoses, OneCodeSeenTwiceCountsAsOne) {
     add_code({3, 4, 1}, {5, 0, 0.2}, 1e-4);
     seen_.push_back(seen_[0]);

@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/localisation/dual_camera.hpp"
-#include "core/simulation/camera_picture.hpp"
+#include "core/vision/camera_picture.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -116,12 +116,13 @@ TEST(CameraPicture, FitsTheFrameAndKeepsHalfTheSize) {
                                      stop.codes, {}, random);
     ASSERT_TRUE(view.readings[0].found);
 
-    const cv::Mat picture = annotate(view.images[0], cameras[0], view.readings[0]);
+    const cv::Mat picture =
+        vision::annotate(view.images[0], cameras[0], body_from_code(view.readings[0]));
 
     EXPECT_EQ(picture.size(), cv::Size(640, 512));
     for (const cv::Mat& image : {picture, view.images[0]}) {
-        const auto bytes = encode_jpeg(image, cameras[0]);
-        EXPECT_LE(bytes.size(), kMaxPictureBytes);
+        const auto bytes = vision::encode_jpeg(image, cameras[0]);
+        EXPECT_LE(bytes.size(), vision::kMaxPictureBytes);
         ASSERT_GT(bytes.size(), 1000U);
         EXPECT_EQ(bytes[0], 0xFF);
         EXPECT_EQ(bytes[1], 0xD8);
@@ -137,7 +138,7 @@ TEST(CameraPicture, DrawsTheOffsetDotOverTheCode) {
     reading.angle_rad = kPi / 2;
     const double px_m = 2 / vision::pixels_per_metre(cameras[0]);
 
-    const cv::Mat picture = annotate(grey, cameras[0], reading);
+    const cv::Mat picture = vision::annotate(grey, cameras[0], body_from_code(reading));
 
     const auto dot = picture.at<cv::Vec3b>(static_cast<int>(256 + 0.010 / px_m),
                                            static_cast<int>(320 + 0.020 / px_m));

@@ -1,4 +1,4 @@
-#include "core/simulation/camera_picture.hpp"
+#include "core/vision/camera_picture.hpp"
 
 #include <array>
 #include <opencv2/imgcodecs.hpp>
@@ -6,7 +6,7 @@
 
 #include "core/vision/optics.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::vision {
 namespace {
 
 // Colours of the dashboard's measurement overlay, blue green red.
@@ -15,25 +15,25 @@ const cv::Scalar kCasing(0xff, 0xff, 0xff);
 const cv::Scalar kCross(0x1c, 0x17, 0x12);
 constexpr int kShift = 4;  // sub-pixel bits of OpenCV's drawing functions
 
-cv::Point fixed(vision::Pixel half_size) {
+cv::Point fixed(Pixel half_size) {
     constexpr double kOne = 1 << kShift;
     return {static_cast<int>(std::lround(half_size.u * kOne)),
             static_cast<int>(std::lround(half_size.v * kOne))};
 }
-vision::Pixel halved(vision::Pixel p) { return {(p.u - 0.5) / 2, (p.v - 0.5) / 2}; }
+Pixel halved(Pixel p) { return {(p.u - 0.5) / 2, (p.v - 0.5) / 2}; }
 
-void line(cv::Mat& picture, vision::Pixel a, vision::Pixel b, const cv::Scalar& colour, int width) {
+void line(cv::Mat& picture, Pixel a, Pixel b, const cv::Scalar& colour, int width) {
     cv::line(picture, fixed(a), fixed(b), colour, width, cv::LINE_AA, kShift);
 }
 
-void crosshair(cv::Mat& picture, vision::Pixel centre) {
+void crosshair(cv::Mat& picture, Pixel centre) {
     const double right = picture.cols - 1;
     const double bottom = picture.rows - 1;
     constexpr double kDash = 18;
     constexpr double kPeriod = 25;
-    const auto stroke = [&](vision::Pixel from, vision::Pixel to) {
+    const auto stroke = [&](Pixel from, Pixel to) {
         line(picture, from, to, kCross, 3);
-        const vision::Pixel way = to - from;
+        const Pixel way = to - from;
         const double length = std::hypot(way.u, way.v);
         for (double t = 0; t < length; t += kPeriod)
             line(picture, from + (t / length) * way,
@@ -48,21 +48,21 @@ void brackets(cv::Mat& picture, const plant::Camera& camera,
     // Half a quiet zone outside the code, so that they touch neither modules nor the sheet's edge.
     constexpr double kOutside = 1.16;
     constexpr double kArm = 0.2;  // of the side
-    const auto outer = vision::code_corners(camera, camera_from_code, kOutside * size_m);
+    const auto outer = code_corners(camera, camera_from_code, kOutside * size_m);
     for (const auto& [colour, width] : {std::pair{kCasing, 9}, {kOverlay, 6}}) {
         for (std::size_t i = 0; i < 4; ++i) {
-            const vision::Pixel corner = outer[i];
+            const Pixel corner = outer[i];
             for (const std::size_t other : {(i + 1) % 4, (i + 3) % 4})
                 line(picture, halved(corner), halved(corner + kArm * (outer[other] - corner)),
                      colour, width);
         }
     }
-    const auto code = vision::code_corners(camera, camera_from_code, 1.03 * size_m);
+    const auto code = code_corners(camera, camera_from_code, 1.03 * size_m);
     for (std::size_t i = 0; i < 4; ++i)
         line(picture, halved(code[i]), halved(code[(i + 1) % 4]), kOverlay, 1);
 }
 
-void offset(cv::Mat& picture, vision::Pixel from, vision::Pixel to) {
+void offset(cv::Mat& picture, Pixel from, Pixel to) {
     for (const auto& [colour, width, radius] :
          {std::tuple{kCasing, 8, 11}, std::tuple{kOverlay, 4, 7}}) {
         line(picture, from, to, colour, width);
@@ -73,20 +73,18 @@ void offset(cv::Mat& picture, vision::Pixel from, vision::Pixel to) {
 }  // namespace
 
 cv::Mat annotate(const cv::Mat& grey, const plant::Camera& camera,
-                 const fleet::CameraReading& reading, double code_size_m) {
+                 const std::optional<geometry::Pose2>& body_from_code, double code_size_m) {
     cv::Mat half;
     cv::resize(grey, half, cv::Size(grey.cols / 2, grey.rows / 2), 0, 0, cv::INTER_AREA);
     cv::Mat picture;
     cv::cvtColor(half, picture, cv::COLOR_GRAY2BGR);
-    const vision::Pixel axis = halved({camera.cu_px, camera.cv_px});
+    const Pixel axis = halved({camera.cu_px, camera.cv_px});
     crosshair(picture, axis);
-    if (!reading.found) return picture;
-    const geometry::Pose2 body_from_code{reading.code.x_m, reading.code.y_m, reading.angle_rad};
-    const geometry::Pose2 camera_from_code = inverse(camera.body_from_camera) * body_from_code;
+    if (!body_from_code) return picture;
+    const geometry::Pose2 camera_from_code = inverse(camera.body_from_camera) * *body_from_code;
     brackets(picture, camera, camera_from_code, code_size_m);
     offset(picture, axis,
-           halved(vision::distorted(camera,
-                                    vision::ideal_pixel(camera, camera_from_code.position()))));
+           halved(distorted(camera, ideal_pixel(camera, camera_from_code.position()))));
     return picture;
 }
 
@@ -104,4 +102,4 @@ std::vector<std::uint8_t> encode_jpeg(const cv::Mat& image, const plant::Camera&
     return bytes;
 }
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::vision
