@@ -76,6 +76,7 @@ Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& t
     }
     const auto fix = localisation::locate(seen, survey);
     if (!fix) return fail(fix.error());
+    fix_ = *fix;
     return fleet::StopMeasurement{fix->pose, fix->sigma_xy_m, fix->sigma_heading_rad,
                                   localisation::to_string(fix->method), fix->payloads};
 }

@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/fleet/vehicle_messages.hpp"
+#include "core/localisation/dual_camera.hpp"
 #include "core/simulation/stop_sensor.hpp"
 #include "core/simulation/vehicle_stop.hpp"
 #include "core/simulation/world.hpp"
@@ -29,6 +32,8 @@ public:
     /// Takes new images and reads them.
     void look();
     const std::vector<fleet::CameraReading>& readings() const { return readings_; }
+    /// The fix of the newest measurement, once.
+    std::optional<localisation::PoseFix> take_fix() { return std::exchange(fix_, std::nullopt); }
     /// True once after each look.
     bool take_fresh();
     /// Annotated pictures of the last look; none in analytic mode.
@@ -50,6 +55,7 @@ private:
     std::vector<fleet::CameraReading> readings_;
     std::vector<fleet::CameraReading> pictured_;  // what the images show, one per image
     std::vector<cv::Mat> images_;
+    std::optional<localisation::PoseFix> fix_;
     bool fresh_ = false;
     bool covered_ = false;
 };

@@ -30,8 +30,7 @@ constexpr auto kSettle = 300ms;
 constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 // Pictures of standing vehicles may cost this share of the processor, all together.
 constexpr int kLookShare = 10;
-constexpr double kDriftPerMetre = 4e-4;
-constexpr double kFixed_m = 0.001;
+constexpr double kRangeSigmas = 3;  // what deviationRange covers
 
 Time utc_now() {
     return time_from_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -70,6 +69,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       executor_(motion_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
                 &equipment_),
       body_(vehicle, motion_, simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
+      estimate_(true_pose),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {}
@@ -78,16 +78,18 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
     executor_.step(dt_s);
     body_.step(dt_s);
-    const double way_m = std::abs(motion_.velocity_mps()) * dt_s;
-    equipment_.step(dt_s, way_m);
-    way_since_fix_m_ += way_m;
+    equipment_.step(dt_s, std::abs(motion_.velocity_mps()) * dt_s);
+    if (const auto fix = sensing_.take_fix()) {
+        estimate_.take(*fix);
+    } else {
+        estimate_.drive_to(motion_.believed_pose());
+    }
     if (!motion_.standing()) stood_since_ = now;
     write_truth(now);
     if (sensing_.take_fresh()) {
         pictures_due_ = true;
         state_due_ = true;
         last_look_ = now;
-        if (executor_.acting()) way_since_fix_m_ = 0;
     }
     look_while_standing(now);
     if (executor_.take_factsheet_request()) send_factsheet();
@@ -138,8 +140,8 @@ fleet::StateMessage Vehicle::state() {
     body_.write_state(state);
     equipment_.write_state(state);
     state.cameras = sensing_.readings();
-    state.deviation_range_m = kFixed_m + kDriftPerMetre * way_since_fix_m_;
-    state.localization_score = std::clamp(1 - 10 * state.deviation_range_m, 0.0, 1.0);
+    state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
+    state.localization_score = estimate_.score();
     return state;
 }
 
@@ -260,7 +262,11 @@ void Vehicle::receive(std::string_view text) {
     if (frame->topic == Topic::kInstantActions) {
         const auto actions = vda5050::decode_instant_actions(frame->payload);
         if (!actions) return report(actions.error(), topic);
-        return executor_.handle(*actions);
+        const geometry::Pose2 before = motion_.believed_pose();
+        executor_.handle(*actions);
+        // Nothing drives in between: a person said where it stands.
+        if (motion_.believed_pose() != before) estimate_.start_at(motion_.believed_pose());
+        return;
     }
     report({Errc::kInvalid,
             {"wrong_topic", {}},

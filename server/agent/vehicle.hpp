@@ -14,6 +14,7 @@
 #include "server/agent/camera_sensing.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
+#include "server/agent/pose_estimate.hpp"
 #include "server/agent/truth_log.hpp"
 
 namespace pulseline::agent {
@@ -66,13 +67,13 @@ private:
     simulation::VehicleEquipment equipment_;
     simulation::VehicleExecutor executor_;
     BodyStatus body_;
+    PoseEstimate estimate_;
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;
     bool linked_ = false;
     bool state_due_ = true;
     double age_s_ = 0;
-    double way_since_fix_m_ = 0;
     Steady::time_point last_state_{};
     Steady::time_point last_visualization_{};
     Steady::time_point last_look_{};
