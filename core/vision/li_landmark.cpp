@@ -129,8 +129,21 @@ std::optional<LiLandmark> li_landmark(const cv::Mat& grey, const plant::Camera& 
     return best;
 }
 
-Eigen::Vector3d li_p4p_camera(const std::array<Eigen::Vector2d, 4>& marker_m,
-                              const std::array<Eigen::Vector2d, 4>& rays) {
+LiPose li_p4p(const LiLandmark& landmark, const plant::Camera& camera) {
+    std::array<Eigen::Vector2d, 4> marker_m;
+    std::array<Eigen::Vector2d, 4> rays;
+    constexpr std::array<std::size_t, 4> kUsed{0, 2, 3, 4};  // A, D, E, F
+    for (std::size_t i = 0; i < 4; ++i) {
+        const auto& dot = plant::landmark::kDots[kUsed[i]];
+        marker_m[i] = {dot.right_m, -dot.up_m};
+        const Pixel p = undistorted(camera, landmark.dots[kUsed[i]]);
+        rays[i] = {p.u / camera.f_px, p.v / camera.f_px};
+    }
+    return li_p4p(marker_m, rays);
+}
+
+LiPose li_p4p(const std::array<Eigen::Vector2d, 4>& marker_m,
+              const std::array<Eigen::Vector2d, 4>& rays) {
     double size = 0;  // marker coordinates about 1, for the conditioning
     for (const auto& m : marker_m) size = std::max(size, m.norm());
     Eigen::Matrix<double, 8, 9> a = Eigen::Matrix<double, 8, 9>::Zero();
@@ -161,7 +174,7 @@ Eigen::Vector3d li_p4p_camera(const std::array<Eigen::Vector2d, 4>& marker_m,
         Eigen::Matrix3d flip = Eigen::Vector3d(1, 1, -1).asDiagonal();
         rotation = polar.matrixU() * flip * polar.matrixV().transpose();
     }
-    return -rotation.transpose() * p;
+    return {rotation, p};
 }
 
 }  // namespace pulseline::vision

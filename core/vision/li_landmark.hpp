@@ -24,11 +24,21 @@ struct LiLandmark {
 std::optional<LiLandmark> li_landmark(const cv::Mat& grey, const plant::Camera& camera,
                                       double size_m);
 
-/// Camera in the marker's frame (x right, y down as printed, z into the floor; metres) from four
-/// coplanar points: eq. (9) in its corrected form (equations.md section 4), by the null vector of
-/// the eight equations. `rays`: x/z and y/z of A, D, E, F after undistortion. Not for positioning:
-/// its tilt noise times the height is a thousand times the planar fit's error.
-Eigen::Vector3d li_p4p_camera(const std::array<Eigen::Vector2d, 4>& marker_m,
-                              const std::array<Eigen::Vector2d, 4>& rays);
+/// The marker (x right, y down as printed, z into the floor; metres) in the camera's frame.
+struct LiPose {
+    Eigen::Matrix3d rotation;
+    Eigen::Vector3d translation;
+
+    Eigen::Vector3d camera_in_marker() const { return -rotation.transpose() * translation; }
+};
+
+/// From four coplanar points: eq. (9) in its corrected form (equations.md section 4), by the null
+/// vector of the eight equations. `rays`: x/z and y/z of A, D, E, F after undistortion. Not for
+/// positioning: its tilt noise times the height is a thousand times the planar fit's error.
+LiPose li_p4p(const std::array<Eigen::Vector2d, 4>& marker_m,
+              const std::array<Eigen::Vector2d, 4>& rays);
+
+/// The same of a landmark as found.
+LiPose li_p4p(const LiLandmark& landmark, const plant::Camera& camera);
 
 }  // namespace pulseline::vision

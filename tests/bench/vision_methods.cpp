@@ -166,16 +166,7 @@ Outcome li(const cv::Mat& grey, const Camera& camera) {
 Outcome li_p4p(const cv::Mat& grey, const Camera& camera) {
     const auto r = vision::li_landmark(grey, camera, plant::usual_size_m(MarkerKind::kLandmark));
     if (!r) return {std::nullopt, "no_code"};
-    std::array<Eigen::Vector2d, 4> marker;
-    std::array<Eigen::Vector2d, 4> rays;
-    constexpr std::array<std::size_t, 4> kUsed{0, 2, 3, 4};  // A, D, E, F
-    for (std::size_t i = 0; i < 4; ++i) {
-        const auto& dot = plant::landmark::kDots[kUsed[i]];
-        marker[i] = {dot.right_m, -dot.up_m};
-        const Pixel p = vision::undistorted(camera, r->dots[kUsed[i]]);
-        rays[i] = {p.u / camera.f_px, p.v / camera.f_px};
-    }
-    const Eigen::Vector3d at = vision::li_p4p_camera(marker, rays);
+    const Eigen::Vector3d at = vision::li_p4p(*r, camera).camera_in_marker();
     const double c = std::cos(r->angle_rad), s = std::sin(r->angle_rad);
     const Pixel foot{c * at.x() - s * at.y(), s * at.x() + c * at.y()};  // marker to foot
     const Pixel centre = vision::distorted(camera, -vision::pixels_per_metre(camera) * foot);

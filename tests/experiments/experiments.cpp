@@ -1,0 +1,20 @@
+// Repeats a paper's experiment in simulation and prints its table beside the paper's.
+// usage: experiments [NAME] [--seed N] [--runs N]; all of them without a name
+#include "tests/experiments/experiments.hpp"
+
+#include <CLI/CLI.hpp>
+#include <opencv2/core/utility.hpp>
+
+int main(int argc, char** argv) {
+    using namespace pulseline::experiments;
+    CLI::App app("The papers' experiments, repeated in simulation");
+    std::string name = "all";
+    Options options;
+    options.folder = PULSELINE_EXPERIMENTS;
+    app.add_option("NAME", name)->check(CLI::IsMember({"all", "landmark-accuracy"}));
+    app.add_option("--seed", options.seed);
+    app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
+    CLI11_PARSE(app, argc, argv);
+    cv::setNumThreads(1);
+    return landmark_accuracy(options) ? 0 : 1;
+}

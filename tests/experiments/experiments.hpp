@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+/// The papers' experiments in simulation, each printed beside the paper's own table.
+namespace pulseline::experiments {
+
+struct Options {
+    std::uint64_t seed = 1;
+    int runs = 50;
+    std::string folder;  // of the experiments' own files
+};
+
+/// Li 2020, section 4.2, Tables 1 and 2: distance and angle between two landmarks. False when a row
+/// is not as much better than the paper's as is claimed.
+bool landmark_accuracy(const Options& options);
+
+}  // namespace pulseline::experiments
