@@ -1,4 +1,5 @@
 #include <chrono>
+#include <limits>
 
 #include "api/http/problem.hpp"
 #include "server/dispatch.hpp"
@@ -180,7 +181,9 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
     for (int count = 0; keep && count < limits.requests_per_connection; ++count) {
         Parser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits.header_bytes));
-        parser.body_limit(boost::none);  // read_request sets it once it knows who asks for what
+        // read_request sets it once it knows who asks for what. Not none: Beast 1.74 takes any
+        // length for more than none.
+        parser.body_limit(std::numeric_limits<std::uint64_t>::max());
         const auto in = co_await read_request(context, stream, buffer, parser, count == 0);
         if (in.nothing) break;
         const auto start = Steady::now();

@@ -34,7 +34,7 @@ TEST(PoseEstimate, StepsOfAnyLengthFadeAlike) {
     PoseEstimate coarse({0, 0, 0});
     for (PoseEstimate* each : {&fine, &coarse}) each->take(fix_at({0, 0, 0}));
     for (int i = 1; i <= 10'000; ++i) fine.drive_to({0.001 * i, 0, 0});
-    for (int i = 1; i <= 100; ++i) coarse.drive_to({0.1 * i + 1e-9, 0, 0});
+    for (int i = 1; i <= 100; ++i) coarse.drive_to({0.10001 * i, 0, 0});
 
     EXPECT_NEAR(fine.sigma_xy_m() / coarse.sigma_xy_m(), 1, 0.05);
 }
