@@ -213,8 +213,9 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Sends startPause or stopPause; the newest wish counts.
 void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
-/// The vehicle has not shown its leg and may still get the message: the leg must not be forgotten.
-bool is_on_its_way(const VehicleRun& run, Time now);
+/// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
+/// forgotten.
+bool is_on_its_way(const VehicleRun& run);
 /// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the
 /// base, which only the leg remembers over a restart: so long the leg is kept.
 void forget_leg(FleetState& fleet, VehicleRun& run, Time now);

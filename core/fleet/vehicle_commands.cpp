@@ -44,7 +44,7 @@ void resume_leg(FleetState& fleet, VehicleRun& run, Time now) {
         if (run.state.order_update_id != run.leg().update_id) cancel_leg(fleet, run, now);
         return;
     }
-    if (is_on_its_way(run, now)) {
+    if (is_on_its_way(run)) {
         // It could be begun after it was forgotten here, so the vehicle is asked once more.
         run.update_sends = 0;
         return send_order_update(fleet, run, 0, now);

@@ -70,7 +70,7 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
             if (run.state.driving || (run.has_leg() && !run.record.pose_known)) return false;
             // It knew of no order to cancel: that may still be on its way, or have come since.
             const bool failed = found->status == ActionStatus::kFailed;
-            if (failed && run.has_leg() && is_on_its_way(run, now)) return false;
+            if (failed && run.has_leg() && is_on_its_way(run)) return false;
             again = failed && !mutated(Mutation::kCancelFailedIsDone) && run.has_leg() &&
                     run.state.order_id == run.leg().id.str() && !has_nothing_left(run.state);
             cancelled = !again;
@@ -294,9 +294,11 @@ void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-bool is_on_its_way(const VehicleRun& run, Time now) {
+bool is_on_its_way(const VehicleRun& run) {
     if (mutated(Mutation::kWayOrderForgotten)) return false;
-    return !run.leg_seen && run.order_sent && now - *run.order_sent < kLongestWay;
+    if (run.leg_seen || !run.order_sent) return false;
+    // One that fell silent may have got it, and have driven all of its base since.
+    return !run.state_at || *run.state_at - *run.order_sent < kLongestWay;
 }
 
 void hear(FleetState& fleet, VehicleRun& run, Time now) {

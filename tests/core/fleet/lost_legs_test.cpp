@@ -146,6 +146,32 @@ TEST(LostLegs, OneThatMayStillReachTheVehicleIsAskedForAgainAndNotForgotten) {
     EXPECT_EQ(world.store.stops.at(0).leg, leg);
 }
 
+TEST(LostLegs, AnOrderThatASilentVehicleMayHaveGotIsKeptThoughAPersonLetsItGoOn) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.now += std::chrono::milliseconds(100);
+    world.fleet->tick(world.now);
+    world.settle();
+    const LegId leg = world.store.vehicles.at(kV1).leg;
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+    ASSERT_EQ(world.vehicle("V1").orders_received, 1);
+    world.connected[kV1] = false;
+    world.run(60);  // it drives its base unheard
+    ASSERT_GT(world.vehicle("V1").node_steps, 0);
+
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(5);
+    EXPECT_EQ(world.store.vehicles.at(kV1).leg, leg) << "its floor is still the vehicle's";
+    world.connected[kV1] = true;
+    world.fleet->vehicle_connected(kV1, world.now);
+    world.run(600);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    ASSERT_FALSE(world.store.stops.empty());
+    EXPECT_EQ(world.store.stops.at(0).leg, leg);
+}
+
 TEST(LostLegs, ACancelThatOvertookItsOrderIsNotTheEndOfIt) {
     World world;
     world.connect_all();
