@@ -47,6 +47,7 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.leg().nodes.size() < 2 || cannot_move(fleet, run)) return;
     if (!run.leg_seen || run.update_sent) return;
     const bool had_horizon = run.leg().nodes.size() > run.leg().released_nodes;
+    const bool had_stop = !run.leg().nodes.back().actions.empty();
     const auto reason = plan_on_floor(fleet, run, now);
     if (reason && is_stuck(fleet, run)) {
         cancel_leg(fleet, run, now);
@@ -54,7 +55,9 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     }
     // It ends where its base ends. The vehicle waits for more, and nodes it has take no stop any
     // more: it gives up the leg and gets one of its own for the rest.
-    if (!reason && had_horizon && run.leg().nodes.size() == run.leg().released_nodes) {
+    const bool ends_here = run.leg().nodes.size() == run.leg().released_nodes;
+    const bool stops_now = !had_stop && !run.leg().nodes.back().actions.empty();
+    if (!reason && ends_here && (had_horizon || stops_now)) {
         run.leg().nodes.back().actions.clear();
         cancel_leg(fleet, run, now);
         return;
