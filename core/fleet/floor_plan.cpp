@@ -375,7 +375,13 @@ void pass_stop(FleetState& fleet, VehicleRun& run, Time now) {
     auto& traffic = fleet.floor.traffic;
     const auto& plan = traffic.plan(run.floor.vehicle);
     const MoveNumber stop = plan.passed + 1;
-    if (stop > plan.last() || plan.at(stop).visit == kNoVisit) return;
+    if (stop > plan.last() || plan.at(stop).visit == kNoVisit) {
+        // By plan it gives way first; it has made the stop all the same.
+        if (traffic.postponed(run.floor.vehicle)) {
+            static_cast<void>(traffic.cancel(run.floor.vehicle, now));
+        }
+        return;
+    }
     if (traffic.extend(run.floor.vehicle, 1, now) < stop) {
         // Halted, for it was silent: the stop is made all the same, and is not to be made again.
         static_cast<void>(traffic.cancel(run.floor.vehicle, now));

@@ -215,7 +215,11 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     follow_replans(fleet, now);  // what is released has to be what the plan has now
     Leg& leg = run.leg();
     if (run.cancelling) return;
-    if (leg.released_nodes >= leg.nodes.size()) return tell_wait(fleet, run, now);
+    if (leg.released_nodes >= leg.nodes.size()) {
+        // With the stop in its base it waits for nobody.
+        if (leg.nodes.back().actions.empty()) tell_wait(fleet, run, now);
+        return;
+    }
     const double speed = speed_of(run);
     const double wanted_m = speed * speed / (2 * accel_of(run)) + speed * kExtendLatency_s;
     double ahead_m = -run.state.distance_since_last_node_m;

@@ -132,8 +132,9 @@ void park_idle(FleetState& fleet, Time now) {
             continue;
         }
         if (!long_idle && !is_wanted_away(run)) continue;
-        if (!goes_by_places(fleet, run)) {
-            settle(fleet, run, now, true);  // the rest of a way that was given up
+        const bool drives = plan.at(plan.passed + 1).visit == traffic::kNoVisit;
+        if (!drives || !goes_by_places(fleet, run)) {
+            settle(fleet, run, now, true);  // the rest of a task or way that was given up
             continue;
         }
         const auto station = last_station(fleet, run);
