@@ -1,5 +1,6 @@
 // Images over REST: what is found in them, and who may send how much.
 import assert from "node:assert/strict";
+import { request } from "node:http";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
 import { System } from "../harness/processes.mjs";
@@ -40,6 +41,17 @@ test("a stranger, and any other address, gets no more than the usual body", asyn
   const send = (path, headers) => fetch(`${system.url}${path}`, { method: "POST", body, headers: { "Content-Type": "application/json", ...headers } }).then((answer) => answer.status, () => "cut off");
   const mine = { Authorization: `Bearer ${client.token}` };
   assert.equal(await send("/api/v1/localizations", mine), 200);
-  assert.notEqual(await send("/api/v1/localizations", {}), 200);
+  assert.equal(await send("/api/v1/localizations", {}), 413);
   assert.equal(await send("/api/v1/routes", mine), 413);
+  // Who asks first is told before the body is sent.
+  const headers = { ...mine, "Content-Type": "application/json", "Content-Length": String(9 << 20), Expect: "100-continue" };
+  const refused = await new Promise((done, fail) => {
+    const asked = request(`${system.url}/api/v1/localizations`, { method: "POST", headers }, (response) => {
+      let text = "";
+      response.setEncoding("utf8").on("data", (part) => { text += part; }).on("end", () => { asked.destroy(); done({ status: response.statusCode, body: JSON.parse(text) }); });
+    });
+    asked.on("error", fail).flushHeaders();
+  });
+  assert.equal(refused.status, 413);
+  assert.equal(refused.body.params.limit_bytes, 8 << 20);
 });
