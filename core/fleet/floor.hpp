@@ -71,8 +71,9 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
 bool stands_at_stop(const FleetState& fleet, const VehicleRun& run);
 /// The leg ended beside all places without its stop, so no plan leads on from there.
 bool is_dead_end(const FleetState& fleet, const VehicleRun& run);
-/// REQUIRES: the leg has no plan. At the end of its base, and who bars the rest has no plan to leave
-/// (maybe because of this one), or has made it make way: it goes elsewhere only without its leg.
+/// REQUIRES: the leg has no plan. At the end of its base, and who bars the rest has no plan to
+/// leave (maybe because of this one), or has made it make way: it goes elsewhere only without its
+/// leg.
 bool is_stuck(const FleetState& fleet, const VehicleRun& run);
 /// The rest of the vehicle's plan is the graph's alone.
 bool goes_by_places(const FleetState& fleet, const VehicleRun& run);
@@ -98,8 +99,14 @@ void improve_floor(FleetState& fleet, Time now);
 /// Why the vehicle's next move is not granted; none: it is, or there is none.
 std::optional<Reason> floor_wait(const FleetState& fleet, const VehicleRun& run);
 Reason floor_reason(const FleetState& fleet, const traffic::Block& block);
+
+// --- the monitor's view (floor_watch.cpp) ---
 /// Feeds the monitor; false: it found a violation, and nothing may be granted.
 bool floor_is_sound(FleetState& fleet, Time now);
+/// What the vehicle is about to be told, its leg up to `nodes`, held against the floor that the
+/// monitor knows it to hold: leg and plan must not have come apart. False as above.
+bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t nodes, Time now);
+/// Everything anew, once a second when something has changed.
 void check_whole_floor(FleetState& fleet, Time now);
 
 }  // namespace pulseline::fleet

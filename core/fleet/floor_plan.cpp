@@ -20,7 +20,6 @@ constexpr double kSamePose_m = 1e-3;
 constexpr double kSamePose_rad = 1e-3;
 constexpr Duration kRetry = std::chrono::milliseconds(500);
 constexpr Duration kImproveEvery = std::chrono::seconds(1);
-constexpr Duration kCheckEvery = std::chrono::seconds(1);
 constexpr int kImproveSteps = 4;
 constexpr std::size_t kMostSwept = 256;  // segments of one leg or two
 
@@ -175,12 +174,6 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     return true;
 }
 
-/// Nothing is granted any more.
-void stop_floor(FleetState& fleet, const traffic::Violation& violation, Time now) {
-    fleet.floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violation)}}};
-    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, fleet.floor.stopped->params);
-}
-
 }  // namespace
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
@@ -322,26 +315,6 @@ void follow_replans(FleetState& fleet, Time now) {
     }
 }
 
-namespace {
-
-/// What the vehicle is about to be told, held against the floor that the monitor knows it to hold:
-/// leg and plan must not have come apart.
-bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t nodes, Time now) {
-    const Leg& leg = run.leg();
-    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
-    for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
-        const auto under = traffic::tiles_under(
-            hall_index(fleet, leg.hall), kinematics::sweep(body, {leg.edges[i - 1].segment}), 0);
-        const auto outside = fleet.floor.monitor.check_footprint(run.floor.vehicle, under);
-        if (outside.empty()) continue;
-        stop_floor(fleet, outside.front(), now);
-        return false;
-    }
-    return true;
-}
-
-}  // namespace
-
 std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_node, Time now) {
     auto& traffic = fleet.floor.traffic;
     const Leg& leg = run.leg();
@@ -454,24 +427,6 @@ std::optional<Reason> floor_wait(const FleetState& fleet, const VehicleRun& run)
         return std::nullopt;
     }
     return floor_reason(fleet, waits.front().block);
-}
-
-bool floor_is_sound(FleetState& fleet, Time now) {
-    Floor& floor = fleet.floor;
-    const auto violations = floor.monitor.apply(floor.traffic.take_changes());
-    if (violations.empty() || floor.stopped) return !floor.stopped;
-    stop_floor(fleet, violations.front(), now);
-    return false;
-}
-
-void check_whole_floor(FleetState& fleet, Time now) {
-    Floor& floor = fleet.floor;
-    if (floor.checked && now - *floor.checked < kCheckEvery) return;
-    floor.checked = now;
-    if (!floor_is_sound(fleet, now)) return;
-    if (!floor.monitor.take_changed()) return;
-    const auto violations = floor.monitor.check_all();
-    if (!violations.empty()) stop_floor(fleet, violations.front(), now);
 }
 
 }  // namespace pulseline::fleet

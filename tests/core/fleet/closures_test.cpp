@@ -8,10 +8,15 @@ namespace {
 
 using plant::VehicleId;
 
-TEST(Closures, ClosedLanesAreGoneRoundAndKeptOverARestart) {
+/// V2 out of the way, behind the east.
+plant::Plant two_free_ways() {
     plant::Plant plant = two_ways();
     plant.vehicles[1].home = plant::StationId("s4");
-    World world(plant);
+    return plant;
+}
+
+TEST(Closures, ClosedLanesAreGoneRoundAndKeptOverARestart) {
+    World world(two_free_ways());
     confirm_poses(world);
     world.run(1);
     NewClosure closure;
@@ -58,9 +63,7 @@ TEST(Closures, AnOrderWithoutAnyOtherWayWaitsForTheClosureByName) {
 }
 
 TEST(Closures, ThePreviewOffersTheOtherWayUntilItIsClosed) {
-    plant::Plant plant = two_ways();
-    plant.vehicles[1].home = plant::StationId("s4");
-    World world(plant);
+    World world(two_free_ways());
     confirm_poses(world);
     world.run(1);
     NewOrder order;
