@@ -231,8 +231,9 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         return elsewhere ? elsewhere : admitted;
     };
     auto admitted = admit();
-    if (!admitted && leg.order.empty() && leg.released_nodes > 1) {
-        // It stands in others' way, halfway to a place that is not to be had: any other will do.
+    const bool halfway = leg.released_nodes > 1 || leg.nodes.back().node_id != leg.station.str();
+    if (!admitted && leg.order.empty() && halfway) {
+        // It stands in others' way, on the way to a place that is not to be had: any other will do.
         task.resting.clear();
         const bool charges = std::exchange(leg.charges, false);
         admitted = admit();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fleet/dispatch_phases.hpp"
+#include "core/kinematics/primitives.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -86,10 +87,11 @@ std::vector<const plant::Station*> resting_places(const FleetState& fleet, const
     return found;
 }
 
-/// It stands beside the places that traffic knows, so traffic cannot send it off.
-void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
+/// As a person would plan it: straight to a resting place where that is free, else by the roads.
+bool leave_to_rest(FleetState& fleet, VehicleRun& run,
+                   const std::vector<const plant::Station*>& rests, Time now) {
     std::size_t tried = 0;
-    for (const auto* station : resting_places(fleet, run)) {
+    for (const auto* station : rests) {
         if (++tried > kMostRestsTried) break;
         const auto plan = fleet.planner.plan_leg(
             leg_request(fleet, run, run.record.pose, station->id, plant::MotionMode::kAuto));
@@ -97,7 +99,34 @@ void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
         Leg leg =
             build_leg(fleet, run, *plan, *station, run.record.pose, LegId(fleet.ids.next(now)));
         leg.nodes.back().actions = rest_actions(fleet, run, *station, leg);
-        if (!try_leg(fleet, run, std::move(leg), now)) return tell_leaving(fleet, run, now);
+        if (!try_leg(fleet, run, std::move(leg), now)) return true;
+    }
+    return false;
+}
+
+/// Where no turn is to be had: along its lane to a place that traffic knows, and traffic finds the
+/// rest of the way, to whatever resting place it can.
+bool leave_along_lane(FleetState& fleet, VehicleRun& run, const plant::Station& rest, Time now) {
+    const auto& motion = fleet.floor.classes[run.floor.of_class].motion;
+    const plant::HallId hall(hall_of(fleet, run));
+    for (const auto& straight : motion.straights_to_places(hall, run.record.pose)) {
+        planning::LegPlan plan;
+        plan.segments = {straight};
+        kinematics::set_durations(*run.type, plan.segments);
+        Leg leg = build_leg(fleet, run, plan, rest, run.record.pose, LegId(fleet.ids.next(now)));
+        leg.nodes.back().node_id = "p1";
+        leg.nodes.back().actions.clear();
+        if (!try_leg(fleet, run, std::move(leg), now)) return true;
+    }
+    return false;
+}
+
+/// It stands beside the places that traffic knows, so traffic cannot send it off.
+void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
+    const auto rests = resting_places(fleet, run);
+    if (leave_to_rest(fleet, run, rests, now) ||
+        (!rests.empty() && leave_along_lane(fleet, run, *rests.front(), now))) {
+        return tell_leaving(fleet, run, now);
     }
     run.floor.next_leave = now + kLeaveAgain;
 }

@@ -110,6 +110,22 @@ TEST(MakingWay, OneBesideAllPlacesFindsTheFreeOneBehindManyThatAreTaken) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
 }
 
+TEST(MakingWay, OneBetweenPlacesThatCannotTurnLeavesAlongItsLane) {
+    plant::Plant plant = plant_of(
+        {{"east", 44, 40, 1}, {"north", 20, 60, 2}, {"south", 20, 20, 3}, {"west", 20, 40}},
+        {{"east", "west"}, {"west", "north"}, {"west", "south"}}, 2);
+    plant.vehicle_types[0].footprint = geometry::rectangle(2, 2);
+    World world(plant);
+    // Too near to the other to turn, not too near to stand there.
+    world.vehicle("V2").state.pose = {44 - 2.85, 40, 0};
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(600);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
 TEST(MakingWay, TwoHeadOnBetweenPlacesAfterARestartFindAWayApart) {
     for (const std::size_t passed : {2, 4, 6}) {
         World world(corridor());
