@@ -61,6 +61,7 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
         if (error.fatal) return because("vehicle_error", {{"type", error.type}});
     }
     if (run.state.paused) return because("vehicle_paused");
+    if (has_foreign_order(run)) return because("foreign_order", {{"order", run.state.order_id}});
     if (run.cancelling || run.state.driving) return because("vehicle_busy");
     if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
     return std::nullopt;

@@ -68,6 +68,7 @@ struct VehicleRun {
     bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
     FloorStand floor;
     std::optional<Time> leg_started;
+    std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
     std::optional<Reason> charge_wait;  // why it should charge and does not
     std::optional<Time> charge_retry;
@@ -216,6 +217,11 @@ void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, T
 /// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
 /// forgotten.
 bool is_on_its_way(const VehicleRun& run);
+/// It carries out an order that this server has not given, or has forgotten.
+bool has_foreign_order(const VehicleRun& run);
+bool is_asked_to_cancel(const VehicleRun& run);
+/// After a person's act; the vehicle is not ready until that order is gone.
+void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now);
 /// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the
 /// base, which only the leg remembers over a restart: so long the leg is kept.
 void forget_leg(FleetState& fleet, VehicleRun& run, Time now);

@@ -16,9 +16,9 @@ tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {
     static const char* const kCodes[] = {
-        "server_restarted",  "vehicle_lost_order", "vehicle_was_lost",
-        "vehicle_paused",    "order_not_accepted", "order_rejected",
-        "identity_conflict", "vehicle_withdrawn",  "load_on_withdrawn_vehicle"};
+        "server_restarted",   "vehicle_lost_order",       "vehicle_was_lost", "vehicle_paused",
+        "order_not_accepted", "order_rejected",           "foreign_order",    "identity_conflict",
+        "vehicle_withdrawn",  "load_on_withdrawn_vehicle"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
@@ -38,7 +38,8 @@ void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, Time no
     }
 }
 
-void resume_leg(FleetState& fleet, VehicleRun& run, Time now) {
+void resume_leg(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
+    if (has_foreign_order(run)) return cancel_foreign_order(fleet, run, actor, now);
     if (!run.has_leg()) return;
     if (run.state.order_id == run.leg().id.str()) {
         if (run.state.order_update_id != run.leg().update_id) cancel_leg(fleet, run, now);
@@ -148,7 +149,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         fleet.store(run);
         if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
 
-        resume_leg(fleet, run, now);
+        resume_leg(fleet, run, actor, now);
         JobOrder* order = fleet.orders.of(id);  // none any more when that ended a cancel
         if (order) go_on_with(fleet, run, *order, actor, now);
     }

@@ -11,7 +11,8 @@ namespace {
 constexpr Duration kResendEvery = std::chrono::seconds(1);
 constexpr int kOrderSends = 10;  // then the order is interrupted and a person decides
 constexpr Duration kEscalateAfter = std::chrono::seconds(10);
-constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
+constexpr Duration kLongestWay = std::chrono::seconds(10);   // of a message to a vehicle
+constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just ended is told sooner
 
 Link link_after(Duration silent) {
     if (silent >= kGoneAfter) return Link::kGone;
@@ -265,6 +266,21 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
+/// Of another master, or given by this server before its database was put back to an older copy:
+/// no leg of its own can begin before that is gone, and only a person knows whether it may go.
+void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!has_foreign_order(run)) {
+        run.foreign_since.reset();
+        return;
+    }
+    if (!run.foreign_since) run.foreign_since = now;
+    if (now - *run.foreign_since < kForeignAfter || is_asked_to_cancel(run)) return;
+    if (run.record.integration != Integration::kUtilise) return;
+    require_person(
+        fleet, run,
+        {"foreign_order", {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}}, now);
+}
+
 void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleError>& before,
                  Time now) {
     for (const auto& error : run.state.errors) {
@@ -292,6 +308,26 @@ void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
     if (order->cancel_requested && !run.record.needs_resume) {
         abort_order(fleet, *order, order->reason, {}, now);
     }
+}
+
+bool has_foreign_order(const VehicleRun& run) {
+    const StateMessage& state = run.state;
+    return !run.has_leg() && run.reconciled && !state.order_id.empty() &&
+           !(state.node_states.empty() && state.edge_states.empty());
+}
+
+bool is_asked_to_cancel(const VehicleRun& run) {
+    return std::any_of(run.actions.begin(), run.actions.end(),
+                       [](const auto& p) { return p.action.type == "cancelOrder"; });
+}
+
+void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
+    if (is_asked_to_cancel(run)) return;
+    Action action;
+    action.type = "cancelOrder";
+    add_event(fleet, now, "vehicle.foreign_order_cancelled", {}, {}, run.record.id, actor,
+              {{"order", run.state.order_id}});
+    send_action(fleet, run, std::move(action), now);
 }
 
 bool is_on_its_way(const VehicleRun& run) {
@@ -352,6 +388,7 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     take_pose(fleet, run, now);
     take_action_states(fleet, run, now);
     if (run.has_leg()) take_leg_progress(fleet, run, now);
+    watch_foreign_order(fleet, run, now);
     if (!state.driving) settle(fleet, run, now);
     halt_or_resume(fleet, run, now);
     offer_pose_from_codes(fleet, run, now);

@@ -126,6 +126,32 @@ TEST(LostLegs, TheCancelOfOneThatWasGivenUpWhileTheServerWasDownEndsTheOrderOnce
     EXPECT_EQ(std::count_if(world.store.events.begin(), world.store.events.end(), ends), 1);
 }
 
+TEST(LostLegs, AnOrderThatIsNotOfThisServerIsCancelledByAPersonsAct) {
+    World world;
+    world.connect_all();
+    FakeVehicle& vehicle = world.vehicle("V1");
+    OrderMessage other;
+    other.order_id = "of another master";
+    other.nodes.resize(2);
+    other.edges.resize(1);
+    other.nodes[1].sequence_id = 2;  // not released: it stands and waits
+    vehicle.receive({kV1, other, std::nullopt});
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(20);
+
+    const auto waiting = world.fleet->vehicle(kV1, world.now);
+    EXPECT_TRUE(waiting->needs_resume);
+    EXPECT_EQ(waiting->needs_resume_reason.code, "foreign_order");
+    EXPECT_EQ(vehicle.state.order_id, other.order_id);
+    EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    EXPECT_EQ(world.count_events("vehicle.foreign_order_cancelled"), 1);
+}
+
 TEST(LostLegs, OneThatMayStillReachTheVehicleIsAskedForAgainAndNotForgotten) {
     World world;
     world.connect_all();
