@@ -194,7 +194,7 @@ void open_floor(FleetState& fleet, Time now) {
         record.vehicles.push_back(stored_floor(fleet, run));
     }
     without_conflicts(fleet, record.vehicles);
-    auto rebuilt = traffic::Traffic::rebuild(record, fleet.tables->graphs, true);
+    auto rebuilt = traffic::Traffic::rebuild(record, fleet.tables->empty_floor);
     // Nobody shares floor any more, and bases alone cannot form a circle.
     if (!rebuilt) {
         floor.stopped = rebuilt.error().reason;

@@ -44,9 +44,12 @@ bool inside_wheel_base(const VehicleRun& run, geometry::Point2 centre) {
 /// A platform that was measured at a coded station leaves it only when both its cameras still see
 /// the codes. Where it only made way to, nothing was measured and nothing has to be seen.
 std::optional<Reason> unseen_codes(const FleetState& fleet, const VehicleRun& run) {
-    const auto* station = plant::find_station(fleet.plant, run.record.at_station);
-    if (!station || station->markers.empty() || run.type->brackets.empty()) return std::nullopt;
-    if (run.record.last_stop_station != station->id) return std::nullopt;
+    const plant::StationId& at = run.record.at_station;
+    if (run.type->brackets.empty() || at.empty() || at != run.record.last_stop_station) {
+        return std::nullopt;
+    }
+    const auto* station = plant::find_station(fleet.plant, at);
+    if (!station || station->markers.empty()) return std::nullopt;
     const auto found = std::count_if(run.state.cameras.begin(), run.state.cameras.end(),
                                      [](const auto& camera) { return camera.found; });
     const auto cameras = static_cast<std::int64_t>(run.type->cameras.size());

@@ -16,8 +16,7 @@ std::shared_ptr<const PlantTables> plant_tables(const plant::Plant& plant) {
                         [&](const auto& c) { return c.type == type && c.loaded == loaded; });
         if (known) continue;
         FloorClass made = floor_class(plant, tables->planner, *type, loaded);
-        made.graph = static_cast<traffic::GraphIndex>(tables->graphs.size());
-        tables->graphs.push_back(move_graph(plant, made));
+        made.graph = tables->empty_floor.add_graph(move_graph(plant, made));
         tables->classes.push_back(std::move(made));
     }
     return tables;

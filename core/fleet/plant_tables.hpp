@@ -6,6 +6,7 @@
 #include "core/fleet/floor_graph.hpp"
 #include "core/planning/leg_planner.hpp"
 #include "core/plant/plant.hpp"
+#include "core/traffic/traffic.hpp"
 
 /// What the fleet works out of the plant alone. It costs more than all the rest of a start, so a
 /// fleet that is built anew in the same process takes over the tables of the one before.
@@ -15,8 +16,8 @@ struct PlantTables {
     explicit PlantTables(const plant::Plant& plant) : planner(plant) {}
 
     planning::LegPlanner planner;
-    std::vector<FloorClass> classes;         // of all vehicles; classes[i].graph is i
-    std::vector<traffic::MoveGraph> graphs;  // of the classes
+    std::vector<FloorClass> classes;     // of all vehicles; classes[i].graph is i
+    traffic::Traffic empty_floor{true};  // the classes' graphs without a vehicle; for the monitor
 };
 
 /// REQUIRES: the plant outlives the tables unchanged. Read-only, so shared without a lock.

@@ -282,6 +282,20 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
         MoveNumber first;
         MoveNumber last;
     };
+    // A tile that one vehicle uses only has no order to claim: most are.
+    std::vector<VehicleIndex> user(tile_ids_.size(), kNobody);
+    std::vector<std::uint8_t> shared(tile_ids_.size(), 0);
+    const auto uses = [&](VehicleIndex v, const std::vector<Tile>& tiles) {
+        for (const Tile tile : tiles) {
+            if (user[tile] != kNobody && user[tile] != v) shared[tile] = 1;
+            user[tile] = v;
+        }
+    };
+    for (VehicleIndex v = 0; v < bodies_.size(); ++v) {
+        uses(v, bodies_[v].stand);
+        for (const Step& step : bodies_[v].steps) uses(v, step.swept);
+    }
+
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
     std::vector<Stay> stays;
     std::vector<std::size_t> newest(tile_ids_.size(), kNone);  // of stays, by tile
@@ -291,7 +305,9 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
     };
     for (VehicleIndex v = 0; v < bodies_.size(); ++v) {
         const Body& body = bodies_[v];
-        for (const Tile tile : body.stand) stay(tile, {tile, -1, v, body.passed, kForever});
+        for (const Tile tile : body.stand) {
+            if (shared[tile] != 0) stay(tile, {tile, -1, v, body.passed, kForever});
+        }
         for (MoveNumber n = body.passed + 1; n <= body.end(); ++n) {
             const Step& step = body.step(n);
             for (const MoveRef& ref : step.waits_for) {
@@ -301,6 +317,7 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
             }
             const std::int64_t number = n <= body.granted ? -1 : numbers[v][n - body.passed - 1];
             for (const Tile tile : step.swept) {
+                if (shared[tile] == 0) continue;
                 const auto known = newest[tile];
                 const bool still =
                     known != kNone && stays[known].vehicle == v && stays[known].last == kForever;
@@ -311,14 +328,6 @@ void Monitor::check_orders(const std::vector<std::vector<std::int64_t>>& numbers
             }
         }
     }
-    // A tile that one vehicle uses only has no order to claim: most are.
-    std::vector<VehicleIndex> user(tile_ids_.size(), kNobody);
-    std::vector<bool> shared(tile_ids_.size(), false);
-    for (const Stay& s : stays) {
-        if (user[s.tile] != kNobody && user[s.tile] != s.vehicle) shared[s.tile] = true;
-        user[s.tile] = s.vehicle;
-    }
-    std::erase_if(stays, [&](const Stay& s) { return !shared[s.tile]; });
     std::stable_sort(stays.begin(), stays.end(), [](const Stay& a, const Stay& b) {
         return a.tile != b.tile ? a.tile < b.tile : a.number < b.number;
     });

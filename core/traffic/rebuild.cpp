@@ -50,20 +50,26 @@ TrafficRecord Traffic::record() const {
 
 Result<Traffic> Traffic::rebuild(const TrafficRecord& record, const std::vector<MoveGraph>& graphs,
                                  bool report_changes) {
+    Traffic empty(report_changes);
+    for (const MoveGraph& graph : graphs) empty.add_graph(graph);
+    return rebuild(record, std::move(empty));
+}
+
+Result<Traffic> Traffic::rebuild(const TrafficRecord& record, Traffic empty) {
     const auto broken = [](const char* why, const std::string& vehicle) {
         return fail(Errc::kInvalid, "traffic_record_broken",
                     "The stored traffic state contradicts itself.", {},
                     {{"why", std::string(why)}, {"vehicle", vehicle}});
     };
-    Traffic traffic(report_changes);
-    for (const MoveGraph& graph : graphs) traffic.add_graph(graph);
+    Traffic traffic = std::move(empty);
     for (const TileId tile : record.tile_order) traffic.tiles_.index_of(tile);
     traffic.predicted_ = record.predicted_s >= 0;
     traffic.predicted_s_ = record.predicted_s;
     std::vector<VehiclePlan> plans;
     std::vector<std::vector<std::int64_t>> ranks;
     for (const VehicleRecord& row : record.vehicles) {
-        if (row.graph != kNoGraph && row.graph >= graphs.size()) return broken("graph", row.name);
+        if (row.graph != kNoGraph && row.graph >= traffic.graphs_.size())
+            return broken("graph", row.name);
         if (row.released < row.passed || row.released - row.passed > row.moves.size()) {
             return broken("counters", row.name);
         }

@@ -203,7 +203,9 @@ public:
 
     // --- restart and monitor
     TrafficRecord record() const;
-    /// Same graphs, in the same order. Errors: traffic_record_broken {why}.
+    /// `empty` has the same graphs, in the same order, and nothing else; a copy shares them, and
+    /// to compile them costs more than the rest. Errors: traffic_record_broken {why}.
+    static Result<Traffic> rebuild(const TrafficRecord& record, Traffic empty);
     static Result<Traffic> rebuild(const TrafficRecord& record,
                                    const std::vector<MoveGraph>& graphs,
                                    bool report_changes = false);

@@ -33,7 +33,7 @@ bool same_floor(const std::vector<traffic::TileId>& of_graphs, const traffic::Tr
 void read_state(Reader& in, FleetState& fleet) {
     take_vehicles_of_plant(fleet);
     find_classes(fleet);
-    for (const auto& graph : fleet.tables->graphs) fleet.floor.traffic.add_graph(graph);
+    fleet.floor.traffic = fleet.tables->empty_floor;
     const std::vector<traffic::TileId> of_graphs = fleet.floor.traffic.tile_order();
     read_vehicles(in, fleet);
     in.get(fleet);
