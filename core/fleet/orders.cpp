@@ -9,9 +9,11 @@
 namespace pulseline::fleet {
 namespace {
 
-// Near enough that the cameras see the codes and the vehicle only has to correct its stop.
+// Near enough that the cameras see the codes and the vehicle only has to correct its stop. Well
+// inside what a correction reaches (our agents: 0.1 m and 1 deg): one that is refused as too far
+// would be asked for again and again, where a leg gets there.
 constexpr double kNearlyThere_m = 0.06;
-constexpr double kNearlyThere_rad = 1.5 * kPi / 180.0;
+constexpr double kNearlyThere_rad = radians(0.8);
 constexpr std::size_t kMaxSteps = 100;
 
 std::string step_field(std::size_t step, const char* name) {

@@ -17,6 +17,7 @@ namespace landmark = plant::landmark;
 constexpr double kSite_m = 0.0008;  // between neighbouring border sites
 constexpr double kSector_rad = kPi / 4;
 constexpr double kClipped = 252;
+constexpr double kNearlyClipped = 244;  // what clips in the mean, and noise
 constexpr double kLeastContrast = 8;
 constexpr double kFaint = 0.15;    // step that counts as one where paper is clipped
 constexpr double kPlain = 0.3;     // and elsewhere, relative to ink on paper in that light
@@ -36,7 +37,7 @@ std::optional<float> level(const cv::Mat& grey, const plant::Camera& camera,
 /// Shares, 0 to 1.
 struct Sector {
     double dark = 0;           // of the samples: darker than midway
-    double clipped = 0;        // of the samples
+    double clipped = 0;        // of the samples: clipped or nearly
     double informed = 0;       // of the places on the outline: ring or paper beside it not clipped
     double shown = 0;          // of those: the ring is darker than the paper beside it
     bool light_clips = false;  // the light alone clips paper here, without glare
@@ -113,7 +114,7 @@ std::optional<Sector> sample_sector(const cv::Mat& grey, const plant::Camera& ca
             if (!l) return std::nullopt;
             const double white = light.at(radius * direction(turn));
             dark += static_cast<double>(*l) < std::max(white, kLeastContrast) * (1 + ratio) / 2;
-            clipped += static_cast<double>(*l) >= kClipped;
+            clipped += static_cast<double>(*l) >= kNearlyClipped;
         }
         const double step = (1 - ratio) * light.at(landmark::kInner_m * direction(turn));
         for (const auto& [on_ring, on_paper] : {std::pair{0.0312, 0.0287}, {0.0388, 0.0413}}) {

@@ -1,9 +1,11 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <optional>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "api/vision/camera_file.hpp"
@@ -86,7 +88,11 @@ public:
         const cv::Mat image = simulation::render_floor(camera_, body, codes, conditions);
         Capture made;
         const auto own = vision::read_marker(MarkerKind::kLandmark, image, camera_);
-        if (own && own->payload == payload) made.own = Seen{{own->x_m, -own->y_m}, own->angle_rad};
+        if (own && own->payload == payload) {
+            made.own = Seen{{own->x_m, -own->y_m}, own->angle_rad};
+        } else {
+            keep_refused(image, own ? "payload " + own->payload : own.error().what);
+        }
         if (const auto found = vision::li_landmark(image, camera_, size_m_)) {
             const auto pose = vision::li_p4p(*found, camera_);
             made.paper = Seen{{pose.translation.x(), -pose.translation.y()},
@@ -96,9 +102,17 @@ public:
     }
 
 private:
+    /// None should be: the picture is there to find out why.
+    void keep_refused(const cv::Mat& image, const std::string& why) {
+        const std::string file = "refused-" + std::to_string(++refused_) + ".png";
+        cv::imwrite(file, image);
+        fmt::print("refused: {} ({})\n", why, file);
+    }
+
     std::mt19937_64 random_;
     plant::Camera camera_;
     double size_m_;
+    int refused_ = 0;
 };
 
 /// Errors of one pipeline in one row.

@@ -108,6 +108,23 @@ TEST(Fleet, OutsideToleranceIsApproachedThreeTimesThenAPersonIsAsked) {
     EXPECT_EQ(world.only_order().state, JobState::kEnded);
 }
 
+TEST(Fleet, OneTurnedFurtherThanACorrectionReachesGetsALegToItsOwnStation) {
+    for (const auto& [off_deg, is_leg] : {std::pair{0.5, false}, {1.2, true}}) {
+        World world;
+        world.connect_all();
+        world.vehicles_move = false;
+        world.vehicle("V1").state.pose->heading_rad += radians(off_deg);
+        world.run(1);
+
+        ASSERT_TRUE(world.order("V1", {1}));
+        world.run(1);
+
+        const auto& record = world.store.vehicles.at(plant::VehicleId("V1"));
+        ASSERT_TRUE(record.has_leg);
+        EXPECT_EQ(record.leg_data.nodes.size() > 1, is_leg) << off_deg;
+    }
+}
+
 TEST(Fleet, AStopThatCannotBeMeasuredNamesTheReason) {
     World world;
     world.connect_all();
