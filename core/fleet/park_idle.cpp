@@ -131,6 +131,15 @@ void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
     run.floor.next_leave = now + kLeaveAgain;
 }
 
+/// It stands on a road or where vehicles only stop: traffic finds the way to a resting place.
+void leave_place(FleetState& fleet, VehicleRun& run, Time now) {
+    if (fleet.floor.traffic.admit(run.floor.vehicle, {}, now)) {
+        leave(fleet, run, last_station(fleet, run), now);
+    } else {
+        run.floor.next_leave = now + kLeaveAgain;
+    }
+}
+
 }  // namespace
 
 void park_idle(FleetState& fleet, Time now) {
@@ -144,7 +153,8 @@ void park_idle(FleetState& fleet, Time now) {
         // An order whose own way is barred does not keep its vehicle from making way meanwhile.
         const bool waits = !fleet.orders.of(id) || run.floor.next_try;
         const bool has_way = plan.last() > plan.passed;
-        const bool astray = !has_way && plan.place == traffic::kNoPlace && !is_loaded(run);
+        const bool astray =
+            !has_way && !fleet.floor.traffic.is_resting(run.floor.vehicle) && !is_loaded(run);
         const bool idle = !run.has_leg() && waits && (has_way || astray);
         if (!idle || cannot_move(fleet, run) || not_ready(fleet, run, now)) {
             if (!idle) run.floor.idle_since.reset();
@@ -157,7 +167,12 @@ void park_idle(FleetState& fleet, Time now) {
             const bool stuck = long_idle && fleet.orders.of(id);
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
             if (soon || (!stuck && !is_wanted_away(run))) continue;
-            if (!ends_charging(fleet, run, now)) leave_from_anywhere(fleet, run, now);
+            if (ends_charging(fleet, run, now)) continue;
+            if (plan.place == traffic::kNoPlace) {
+                leave_from_anywhere(fleet, run, now);
+            } else {
+                leave_place(fleet, run, now);
+            }
             continue;
         }
         if (!long_idle && !is_wanted_away(run)) continue;

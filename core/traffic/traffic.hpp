@@ -124,6 +124,10 @@ public:
         vehicles_[vehicle].leaves_rest = leaves;
     }
 
+    /// Its plan ends at a resting place, or without one it stands at one. The layout's condition is
+    /// for those only: who stands elsewhere without a plan, as after a restart, may be in the way.
+    bool is_resting(VehicleIndex vehicle) const;
+
     // --- plans
     /// A new task instead of the present one, behind the base. Tries in turn: the soonest plan that
     /// delays nobody (SIPP over the others' predicted stays); the same with idle vehicles out of
@@ -276,7 +280,6 @@ private:
     bool rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
                         double now_s);
     VisitIndex first_open_visit(VehicleIndex vehicle) const;
-    bool is_resting(VehicleIndex vehicle) const;
     bool is_blocked(VehicleIndex vehicle, double now_s) const;
     std::size_t count_blocked(double now_s) const;
     double oldest_finish_s() const;

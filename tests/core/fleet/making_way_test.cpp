@@ -126,6 +126,23 @@ TEST(MakingWay, OneBetweenPlacesThatCannotTurnLeavesAlongItsLane) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
 }
 
+TEST(MakingWay, OneOnTheRoadThatCannotGoOnLeavesItForTheOneItKeepsIn) {
+    plant::Plant plant =
+        plant_of({{"end", 10, 40, 1}, {"north", 50, 52, 2}, {"south", 50, 28, 3}, {"fork", 50, 40}},
+                 {{"end", "fork"}, {"fork", "north"}, {"fork", "south"}}, 2);
+    plant.stations[0].resting_place = false;
+    plant.vehicles[0].home = plant::StationId("s2");
+    plant.vehicles[1].home = plant::StationId("s1");
+    World world(plant);
+    world.vehicle("V1").state.pose = {30, 40, 0};  // as found there after a restart
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {1}));
+    world.run(900);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
 TEST(MakingWay, TwoHeadOnBetweenPlacesAfterARestartFindAWayApart) {
     for (const std::size_t passed : {2, 4, 6}) {
         World world(corridor());
