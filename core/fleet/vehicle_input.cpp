@@ -55,9 +55,12 @@ void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-/// It has given up its order, or done all of it.
+/// It has given up its order, or done all of it. One whose drive failed while it corrected its stop
+/// says that it does not drive, but not that the correction is over.
 bool has_nothing_left(const StateMessage& state) {
-    return state.node_states.empty() && state.edge_states.empty() && !state.driving;
+    return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
+           std::none_of(state.action_states.begin(), state.action_states.end(),
+                        [](const auto& action) { return action.status == ActionStatus::kRunning; });
 }
 
 void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {

@@ -126,6 +126,28 @@ TEST(LostLegs, TheCancelOfOneThatWasGivenUpWhileTheServerWasDownEndsTheOrderOnce
     EXPECT_EQ(std::count_if(world.store.events.begin(), world.store.events.end(), ends), 1);
 }
 
+TEST(LostLegs, OneWhoseStopIsStillBeingCorrectedIsNotOver) {
+    World world;
+    world.connect_all();
+    FakeVehicle& vehicle = world.vehicle("V1");
+    ASSERT_TRUE(world.order("V1", {2}));
+    const auto& record = world.store.vehicles[kV1];
+    for (int i = 0; i < 600 && (!record.has_leg || !vehicle.state.node_states.empty()); ++i)
+        world.run(0.1);
+    world.vehicles_move = false;
+    const LegId leg = record.leg;
+    // Cancelled where its drive failed: the measurement has failed, the correction goes on.
+    report_action(vehicle, leg.str() + "-measureStop", ActionStatus::kFailed);
+    report_action(vehicle, leg.str() + "-adjustToMarker", ActionStatus::kRunning);
+    vehicle.state.driving = false;
+    world.run(2);
+    EXPECT_EQ(record.leg, leg);
+
+    report_action(vehicle, leg.str() + "-adjustToMarker", ActionStatus::kFailed);
+    world.run(1);
+    EXPECT_NE(record.leg, leg);
+}
+
 TEST(LostLegs, AnOrderThatIsNotOfThisServerIsCancelledByAPersonsAct) {
     World world;
     world.connect_all();
