@@ -296,6 +296,35 @@ Result<fleet::OrderQuery> read_order_query(const Request& request) {
     return query;
 }
 
+Result<SheetsRequest> read_sheets(const Request& request) {
+    SheetsRequest wanted;
+    const std::string format = request.query_value("format").value_or("pdf");
+    if (format == "pdf") {
+        wanted.format = printing::SheetFormat::kPdf;
+    } else if (format == "svg") {
+        wanted.format = printing::SheetFormat::kSvg;
+    } else if (format != "csv") {
+        return fail(Errc::kInvalid, "unknown_value", "The format is pdf, svg or csv (the list).",
+                    "?format", {{"value", format.substr(0, 64)}});
+    }
+    std::string_view rest;
+    const auto text = request.query_value("stations");
+    if (text) rest = *text;
+    while (text) {
+        const auto comma = rest.find(',');
+        const auto number = parse_integer(rest.substr(0, comma), 0, kMaxStation);
+        if (!number) {
+            return fail(Errc::kInvalid, "wrong_type",
+                        "The stations are numbers with commas between them.", "?stations",
+                        {{"expected", std::string("integers")}});
+        }
+        wanted.stations.push_back(static_cast<int>(*number));
+        if (comma == std::string_view::npos) break;
+        rest.remove_prefix(comma + 1);
+    }
+    return wanted;
+}
+
 Result<fleet::StopQuery> read_stop_query(const Request& request) {
     fleet::StopQuery query;
     query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));

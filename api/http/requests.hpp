@@ -11,6 +11,7 @@
 #include "core/base/result.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/planning/what_if.hpp"
+#include "core/printing/marker_sheet.hpp"
 
 /// Decoders of everything a client may send. Each error names the field: a JSON pointer into the
 /// body,
@@ -43,6 +44,12 @@ Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 Result<fleet::NewClosure> read_new_closure(const Request& request);
 Result<planning::WhatIf> read_what_if(const Request& request);
 Result<vision::LocalizationQuestion> read_localization(const Request& request);
+
+struct SheetsRequest {
+    std::vector<int> stations;                    // none: all markers
+    std::optional<printing::SheetFormat> format;  // none: the list
+};
+Result<SheetsRequest> read_sheets(const Request& request);
 
 Result<bool> read_dry_run(const Request& request);
 Result<fleet::OrderQuery> read_order_query(const Request& request);

@@ -1,5 +1,6 @@
 #include "api/http/job_order_handlers.hpp"
 #include "api/http/localization_handlers.hpp"
+#include "api/http/marker_handlers.hpp"
 #include "api/http/route_handlers.hpp"
 #include "api/http/router.hpp"
 #include "api/http/schedule_handlers.hpp"
@@ -32,6 +33,13 @@ std::span<const Route> routes() {
         {"GET", "/api/v1/halls/{hall}/grid", "getHallGrid", kViewer, {}, get_hall_grid},
         {"GET", "/api/v1/stations", "listStations", kViewer, {}, list_stations},
         {"GET", "/api/v1/stations/{number}", "getStation", kViewer, {}, get_station},
+
+        {"GET",
+         "/api/v1/marker-sheets",
+         "printMarkers",
+         kViewer,
+         {"stations", "format"},
+         print_markers},
 
         {"GET", "/api/v1/vehicles", "listVehicles", kViewer, {}, list_vehicles},
         {"GET", "/api/v1/vehicles/{id}", "getVehicle", kViewer, {}, get_vehicle},

@@ -4,9 +4,11 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <memory>
+#include <utility>
 
 #include "core/plant/marker_geometry.hpp"
 #include "core/printing/marker_cells.hpp"
@@ -129,58 +131,103 @@ void draw_ruler(cairo_t* pen) {
     text(pen, kX, kY + 5, 3.5, "100 mm: measure it before use");
 }
 
-}  // namespace
+/// What is printed of a marker besides the page's furniture.
+struct Print {
+    MarkerCells cells;  // of QR and AprilTag
+    int code = 0;       // of a landmark
+};
 
-Result<std::string> marker_sheet(const plant::Marker& marker, const std::string& caption,
-                                 SheetFormat format) {
+Result<Print> print_of(const plant::Marker& marker) {
     if (!(marker.size_m > 0) || 1e3 * marker.size_m + 2 * margin_mm(marker) > kMostSheet)
         return fail(Errc::kInvalid, "too_large_for_page",
                     "The marker does not fit an A4 page at its true size.");
-    MarkerCells cells;
-    int code = 0;
-    if (marker.kind == MarkerKind::kLandmark) {
-        const char* end = marker.payload.data() + marker.payload.size();
-        const auto parsed = std::from_chars(marker.payload.data(), end, code);
-        if (parsed.ec != std::errc() || parsed.ptr != end || !landmark::is_code(code))
-            return fail(Errc::kInvalid, "payload_unknown",
-                        "\"" + marker.payload + "\" is no landmark code (1 to 254).");
-    } else {
+    Print print;
+    if (marker.kind != MarkerKind::kLandmark) {
         auto made = marker_cells(marker.kind, marker.payload);
         if (!made) return fail(made.error());
-        cells = std::move(*made);
+        print.cells = std::move(*made);
+        return print;
     }
+    const char* end = marker.payload.data() + marker.payload.size();
+    const auto parsed = std::from_chars(marker.payload.data(), end, print.code);
+    if (parsed.ec != std::errc() || parsed.ptr != end || !landmark::is_code(print.code))
+        return fail(Errc::kInvalid, "payload_unknown",
+                    "\"" + marker.payload + "\" is no landmark code (1 to 254).");
+    return print;
+}
+
+void draw_page(cairo_t* pen, const Sheet& sheet, const Print& print) {
+    draw_ruler(pen);
+    cairo_translate(pen, kMiddleX, kMiddleY);
+    draw_frame(pen, sheet.marker, sheet.caption);
+    const double size_mm = 1e3 * sheet.marker.size_m;
+    if (sheet.marker.kind == MarkerKind::kLandmark) {
+        draw_landmark(pen, print.code, size_mm);
+    } else {
+        draw_cells(pen, print.cells, size_mm);
+    }
+}
+
+}  // namespace
+
+std::vector<Sheet> sheets_of(const plant::Plant& plant, const std::vector<int>& stations) {
+    std::vector<Sheet> sheets;
+    for (const plant::Marker& marker : plant.markers) {
+        const auto station = std::ranges::find_if(plant.stations, [&](const plant::Station& s) {
+            return std::ranges::count(s.markers, marker.id) != 0;
+        });
+        const bool belongs = station != plant.stations.end();
+        if (!stations.empty() && (!belongs || std::ranges::count(stations, station->number) == 0))
+            continue;
+        sheets.push_back(
+            {marker,
+             belongs ? "station " + std::to_string(station->number) + ", " + station->name : ""});
+    }
+    return sheets;
+}
+
+Result<std::string> print_sheets(const std::vector<Sheet>& sheets, SheetFormat format) {
+    std::vector<Print> prints;
+    for (const Sheet& sheet : sheets) {
+        auto print = print_of(sheet.marker);
+        if (!print) {
+            print.error().reason.params.push_back({"marker", sheet.marker.payload});
+            return fail(print.error());
+        }
+        prints.push_back(std::move(*print));
+    }
+    const bool pages = format == SheetFormat::kPdf;
+    const double height = pages ? kHeight : kHeight * static_cast<double>(sheets.size());
+    const auto create =
+        pages ? cairo_pdf_surface_create_for_stream : cairo_svg_surface_create_for_stream;
     std::string bytes;
-    const auto create = format == SheetFormat::kPdf ? cairo_pdf_surface_create_for_stream
-                                                    : cairo_svg_surface_create_for_stream;
+    const Surface surface(create(append, &bytes, kWidth * kPointsPerMm, height * kPointsPerMm),
+                          cairo_surface_destroy);
+    if (!pages) cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PT);
     {
-        const Surface surface(create(append, &bytes, kWidth * kPointsPerMm, kHeight * kPointsPerMm),
-                              cairo_surface_destroy);
-        if (format == SheetFormat::kSvg)
-            cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PT);
         const Pen pen(cairo_create(surface.get()), cairo_destroy);
         cairo_scale(pen.get(), kPointsPerMm, kPointsPerMm);
         cairo_set_source_rgb(pen.get(), 0, 0, 0);
         // Edges exactly where they belong, not where a screen would like them.
         cairo_set_antialias(pen.get(), CAIRO_ANTIALIAS_NONE);
-        draw_ruler(pen.get());
-        cairo_translate(pen.get(), kMiddleX, kMiddleY);
-        draw_frame(pen.get(), marker, caption);
-        if (marker.kind == MarkerKind::kLandmark) {
-            draw_landmark(pen.get(), code, 1e3 * marker.size_m);
-        } else {
-            draw_cells(pen.get(), cells, 1e3 * marker.size_m);
+        for (std::size_t i = 0; i < sheets.size(); ++i) {
+            cairo_save(pen.get());
+            if (!pages) cairo_translate(pen.get(), 0, kHeight * static_cast<double>(i));
+            draw_page(pen.get(), sheets[i], prints[i]);
+            cairo_restore(pen.get());
+            if (pages) cairo_show_page(pen.get());
         }
-        cairo_show_page(pen.get());
-        cairo_surface_finish(surface.get());
-        if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
-            return fail(Errc::kUnavailable, "print_failed", "The sheet could not be drawn.");
     }
+    cairo_surface_finish(surface.get());
+    if (cairo_surface_status(surface.get()) != CAIRO_STATUS_SUCCESS)
+        return fail(Errc::kUnavailable, "print_failed", "The sheets could not be drawn.");
     return bytes;
 }
 
-std::string sheet_list(const std::vector<plant::Marker>& markers) {
+std::string sheet_list(const std::vector<Sheet>& sheets) {
     std::string list = "kind,payload,size_m,x_m,y_m,up_rad\n";
-    for (const plant::Marker& m : markers) {
+    for (const Sheet& sheet : sheets) {
+        const plant::Marker& m = sheet.marker;
         char numbers[160];
         std::snprintf(numbers, sizeof numbers, ",%.6f,%.6f,%.6f,%.8f\n", m.size_m, m.pose.x_m,
                       m.pose.y_m, m.pose.heading_rad);

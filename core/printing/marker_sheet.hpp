@@ -10,15 +10,24 @@ namespace pulseline::printing {
 
 enum class SheetFormat { kPdf, kSvg };
 
-/// True-scale A4 sheet of one marker: its print on white, id and station in words, an arrow for
+struct Sheet {
+    plant::Marker marker;
+    std::string caption;  // its station in words
+};
+
+/// Sheets of all markers of the stations (numbers), or of the whole plant when none is named.
+/// Stations that the plant has not, or that have no marker, give none.
+std::vector<Sheet> sheets_of(const plant::Plant& plant, const std::vector<int>& stations);
+
+/// True-scale A4 pages, one a marker: its print on white, id and station in words, an arrow for
 /// "up" (to be turned to the surveyed direction, north when it is 90 deg), cutting marks, and a
-/// ruler of 100 mm to check that the printer has not scaled it. Returns the document's bytes; fails
-/// with the reasons of marker_cells, payload_unknown for a landmark code out of 1 to 254 and
+/// ruler of 100 mm to check that the printer has not scaled it. SVG knows no pages: there they lie
+/// below each other. Returns the document's bytes; fails, naming the marker {marker}, with the
+/// reasons of marker_cells, payload_unknown for a landmark code out of 1 to 254 and
 /// too_large_for_page.
-Result<std::string> marker_sheet(const plant::Marker& marker, const std::string& caption,
-                                 SheetFormat format);
+Result<std::string> print_sheets(const std::vector<Sheet>& sheets, SheetFormat format);
 
 /// The list that goes with a set of sheets: a header and one line of CSV a marker.
-std::string sheet_list(const std::vector<plant::Marker>& markers);
+std::string sheet_list(const std::vector<Sheet>& sheets);
 
 }  // namespace pulseline::printing

@@ -1,6 +1,5 @@
 #include "server/cli/markers_commands.hpp"
 
-#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
@@ -15,28 +14,6 @@ namespace pulseline::server::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct Sheet {
-    plant::Marker marker;
-    std::string caption;
-};
-
-/// Markers of the stations named, or of the whole plant, with the station in words.
-std::vector<Sheet> wanted(const plant::Plant& plant, const std::vector<int>& stations) {
-    std::vector<Sheet> sheets;
-    for (const plant::Marker& marker : plant.markers) {
-        const auto station = std::ranges::find_if(plant.stations, [&](const plant::Station& s) {
-            return std::ranges::count(s.markers, marker.id) != 0;
-        });
-        const bool belongs = station != plant.stations.end();
-        if (!stations.empty() && (!belongs || std::ranges::count(stations, station->number) == 0))
-            continue;
-        sheets.push_back(
-            {marker,
-             belongs ? "station " + std::to_string(station->number) + ", " + station->name : ""});
-    }
-    return sheets;
-}
 
 std::string file_name(const plant::Marker& marker, const std::string& format) {
     std::string name = std::string(plant::to_string(marker.kind)) + "-" + marker.payload;
@@ -54,7 +31,7 @@ bool write(const fs::path& path, const std::string& bytes) {
 }  // namespace
 
 int write_marker_sheets(const plant::Plant& plant, const SheetInput& input, std::ostream& out) {
-    const auto sheets = wanted(plant, input.stations);
+    const auto sheets = printing::sheets_of(plant, input.stations);
     if (sheets.empty()) {
         out << "pulseline: no marker belongs to the stations named\n";
         return kFailed;
@@ -63,9 +40,8 @@ int write_marker_sheets(const plant::Plant& plant, const SheetInput& input, std:
         input.format == "svg" ? printing::SheetFormat::kSvg : printing::SheetFormat::kPdf;
     std::error_code error;
     fs::create_directories(input.folder, error);
-    std::vector<plant::Marker> markers;
-    for (const Sheet& sheet : sheets) {
-        const auto bytes = printing::marker_sheet(sheet.marker, sheet.caption, format);
+    for (const printing::Sheet& sheet : sheets) {
+        const auto bytes = printing::print_sheets({sheet}, format);
         if (!bytes) {
             out << sheet.marker.payload << ": " << bytes.error().what << "\n";
             return kFailed;
@@ -76,10 +52,9 @@ int write_marker_sheets(const plant::Plant& plant, const SheetInput& input, std:
             return kFailed;
         }
         out << path.string() << "\n";
-        markers.push_back(sheet.marker);
     }
     const fs::path list = fs::path(input.folder) / "list.csv";
-    if (!write(list, printing::sheet_list(markers))) {
+    if (!write(list, printing::sheet_list(sheets))) {
         out << "pulseline: cannot write " << list.string() << "\n";
         return kFailed;
     }

@@ -54,6 +54,33 @@ TEST(Session, OverTlsTheCookieIsHostBoundAndSecure) {
     EXPECT_NE(cookie.find("; Secure"), std::string::npos);
 }
 
+TEST(MarkerSheets, OfTheStationsNamedAsPdfSvgOrList) {
+    ApiWorld api;
+    const Answer pdf = api.get("/api/v1/marker-sheets?stations=2,3");
+    ASSERT_EQ(pdf.status, 200) << pdf.body;
+    EXPECT_EQ(pdf.content_type, "application/pdf");
+    EXPECT_EQ(pdf.body.substr(0, 5), "%PDF-");
+    EXPECT_EQ(pdf.header("Content-Disposition"), "attachment; filename=\"floor-codes.pdf\"");
+    const Answer svg = api.get("/api/v1/marker-sheets?stations=2&format=svg");
+    EXPECT_EQ(svg.content_type, "image/svg+xml");
+    EXPECT_NE(svg.body.find("<svg"), std::string::npos);
+    const Answer list = api.get("/api/v1/marker-sheets?stations=2,3&format=csv");
+    EXPECT_EQ(list.body.rfind("kind,payload,size_m,x_m,y_m,up_rad\nqr,ST02-F,", 0), 0u);
+    EXPECT_EQ(std::ranges::count(list.body, '\n'), 5);
+}
+
+TEST(MarkerSheets, RefuseWhatIsNotThere) {
+    ApiWorld api;
+    const auto refused = [&](const char* query) {
+        const Answer answer = api.get(std::string("/api/v1/marker-sheets?") + query);
+        return std::to_string(answer.status) + " " + answer.json()["code"].get<std::string>();
+    };
+    EXPECT_EQ(refused("stations=77"), "422 unknown_station");
+    EXPECT_EQ(refused("stations=2,,3"), "400 wrong_type");
+    EXPECT_EQ(refused("stations="), "400 wrong_type");
+    EXPECT_EQ(refused("stations=2&format=docx"), "400 unknown_value");
+}
+
 TEST(Session, SixthSignInWithinAMinuteIsToldWhenToComeBack) {
     ApiWorld api;
     for (int i = 0; i < 5; ++i) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
 namespace pulseline::printing {
 namespace {
 
@@ -20,20 +22,57 @@ TEST(MarkerSheet, IsAPdfOrAnSvgOfAnA4Page) {
     for (const auto& m :
          {marker(MarkerKind::kQr, "ST04-F", 0.06), marker(MarkerKind::kAprilTag, "17", 0.05),
           marker(MarkerKind::kLandmark, "85", 0.08)}) {
-        const auto pdf = marker_sheet(m, "station 4", SheetFormat::kPdf);
+        const auto pdf = print_sheets({{m, "station 4"}}, SheetFormat::kPdf);
         ASSERT_TRUE(pdf);
         EXPECT_EQ(pdf->substr(0, 5), "%PDF-");
         EXPECT_NE(pdf->find("595.275"), std::string::npos);  // 210 mm in points
-        const auto svg = marker_sheet(m, "station 4", SheetFormat::kSvg);
+        const auto svg = print_sheets({{m, "station 4"}}, SheetFormat::kSvg);
         ASSERT_TRUE(svg);
         EXPECT_NE(svg->find("<svg"), std::string::npos);
         EXPECT_NE(svg->find("841.889"), std::string::npos);  // 297 mm
     }
 }
 
+/// Places where a word stands in a document.
+std::size_t count(const std::string& in, const std::string& word) {
+    std::size_t found = 0;
+    for (auto at = in.find(word); at != std::string::npos; at = in.find(word, at + 1)) ++found;
+    return found;
+}
+
+TEST(MarkerSheet, SeveralArePagesOfOnePdfAndLieBelowEachOtherInAnSvg) {
+    const std::vector<Sheet> sheets{{marker(MarkerKind::kQr, "ST04-F", 0.06), "station 4"},
+                                    {marker(MarkerKind::kLandmark, "85", 0.08), "station 5"},
+                                    {marker(MarkerKind::kQr, "ST04-B", 0.06), "station 4"}};
+    const auto pdf = print_sheets(sheets, SheetFormat::kPdf);
+    ASSERT_TRUE(pdf);
+    EXPECT_EQ(count(*pdf, "/Type /Page\n"), 3u);
+    const auto svg = print_sheets(sheets, SheetFormat::kSvg);
+    ASSERT_TRUE(svg);
+    EXPECT_NE(svg->find("2525.669"), std::string::npos);  // 3 x 297 mm
+}
+
+TEST(SheetsOf, AreThoseOfTheStationsNamedOrAll) {
+    plant::Plant plant;
+    plant.markers = {marker(MarkerKind::kQr, "ST04-F", 0.06),
+                     marker(MarkerKind::kQr, "LOOSE", 0.06)};
+    plant.markers[0].id = plant::MarkerId("m1");
+    plant.markers[1].id = plant::MarkerId("m2");
+    plant.stations.resize(1);
+    plant.stations[0].number = 4;
+    plant.stations[0].name = "Wing";
+    plant.stations[0].markers = {plant::MarkerId("m1")};
+
+    EXPECT_EQ(sheets_of(plant, {}).size(), 2u);
+    EXPECT_TRUE(sheets_of(plant, {5}).empty());
+    const auto named = sheets_of(plant, {4});
+    ASSERT_EQ(named.size(), 1u);
+    EXPECT_EQ(named[0].caption, "station 4, Wing");
+}
+
 TEST(MarkerSheet, RefusesWhatCannotBePrinted) {
     const auto reason = [](const plant::Marker& m) {
-        const auto sheet = marker_sheet(m, "", SheetFormat::kPdf);
+        const auto sheet = print_sheets({{m, ""}}, SheetFormat::kPdf);
         return sheet ? "" : sheet.error().reason.code;
     };
     EXPECT_EQ(reason(marker(MarkerKind::kLandmark, "255", 0.08)), "payload_unknown");
@@ -42,7 +81,7 @@ TEST(MarkerSheet, RefusesWhatCannotBePrinted) {
 }
 
 TEST(SheetList, HasOneLineAMarker) {
-    EXPECT_EQ(sheet_list({marker(MarkerKind::kAprilTag, "17", 0.05)}),
+    EXPECT_EQ(sheet_list({{marker(MarkerKind::kAprilTag, "17", 0.05), ""}}),
               "kind,payload,size_m,x_m,y_m,up_rad\n"
               "apriltag,17,0.050000,12.500000,3.250000,1.50000000\n");
 }

@@ -63,6 +63,7 @@ export function StationsPage() {
                 </button>
               ))}
             </div>
+            {shown.length > 0 && <PrintCodes stations={shown.map((s) => s.number)} />}
           </div>
           <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
             {shown.length === 0 && <PanelEmpty what={t("none_fits")} />}
@@ -75,6 +76,26 @@ export function StationsPage() {
         </>
       )}
     </Card>
+  );
+}
+
+/** True-scale sheets of the floor codes of the stations shown, to print, cut and lay. */
+function PrintCodes({ stations }: { stations: number[] }) {
+  const { t } = useTranslation("stations");
+  return (
+    <div className="row print" role="group" aria-label={t("print")}>
+      <span>{t("print")}</span>
+      {(["pdf", "svg", "csv"] as const).map((format) => (
+        <a
+          key={format}
+          className="btn quiet"
+          href={`/api/v1/marker-sheets?stations=${stations.join(",")}&format=${format}`}
+          download
+        >
+          {t(`print_${format}`)}
+        </a>
+      ))}
+    </div>
   );
 }
 

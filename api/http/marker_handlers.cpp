@@ -1,0 +1,68 @@
+#include "api/http/marker_handlers.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
+#include "core/printing/marker_sheet.hpp"
+
+namespace pulseline::api {
+namespace {
+
+constexpr std::size_t kMostSheets = 400;  // some seconds of drawing
+
+Response file(const char* content_type, const char* extension, std::string bytes) {
+    return {200,
+            content_type,
+            {{"Content-Disposition",
+              std::string("attachment; filename=\"floor-codes.") + extension + "\""},
+             {"Cache-Control", "private, no-cache"}},
+            std::move(bytes)};
+}
+
+/// A station that is not there would be missed on the floor only.
+std::optional<Error> unknown_among(const std::vector<int>& stations, const plant::Plant& plant) {
+    for (const int number : stations) {
+        const auto is_it = [&](const plant::Station& s) { return s.number == number; };
+        if (std::ranges::any_of(plant.stations, is_it)) continue;
+        return Error{Errc::kUnreachable,
+                     {"unknown_station", {{"station", std::int64_t{number}}}},
+                     "There is no station " + std::to_string(number) + ".",
+                     "?stations"};
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+Response print_markers(const HistoryContext& context, const Request& request) {
+    const auto wanted = read_sheets(request);
+    if (!wanted) return problem(400, wanted.error(), request);
+    if (const auto error = unknown_among(wanted->stations, context.plant)) {
+        return problem(422, *error, request);
+    }
+    const auto sheets = printing::sheets_of(context.plant, wanted->stations);
+    if (sheets.empty() || sheets.size() > kMostSheets) {
+        return problem(422,
+                       {Errc::kUnreachable,
+                        {sheets.empty() ? "no_markers" : "too_many_sheets",
+                         {{"sheets", static_cast<std::int64_t>(sheets.size())},
+                          {"max", static_cast<std::int64_t>(kMostSheets)}}},
+                        sheets.empty() ? "These stations have no floor codes."
+                                       : "These are too many sheets for one file: name fewer "
+                                         "stations.",
+                        "?stations"},
+                       request);
+    }
+    if (!wanted->format)
+        return file("text/csv; charset=utf-8", "csv", printing::sheet_list(sheets));
+    auto bytes = printing::print_sheets(sheets, *wanted->format);
+    if (!bytes) return problem(422, bytes.error(), request);
+    return *wanted->format == printing::SheetFormat::kPdf
+               ? file("application/pdf", "pdf", std::move(*bytes))
+               : file("image/svg+xml", "svg", std::move(*bytes));
+}
+
+}  // namespace pulseline::api
