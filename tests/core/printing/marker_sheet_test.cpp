@@ -46,7 +46,7 @@ TEST(MarkerSheet, SeveralArePagesOfOnePdfAndLieBelowEachOtherInAnSvg) {
                                     {marker(MarkerKind::kQr, "ST04-B", 0.06), "station 4"}};
     const auto pdf = print_sheets(sheets, SheetFormat::kPdf);
     ASSERT_TRUE(pdf);
-    EXPECT_EQ(count(*pdf, "/Type /Page\n"), 3u);
+    EXPECT_EQ(count(*pdf, "/Type /Page %"), 3u);
     const auto svg = print_sheets(sheets, SheetFormat::kSvg);
     ASSERT_TRUE(svg);
     EXPECT_NE(svg->find("2525.669"), std::string::npos);  // 3 x 297 mm
