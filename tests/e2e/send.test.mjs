@@ -1,6 +1,7 @@
 // The operator's main job in Chromium against the real server and three real agents: sign in, send a platform,
 // see it arrive, read how far from the drawing it stopped. The world's own log is the judge.
 import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
 import { after, before, test } from "node:test";
 import { Client, angleBetween } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
@@ -126,6 +127,21 @@ test("a viewer can look and not send", async () => {
   await start.click({ force: true });
   await start.click({ force: true });
   assert.equal((await client.get("/api/v1/job-orders")).items.length, before);
+  await page.context().close();
+});
+
+test("the floor codes of the stations shown are printed, and listed", async () => {
+  const page = await signedIn(browser, system, "viewer");
+  await page.goto(`${system.url}/stations`);
+  const saved = async (name) => {
+    const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name, exact: true }).click()]);
+    return readFile(await download.path(), "latin1");
+  };
+  await page.getByRole("button", { name: /^Ready/ }).click();
+  assert.match(await saved("PDF"), /^%PDF-[^]*\/Type \/Page % 2/);
+  const list = await saved("List");
+  assert.equal(list.trimEnd().split("\n").length, 3, "two codes of the one station that is ready");
+  assert.match(list, /^kind,payload,size_m,x_m,y_m,up_rad\nqr,ST04-F,/);
   await page.context().close();
 });
 

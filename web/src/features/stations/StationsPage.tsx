@@ -88,7 +88,7 @@ function PrintCodes({ stations }: { stations: number[] }) {
       {(["pdf", "svg", "csv"] as const).map((format) => (
         <a
           key={format}
-          className="btn quiet"
+          className="btn"
           href={`/api/v1/marker-sheets?stations=${stations.join(",")}&format=${format}`}
           download
         >
