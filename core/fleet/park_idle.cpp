@@ -1,11 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include "core/fleet/dispatch_phases.hpp"
-#include "core/kinematics/primitives.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -13,6 +13,10 @@ namespace {
 // An order that comes soon after a stop finds the vehicle still there.
 constexpr Duration kParkAfter = std::chrono::seconds(10);
 constexpr std::size_t kMostRestsTried = 6;  // a plan each
+constexpr std::size_t kMostRestsTriedAfter = 2;
+/// Straight ahead or back before the way to a resting place: where it stands, others' floor may
+/// leave a vehicle no turn.
+constexpr std::array kFirst_m{0.0, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0, 8.0, -8.0};
 constexpr Duration kLeaveAgain = std::chrono::seconds(2);
 
 std::set<traffic::VehicleIndex> waited_for(const FleetState& fleet) {
@@ -88,13 +92,13 @@ std::vector<const plant::Station*> resting_places(const FleetState& fleet, const
 }
 
 /// As a person would plan it: straight to a resting place where that is free, else by the roads.
-bool leave_to_rest(FleetState& fleet, VehicleRun& run,
+bool leave_to_rest(FleetState& fleet, VehicleRun& run, double first_m,
                    const std::vector<const plant::Station*>& rests, Time now) {
-    std::size_t tried = 0;
     for (const auto* station : rests) {
-        if (++tried > kMostRestsTried) break;
-        const auto plan = fleet.planner.plan_leg(
-            leg_request(fleet, run, run.record.pose, station->id, plant::MotionMode::kAuto));
+        const auto request =
+            leg_request(fleet, run, run.record.pose, station->id, plant::MotionMode::kAuto);
+        const auto plan = first_m == 0 ? fleet.planner.plan_leg(request)
+                                       : fleet.planner.plan_leg_after(first_m, request);
         if (!plan) continue;
         Leg leg =
             build_leg(fleet, run, *plan, *station, run.record.pose, LegId(fleet.ids.next(now)));
@@ -104,29 +108,12 @@ bool leave_to_rest(FleetState& fleet, VehicleRun& run,
     return false;
 }
 
-/// Where no turn is to be had: along its lane to a place that traffic knows, and traffic finds the
-/// rest of the way, to whatever resting place it can.
-bool leave_along_lane(FleetState& fleet, VehicleRun& run, const plant::Station& rest, Time now) {
-    const auto& motion = fleet.floor.classes[run.floor.of_class].motion;
-    const plant::HallId hall(hall_of(fleet, run));
-    for (const auto& straight : motion.straights_to_places(hall, run.record.pose)) {
-        planning::LegPlan plan;
-        plan.segments = {straight};
-        kinematics::set_durations(*run.type, plan.segments);
-        Leg leg = build_leg(fleet, run, plan, rest, run.record.pose, LegId(fleet.ids.next(now)));
-        leg.nodes.back().node_id = "p1";
-        leg.nodes.back().actions.clear();
-        if (!try_leg(fleet, run, std::move(leg), now)) return true;
-    }
-    return false;
-}
-
 /// It stands beside the places that traffic knows, so traffic cannot send it off.
 void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
-    const auto rests = resting_places(fleet, run);
-    if (leave_to_rest(fleet, run, rests, now) ||
-        (!rests.empty() && leave_along_lane(fleet, run, *rests.front(), now))) {
-        return tell_leaving(fleet, run, now);
+    auto rests = resting_places(fleet, run);
+    for (const double first_m : kFirst_m) {
+        rests.resize(std::min(rests.size(), first_m == 0 ? kMostRestsTried : kMostRestsTriedAfter));
+        if (leave_to_rest(fleet, run, first_m, rests, now)) return tell_leaving(fleet, run, now);
     }
     run.floor.next_leave = now + kLeaveAgain;
 }

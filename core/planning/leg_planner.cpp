@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
 #include <limits>
 
 #include "core/kinematics/primitives.hpp"
@@ -328,6 +329,33 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     }
     // Nothing feasible: the first mode, linear, has the widest choice of ways.
     return std::move(options.front().plan);
+}
+
+Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) const {
+    assert(request.type);
+    std::unique_ptr<Tables::Prepared> fresh;
+    const auto task = tables_->task_of(request, tables_->of(*request.type, request.loaded, fresh));
+    if (!task) return fail(task.error());
+    const geometry::Point2 ahead{std::cos(request.start.heading_rad),
+                                 std::sin(request.start.heading_rad)};
+    std::vector<Segment> segments;
+    kinematics::append_straight(segments, request.start,
+                                request.start.position() + first_m * ahead);
+    kinematics::set_durations(*request.type, segments);
+    const auto pieces = kinematics::sweep(task->passage.body.pieces, segments);
+    if (const auto by = task->obstacles.violation(pieces, task->limits)) {
+        return blocked(*by, task->passage.body.clearance_m);
+    }
+    request.start = segments.back().end;
+    request.from_station = {};
+    return plan_leg(request).map([&](LegPlan plan) {
+        segments.insert(segments.end(), plan.segments.begin(), plan.segments.end());
+        const auto sums = kinematics::summed(plan.mode, std::move(segments));
+        plan.segments = sums.segments;
+        plan.length_m = sums.length_m;
+        plan.duration_s = sums.duration_s;
+        return plan;
+    });
 }
 
 std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,

@@ -98,6 +98,10 @@ public:
     /// reason of the most promising mode).
     Result<LegPlan> plan_leg(const LegRequest& request) const;
 
+    /// As plan_leg, but `first_m` straight ahead (negative: back) before anything else: for a
+    /// vehicle that cannot turn where it stands.
+    Result<LegPlan> plan_leg_after(double first_m, LegRequest request) const;
+
     /// Up to `count` other ways along the roadmap, by cost, sufficiently different from `plan`
     /// (what plan_leg or assess_modes gave for the request) and from each other, none over closed
     /// floor.

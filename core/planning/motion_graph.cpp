@@ -219,32 +219,6 @@ std::optional<std::size_t> MotionGraph::place_at(const plant::HallId& hall,
     return best;
 }
 
-std::vector<kinematics::Segment> MotionGraph::straights_to_places(
-    const plant::HallId& hall, const geometry::Pose2& pose) const {
-    std::vector<kinematics::Segment> found;
-    const Point2 ahead{std::cos(pose.heading_rad), std::sin(pose.heading_rad)};
-    for (const MotionWay& way : ways) {
-        if (way.segment.kind != kinematics::Segment::Kind::kStraight) continue;
-        const Pose2& from = places[way.from].pose;
-        const Pose2& to = places[way.to].pose;
-        if (std::abs(to.x_m - pose.x_m) > kLanePiece_m || places[way.to].hall != hall) continue;
-        if (std::abs(wrap(to.heading_rad - pose.heading_rad)) > kAtPlace_rad) continue;
-        const Point2 rest = to.position() - pose.position();
-        const Point2 piece = to.position() - from.position();
-        const double along_m = geometry::dot(rest, ahead);
-        const double beside_m = geometry::cross(ahead, rest);
-        // Ahead of or behind the vehicle as the lane piece is driven, and not beyond its other end.
-        const bool between =
-            along_m * geometry::dot(piece, ahead) > 0 && std::abs(along_m) < geometry::norm(piece);
-        if (!between || std::abs(beside_m) > kAtPlace_m) continue;
-        kinematics::append_straight(found, pose, pose.position() + along_m * ahead);
-    }
-    std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) {
-        return std::abs(a.length_m) < std::abs(b.length_m);
-    });
-    return found;
-}
-
 std::optional<std::size_t> MotionGraph::station_place(const plant::StationId& station) const {
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (places[i].station == station) return i;

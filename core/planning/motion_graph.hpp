@@ -42,11 +42,6 @@ struct MotionGraph {
     std::optional<std::size_t> place_at(const plant::HallId& hall,
                                         const geometry::Pose2& pose) const;
     std::optional<std::size_t> station_place(const plant::StationId& station) const;
-    /// Straights by which a vehicle that stands on a piece of a lane, heading as one drives it
-    /// there, gets to the ends of that piece without a turn, shortest first. Each ends within
-    /// kAtPlace_m of its place.
-    std::vector<kinematics::Segment> straights_to_places(const plant::HallId& hall,
-                                                         const geometry::Pose2& pose) const;
 };
 
 /// Everything the body may do on the roadmap: its lanes forwards and backwards, turns at nodes

@@ -110,7 +110,7 @@ TEST(MakingWay, OneBesideAllPlacesFindsTheFreeOneBehindManyThatAreTaken) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
 }
 
-TEST(MakingWay, OneBetweenPlacesThatCannotTurnLeavesAlongItsLane) {
+TEST(MakingWay, OneOnALaneThatCannotTurnLeavesAlongIt) {
     plant::Plant plant = plant_of(
         {{"east", 44, 40, 1}, {"north", 20, 60, 2}, {"south", 20, 20, 3}, {"west", 20, 40}},
         {{"east", "west"}, {"west", "north"}, {"west", "south"}}, 2);
@@ -124,6 +124,25 @@ TEST(MakingWay, OneBetweenPlacesThatCannotTurnLeavesAlongItsLane) {
     world.run(600);
 
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
+TEST(MakingWay, TwoBesideAllLanesThatKeepEachOtherFromTurningPart) {
+    plant::Plant plant = plant_of(
+        {{"east", 70, 40, 1}, {"north", 20, 60, 2}, {"south", 20, 20, 3}, {"west", 20, 40}},
+        {{"east", "west"}, {"west", "north"}, {"west", "south"}}, 2);
+    plant.vehicle_types[0].motion_modes = {plant::MotionMode::kLinear};
+    World world(plant);
+    // As direct ways after a restart leave them: too near to each other to turn, beside the roads.
+    world.vehicle("V1").state.pose = {40, 50, kPi / 2};
+    world.vehicle("V2").state.pose = {41.8, 50, kPi / 2};
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.order("V2", {3}));
+    world.run(600);
+
+    for (const char* id : {"V1", "V2"})
+        EXPECT_EQ(order_of(world, id).state, JobState::kEnded) << order_of(world, id).reason.code;
 }
 
 TEST(MakingWay, OneOnTheRoadThatCannotGoOnLeavesItForTheOneItKeepsIn) {

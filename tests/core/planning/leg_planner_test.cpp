@@ -237,6 +237,29 @@ TEST(LegPlanner, BacksOutOfABayInWhichItCannotTurn) {
               0.5);
 }
 
+TEST(LegPlanner, DrivesStraightAheadOrBackFirstWhereItIsAskedTo) {
+    LegWorld world(8);
+    world.area("rack", {{36, 6}, {38, 6}, {38, 14}, {36, 14}});  // ahead of station 1
+    const LegPlanner planner(world.plant());
+    const auto request = world.request("platform", 1, 3);
+
+    for (const double first_m : {3.0, -4.0}) {
+        const auto plan = planner.plan_leg_after(first_m, request);
+        ASSERT_TRUE(plan) << plan.error().what;
+        expect_joined(*plan, request.start, {20, 50, 0});
+        EXPECT_EQ(plan->segments.front().kind, Segment::Kind::kStraight);
+        EXPECT_DOUBLE_EQ(plan->segments.front().length_m, first_m);
+        auto later = request;
+        later.start = {20 + first_m, 10, 0};
+        later.from_station = {};
+        EXPECT_NEAR(plan->length_m, planner.plan_leg(later)->length_m + std::abs(first_m), 1e-9);
+    }
+    const auto into_the_rack = planner.plan_leg_after(11, request);
+    ASSERT_FALSE(into_the_rack);
+    EXPECT_EQ(into_the_rack.error().reason.code, "blocked");
+    EXPECT_EQ(value<std::string>(into_the_rack.error(), "by"), "rack");
+}
+
 TEST(LegPlanner, FindsItsWayFromBesideTheRoadmap) {
     LegWorld world(8);
     const LegPlanner planner(world.plant());
