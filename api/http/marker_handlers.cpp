@@ -11,7 +11,9 @@
 namespace pulseline::api {
 namespace {
 
-constexpr std::size_t kMostSheets = 400;  // some seconds of drawing
+// About a second of drawing on the history thread.
+constexpr std::size_t kMostPdfSheets = 300;
+constexpr std::size_t kMostSvgSheets = 40;
 
 Response file(const char* content_type, const char* extension, std::string bytes) {
     return {200,
@@ -44,20 +46,22 @@ Response print_markers(const HistoryContext& context, const Request& request) {
         return problem(422, *error, request);
     }
     const auto sheets = printing::sheets_of(context.plant, wanted->stations);
-    if (sheets.empty() || sheets.size() > kMostSheets) {
+    const bool as_list = !wanted->format;
+    const std::size_t most =
+        wanted->format == printing::SheetFormat::kSvg ? kMostSvgSheets : kMostPdfSheets;
+    if (sheets.empty() || (!as_list && sheets.size() > most)) {
         return problem(422,
                        {Errc::kUnreachable,
                         {sheets.empty() ? "no_markers" : "too_many_sheets",
                          {{"sheets", static_cast<std::int64_t>(sheets.size())},
-                          {"max", static_cast<std::int64_t>(kMostSheets)}}},
+                          {"max", static_cast<std::int64_t>(most)}}},
                         sheets.empty() ? "These stations have no floor codes."
                                        : "These are too many sheets for one file: name fewer "
                                          "stations.",
                         "?stations"},
                        request);
     }
-    if (!wanted->format)
-        return file("text/csv; charset=utf-8", "csv", printing::sheet_list(sheets));
+    if (as_list) return file("text/csv; charset=utf-8", "csv", printing::sheet_list(sheets));
     auto bytes = printing::print_sheets(sheets, *wanted->format);
     if (!bytes) return problem(422, bytes.error(), request);
     return *wanted->format == printing::SheetFormat::kPdf

@@ -307,20 +307,18 @@ Result<SheetsRequest> read_sheets(const Request& request) {
         return fail(Errc::kInvalid, "unknown_value", "The format is pdf, svg or csv (the list).",
                     "?format", {{"value", format.substr(0, 64)}});
     }
-    std::string_view rest;
     const auto text = request.query_value("stations");
-    if (text) rest = *text;
-    while (text) {
-        const auto comma = rest.find(',');
-        const auto number = parse_integer(rest.substr(0, comma), 0, kMaxStation);
+    if (!text) return wanted;
+    for (std::size_t at = 0; at <= text->size();) {
+        const std::size_t end = std::min(text->find(',', at), text->size());
+        const auto number = parse_integer(text->substr(at, end - at), 0, kMaxStation);
         if (!number) {
             return fail(Errc::kInvalid, "wrong_type",
                         "The stations are numbers with commas between them.", "?stations",
                         {{"expected", std::string("integers")}});
         }
         wanted.stations.push_back(static_cast<int>(*number));
-        if (comma == std::string_view::npos) break;
-        rest.remove_prefix(comma + 1);
+        at = end + 1;
     }
     return wanted;
 }

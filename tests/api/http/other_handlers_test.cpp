@@ -79,6 +79,21 @@ TEST(MarkerSheets, RefuseWhatIsNotThere) {
     EXPECT_EQ(refused("stations=2,,3"), "400 wrong_type");
     EXPECT_EQ(refused("stations="), "400 wrong_type");
     EXPECT_EQ(refused("stations=2&format=docx"), "400 unknown_value");
+
+    const auto second = std::ranges::find(api.world.plant.stations, 2, &plant::Station::number);
+    second->markers.clear();
+    EXPECT_EQ(refused("stations=2"), "422 no_markers");
+    EXPECT_EQ(api.get("/api/v1/marker-sheets?stations=2,3&format=csv").status, 200);
+    plant::Marker marker = api.world.plant.markers.front();
+    for (int i = 0; i < 300; ++i) {
+        marker.id = plant::MarkerId("more" + std::to_string(i));
+        second->markers.push_back(marker.id);
+        api.world.plant.markers.push_back(marker);
+    }
+    EXPECT_EQ(refused(""), "422 too_many_sheets");
+    EXPECT_EQ(refused("stations=2&format=svg"), "422 too_many_sheets");
+    EXPECT_EQ(api.get("/api/v1/marker-sheets?format=csv").status, 200);
+    EXPECT_EQ(api.get("/api/v1/marker-sheets?stations=3&format=csv").status, 200);
 }
 
 TEST(Session, SixthSignInWithinAMinuteIsToldWhenToComeBack) {
