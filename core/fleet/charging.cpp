@@ -115,10 +115,7 @@ std::optional<Reason> battery_bar(const VehicleRun& run) {
 bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.state.charging || !run.factsheet) return false;
     if (!has(run.factsheet->actions, "stopCharging")) return false;
-    const bool asked = std::any_of(run.actions.begin(), run.actions.end(), [](const auto& pending) {
-        return pending.action.type == "stopCharging";
-    });
-    if (!asked && (!run.charge_retry || now >= *run.charge_retry)) {
+    if (!is_asked(run, "stopCharging") && (!run.charge_retry || now >= *run.charge_retry)) {
         run.charge_retry = now + kAskAgain;
         Action action;
         action.type = "stopCharging";

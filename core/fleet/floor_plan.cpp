@@ -18,7 +18,7 @@ using traffic::MoveNumber;
 constexpr double kStop_s = 20;  // predicted time of a correction and its measurement
 constexpr double kSamePose_m = 1e-3;
 constexpr double kSamePose_rad = 1e-3;
-constexpr Duration kRetry = std::chrono::seconds(1);
+constexpr Duration kRetry = std::chrono::seconds(1);  // of a barred admission: it is a search
 constexpr Duration kImproveEvery = std::chrono::seconds(1);
 constexpr int kImproveSteps = 4;
 constexpr std::size_t kMostSwept = 256;  // segments of one leg or two

@@ -219,7 +219,8 @@ void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, T
 bool is_on_its_way(const VehicleRun& run);
 /// It carries out an order that this server has not given, or has forgotten.
 bool has_foreign_order(const VehicleRun& run);
-bool is_asked_to_cancel(const VehicleRun& run);
+/// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
+bool is_asked(const VehicleRun& run, const char* action_type);
 /// After a person's act; the vehicle is not ready until that order is gone.
 void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now);
 /// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the

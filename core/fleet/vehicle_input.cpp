@@ -8,26 +8,8 @@
 namespace pulseline::fleet {
 namespace {
 
-constexpr Duration kResendEvery = std::chrono::seconds(1);
-constexpr int kOrderSends = 10;  // then the order is interrupted and a person decides
-constexpr Duration kEscalateAfter = std::chrono::seconds(10);
 constexpr Duration kLongestWay = std::chrono::seconds(10);   // of a message to a vehicle
 constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just ended is told sooner
-
-Link link_after(Duration silent) {
-    if (silent >= kGoneAfter) return Link::kGone;
-    if (silent >= kLostAfter) return Link::kLost;
-    if (silent >= kLateAfter) return Link::kLate;
-    return Link::kLive;
-}
-
-void set_link(FleetState& fleet, VehicleRun& run, Link to, Time now) {
-    if (run.link == to) return;
-    add_event(fleet, now, "vehicle.link", {}, {}, run.record.id, {},
-              {{"from", to_string(run.link)}, {"to", to_string(to)}});
-    run.link = to;
-    fleet.changed_vehicles.insert(run.record.id);
-}
 
 bool is_final(ActionStatus status) {
     return status == ActionStatus::kFinished || status == ActionStatus::kFailed;
@@ -130,9 +112,7 @@ void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
     const StateMessage& state = run.state;
     if (state.position_initialized || state.driving) return;
     if (run.record.integration < Integration::kRespect) return;
-    const bool pending = std::any_of(run.actions.begin(), run.actions.end(),
-                                     [](const auto& p) { return p.action.type == "initPosition"; });
-    if (pending) return;
+    if (is_asked(run, "initPosition")) return;
     const auto pose = pose_from_codes(fleet, run, state.cameras);
     if (!pose) return;
     Action action;
@@ -277,7 +257,7 @@ void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
         return;
     }
     if (!run.foreign_since) run.foreign_since = now;
-    if (now - *run.foreign_since < kForeignAfter || is_asked_to_cancel(run)) return;
+    if (now - *run.foreign_since < kForeignAfter || is_asked(run, "cancelOrder")) return;
     if (run.record.integration != Integration::kUtilise) return;
     require_person(
         fleet, run,
@@ -319,13 +299,8 @@ bool has_foreign_order(const VehicleRun& run) {
            !(state.node_states.empty() && state.edge_states.empty());
 }
 
-bool is_asked_to_cancel(const VehicleRun& run) {
-    return std::any_of(run.actions.begin(), run.actions.end(),
-                       [](const auto& p) { return p.action.type == "cancelOrder"; });
-}
-
 void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
-    if (is_asked_to_cancel(run)) return;
+    if (is_asked(run, "cancelOrder")) return;
     Action action;
     action.type = "cancelOrder";
     add_event(fleet, now, "vehicle.foreign_order_cancelled", {}, {}, run.record.id, actor,
@@ -338,28 +313,6 @@ bool is_on_its_way(const VehicleRun& run) {
     if (run.leg_seen || !run.order_sent) return false;
     // One that fell silent may have got it, and have driven all of its base since.
     return !run.state_at || *run.state_at - *run.order_sent < kLongestWay;
-}
-
-void hear(FleetState& fleet, VehicleRun& run, Time now) {
-    run.last_heard = now;
-    set_link(fleet, run, Link::kLive, now);
-}
-
-void connect(FleetState& fleet, VehicleRun& run, Time now) {
-    run.connected = true;
-    run.reconciled = false;
-    run.newest_header = 0;
-    run.order_sent.reset();  // what was under way on the old connection is lost
-    add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
-    hear(fleet, run, now);
-}
-
-void disconnect(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.connected) return;
-    run.connected = false;
-    run.reconciled = false;
-    add_event(fleet, now, "vehicle.disconnected", {}, {}, run.record.id, {});
-    fleet.changed_vehicles.insert(run.record.id);
 }
 
 void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
@@ -397,28 +350,6 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     offer_pose_from_codes(fleet, run, now);
 }
 
-void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now) {
-    if (action.id.empty()) action.id = to_string(fleet.ids.next(now));
-    PendingAction pending{std::move(action), now, std::nullopt, 0, false};
-    if (run.connected && run.reconciled) {
-        fleet.out.messages.push_back(
-            {run.record.id, std::nullopt, InstantActionsMessage{{pending.action}}});
-        pending.last_sent = now;
-        pending.sends = 1;
-    }
-    run.actions.push_back(std::move(pending));
-}
-
-void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now) {
-    // The newest wish counts: an older pause or unpause still on its way is not sent again.
-    std::erase_if(run.actions, [](const PendingAction& pending) {
-        return pending.action.type == "startPause" || pending.action.type == "stopPause";
-    });
-    Action action;
-    action.type = action_type;
-    send_action(fleet, run, std::move(action), now);
-}
-
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.has_leg() || run.cancelling) return;
     run.cancelling = true;
@@ -428,44 +359,6 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
     send_action(fleet, run, std::move(action), now);
     if (mutated(Mutation::kCancelNotAwaited)) finish_cancel(fleet, run, now);
-}
-
-void update_links(FleetState& fleet, Time now) {
-    for (auto& [id, run] : fleet.vehicles) {
-        if (!run.last_heard) continue;
-        const Link to = link_after(now - *run.last_heard);
-        if (to == run.link) continue;
-        set_link(fleet, run, to, now);
-        if (to == Link::kLost && run.has_leg()) {
-            require_person(fleet, run, {"vehicle_was_lost", {}}, now);
-        }
-    }
-}
-
-void resend(FleetState& fleet, Time now) {
-    for (auto& [id, run] : fleet.vehicles) {
-        if (!run.connected || !run.reconciled) continue;
-        if (run.has_leg() && run.update_sent && now - *run.update_sent >= kResendEvery) {
-            if (run.update_sends >= kOrderSends) {
-                run.update_sent.reset();
-                require_person(fleet, run, {"order_not_accepted", {}}, now);
-            } else {
-                send_order_update(fleet, run, run.update_from, now);
-            }
-        }
-        for (auto& pending : run.actions) {
-            if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
-            fleet.out.messages.push_back(
-                {id, std::nullopt, InstantActionsMessage{{pending.action}}});
-            pending.last_sent = now;
-            ++pending.sends;
-            if (!pending.escalated && now - pending.first_sent >= kEscalateAfter) {
-                pending.escalated = true;
-                add_event(fleet, now, "vehicle.action_unconfirmed", {}, run.record.leg, id, {},
-                          {{"action", pending.action.type}, {"action_id", pending.action.id}});
-            }
-        }
-    }
 }
 
 }  // namespace pulseline::fleet
