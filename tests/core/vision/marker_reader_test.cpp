@@ -157,6 +157,23 @@ TEST(ReadMarkers, FindsBothTagsOfOneView) {
     EXPECT_NEAR(found[1].x_m, 0.045, 5e-6);
 }
 
+TEST(ReadLandmark, LightThatClipsThePaperIsNoGlare) {
+    MarkerView v;
+    v.kind = MarkerKind::kLandmark;
+    for (const double exposure : {0.95, 1.0, 1.05, 1.1, 1.15}) {
+        for (const int payload : {1, 85, 127}) {
+            v.payload = std::to_string(payload);
+            v.conditions.exposure = exposure;
+            v.conditions.gradient_u = 0.1;
+            v.conditions.seed = static_cast<std::uint64_t>(payload);
+            const auto reading = v.read();
+            ASSERT_TRUE(reading) << exposure << " " << payload << ": "
+                                 << reading.error().reason.code;
+            EXPECT_EQ(reading->payload, v.payload) << exposure;
+        }
+    }
+}
+
 TEST(ReadLandmark, GlareOverASectorIsRefusedNotGuessed) {
     MarkerView v;
     v.kind = MarkerKind::kLandmark;
