@@ -4,11 +4,11 @@
 
 namespace pulseline::simulation {
 
-std::optional<vision::QrReading> analytic_reading(const plant::Camera& camera,
-                                                  const Pose2& hall_from_body,
-                                                  std::span<const FloorCode> codes,
-                                                  std::mt19937_64& random,
-                                                  const ReadingErrors& errors) {
+std::optional<vision::MarkerReading> analytic_reading(const plant::Camera& camera,
+                                                      const Pose2& hall_from_body,
+                                                      std::span<const FloorCode> codes,
+                                                      std::mt19937_64& random,
+                                                      const ReadingErrors& errors) {
     const Pose2 camera_from_hall = inverse(hall_from_body * camera.body_from_camera);
     const FloorCode* seen = nullptr;
     Pose2 place;
@@ -29,7 +29,8 @@ std::optional<vision::QrReading> analytic_reading(const plant::Camera& camera,
     vision::Pixel ideal = vision::ideal_pixel(camera, place.position());
     ideal.u += errors.sigma_px * normal(random);
     ideal.v += errors.sigma_px * normal(random);
-    vision::QrReading reading;
+    vision::MarkerReading reading;
+    reading.kind = seen->kind;
     reading.payload = seen->payload;
     reading.centre = vision::distorted(camera, ideal);
     reading.angle_rad = wrap(kPi / 2 - place.heading_rad + errors.sigma_angle_rad * normal(random));

@@ -3,6 +3,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/vision/marker_reader.hpp"
+
 namespace pulseline::simulation {
 namespace {
 
@@ -26,8 +28,8 @@ fleet::CameraReading not_found(const plant::Camera& camera, std::string why) {
 }
 
 /// What the vehicle makes of the true image point when its calibration differs from the truth.
-vision::QrReading reinterpreted(vision::QrReading reading, const plant::Camera& actual,
-                                const plant::Camera& calibrated) {
+vision::MarkerReading reinterpreted(vision::MarkerReading reading, const plant::Camera& actual,
+                                    const plant::Camera& calibrated) {
     const vision::Pixel ideal = vision::undistorted(calibrated, reading.centre);
     reading.x_m = ideal.u / vision::pixels_per_metre(calibrated);
     reading.y_m = ideal.v / vision::pixels_per_metre(calibrated);
@@ -43,7 +45,8 @@ std::optional<Pose2> body_from_code(const fleet::CameraReading& reading) {
 }
 
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
-                                    const vision::QrReading& reading, double calibration_sigma_m) {
+                                    const vision::MarkerReading& reading,
+                                    double calibration_sigma_m) {
     const Pose2 code = vision::body_from_marker(reading, calibrated);
     fleet::CameraReading out;
     out.camera = calibrated.name;
@@ -75,9 +78,10 @@ StopView sense_stop(std::span<const plant::Camera> actual,
         }
         view.images.push_back(
             render_floor(actual[i], hall_from_body, in_reach, ImageConditions::nominal(random)));
-        vision::QrReaderOptions reader;
+        vision::ReaderOptions reader;
         reader.size_m = options.code_size_m;
-        const auto seen = vision::read_qr(view.images.back(), calibrated[i], reader);
+        const auto seen =
+            vision::read_marker(options.kind, view.images.back(), calibrated[i], reader);
         view.readings.push_back(
             seen ? camera_reading(calibrated[i], *seen, options.calibration_sigma_m)
                  : not_found(calibrated[i], seen.error().reason.code));

@@ -19,6 +19,8 @@ struct SensingOptions {
     Sensing mode = Sensing::kRendered;
     /// One sigma of the cameras' mounting and scale, part of every reading's sigma_m.
     double calibration_sigma_m = 0.0001;
+    /// What the vehicle's cameras look for.
+    plant::MarkerKind kind = plant::MarkerKind::kQr;
     double code_size_m = 0.060;
 };
 
@@ -40,6 +42,7 @@ std::optional<Pose2> body_from_code(const fleet::CameraReading& reading);
 
 /// The reading of one camera as the vehicle reports it, in the body frame.
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
-                                    const vision::QrReading& reading, double calibration_sigma_m);
+                                    const vision::MarkerReading& reading,
+                                    double calibration_sigma_m);
 
 }  // namespace pulseline::simulation

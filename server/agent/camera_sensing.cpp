@@ -42,18 +42,32 @@ std::vector<FloorCode> CameraSensing::codes_around() const {
     if (covered_) return codes;
     for (const auto& marker : world_.markers) {
         const bool drawable =
-            marker.kind == plant::MarkerKind::kQr && marker.payload.size() <= kQrBytes;
+            marker.kind != plant::MarkerKind::kQr || marker.payload.size() <= kQrBytes;
         if (options_.mode == simulation::Sensing::kRendered && !drawable) continue;
         if (marker.hall != hall_) continue;
         if (distance(marker.pose.position(), motion_.true_pose().position()) > kAround_m) continue;
-        codes.push_back({marker.payload, marker.pose, marker.size_m, false});
+        codes.push_back({marker.payload, marker.pose, marker.size_m, false, marker.kind});
     }
     return codes;
 }
 
+void CameraSensing::look_for_nearest(const std::vector<FloorCode>& codes) {
+    double least_m = kAround_m;
+    for (const auto& camera : motion_.type().cameras) {
+        const auto foot = motion_.true_pose() * camera.body_from_camera.position();
+        for (const FloorCode& code : codes) {
+            const double away_m = distance(code.pose.position(), foot);
+            if (away_m >= least_m) continue;
+            least_m = away_m;
+            options_.kind = code.kind;
+            options_.code_size_m = code.size_m;
+        }
+    }
+}
+
 void CameraSensing::look() {
     const auto codes = codes_around();
-    if (!codes.empty()) options_.code_size_m = codes.front().size_m;
+    look_for_nearest(codes);
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
     readings_ = std::move(view.readings);

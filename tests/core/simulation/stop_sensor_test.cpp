@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/localisation/dual_camera.hpp"
+#include "core/plant/marker_geometry.hpp"
 #include "core/vision/camera_picture.hpp"
 
 namespace pulseline::simulation {
@@ -105,6 +106,29 @@ TEST_P(SenseStop, ACodeOutOfViewIsReportedWithTheReason) {
     for (const auto& reading : view.readings) {
         EXPECT_FALSE(reading.found);
         EXPECT_EQ(reading.why_not, "no_code");
+    }
+}
+
+TEST(SenseStopOfOneCamera, ReadsTheKindItLooksForAmongOthers) {
+    const std::vector<plant::Camera> camera{platform_cameras().front()};
+    const Pose2 truth{30, 12, radians(70)};
+    for (const auto kind : {plant::MarkerKind::kAprilTag, plant::MarkerKind::kLandmark}) {
+        SensingOptions options;
+        options.kind = kind;
+        options.code_size_m = plant::usual_size_m(kind);
+        const Pose2 lies = truth * Pose2{5.346 + 0.004, -0.006, 0.3};
+        const std::vector<FloorCode> codes{
+            {"17", lies, options.code_size_m, false, kind},
+            {"ST04-F", truth * Pose2{5.346, 0.5, 0}, 0.060, false, plant::MarkerKind::kQr}};
+        std::mt19937_64 random{5};
+
+        const StopView view = sense_stop(camera, camera, truth, codes, options, random);
+
+        ASSERT_TRUE(view.readings[0].found) << view.readings[0].why_not;
+        EXPECT_EQ(view.readings[0].payload, "17");
+        EXPECT_NEAR(view.readings[0].code.x_m, 5.350, 3e-5);
+        EXPECT_NEAR(view.readings[0].code.y_m, -0.006, 3e-5);
+        EXPECT_NEAR(view.readings[0].angle_rad, 0.3, 1e-4);
     }
 }
 

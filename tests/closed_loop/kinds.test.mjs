@@ -1,0 +1,37 @@
+// Vehicles of one camera stop by rendered images of an AprilTag or a circular landmark. Truth comes from the simulated
+// world's own log.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Client, angleBetween } from "../harness/client.mjs";
+import { System } from "../harness/processes.mjs";
+
+const MM = 1e-3;
+const DEG = Math.PI / 180;
+const VEHICLES = { "MV-01": { kind: "AprilTag", stations: [13, 12] }, "DL-01": { kind: "landmark", stations: [32, 31] } };
+let system, client;
+
+before(async () => {
+  system = await System.create("final-assembly");
+  system.prepareVehicles(Object.keys(VEHICLES));
+  await system.startServer();
+  client = new Client(system.url, system.apiToken);
+  for (const [i, id] of Object.keys(VEHICLES).entries()) system.startAgent(id, { seed: 21 + i });
+  for (const id of Object.keys(VEHICLES)) await client.untilReady(id);
+});
+after(() => system?.stop());
+
+for (const [id, { kind, stations }] of Object.entries(VEHICLES)) {
+  test(`${id} stops by the images of a ${kind}, measured and true`, async () => {
+    const order = await client.order(id, stations);
+    assert.equal((await client.untilEnded(order.id, 150)).state, "Ended");
+    const inside = (await client.stops(order.id)).filter((stop) => stop.inside);
+    assert.deepEqual(inside.map((stop) => stop.number), stations);
+    const stop = inside.at(-1);
+    assert.equal(stop.method, "single_camera");
+    const { pose } = system.plant.station(stop.number);
+    const truth = system.lastTruth(id);
+    assert.ok(Math.hypot(stop.dx_m - (truth.x_m - pose.x_m), stop.dy_m - (truth.y_m - pose.y_m)) <= 1 * MM,
+      `record says ${stop.dx_m / MM}, ${stop.dy_m / MM} mm; true is ${(truth.x_m - pose.x_m) / MM}, ${(truth.y_m - pose.y_m) / MM} mm`);
+    assert.ok(Math.abs(angleBetween(stop.dheading_rad, angleBetween(truth.heading_rad, pose.heading_rad))) <= 0.1 * DEG);
+  });
+}
