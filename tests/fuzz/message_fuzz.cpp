@@ -1,0 +1,23 @@
+// Any bytes as a frame of the vehicle link, read as the server reads a vehicle's and as the agent
+// reads the server's.
+#include <string_view>
+
+#include "api/vehicle/frame.hpp"
+#include "api/vehicle/instant_actions.hpp"
+#include "api/vehicle/order.hpp"
+#include "server/vehicle_frames.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+    using namespace pulseline;
+    const std::string_view bytes(reinterpret_cast<const char*>(data), size);
+    plant::Vehicle vehicle;
+    vehicle.manufacturer = "Tang";
+    vehicle.serial_number = "TP-01";
+    (void)server::read_vehicle_frame(bytes, vehicle);
+    (void)vda5050::decode_camera_frame(bytes);
+    if (const auto frame = vda5050::decode_frame(bytes)) {
+        (void)vda5050::decode_order(frame->payload);
+        (void)vda5050::decode_instant_actions(frame->payload);
+    }
+    return 0;
+}
