@@ -111,7 +111,8 @@ cv::Mat shrunk(const cv::Mat& grey, int shrink) {
     cv::Mat small = grey;  // halved step by step: OpenCV vectorises only that
     for (int step = shrink; step > 1; step /= 2) {
         cv::Mat half;
-        cv::resize(small, half, cv::Size(small.cols / 2, small.rows / 2), 0, 0, cv::INTER_AREA);
+        const cv::Size size(std::max(1, small.cols / 2), std::max(1, small.rows / 2));
+        cv::resize(small, half, size, 0, 0, cv::INTER_AREA);
         small = half;
     }
     return small;

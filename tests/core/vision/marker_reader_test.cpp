@@ -125,6 +125,21 @@ TEST_P(EveryKind, ImagesWithoutOneAreRefused) {
     }
 }
 
+TEST_P(EveryKind, ImagesOfAnySizeAreRefusedWhenNothingIsOnThem) {
+    for (const int width : {1, 2, 3, 5, 7, 8, 15, 31, 64, 200}) {
+        for (const int height : {1, 2, 3, 5, 7, 8, 15, 31, 64, 200}) {
+            plant::Camera camera;
+            camera.width_px = width;
+            camera.height_px = height;
+            cv::Mat image(height, width, CV_8U);
+            cv::RNG(4).fill(image, cv::RNG::UNIFORM, 0, 256);
+            const auto reading = read_marker(GetParam(), image, camera);
+            ASSERT_FALSE(reading);
+            EXPECT_EQ(reading.error().reason.code, "no_code") << width << " x " << height;
+        }
+    }
+}
+
 TEST_P(EveryKind, AMarkerOfAnotherKindIsNotTakenForIt) {
     for (const MarkerKind other : {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark}) {
         if (other == GetParam()) continue;
