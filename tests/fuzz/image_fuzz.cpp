@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     using namespace pulseline;
     cv::setNumThreads(1);
     const auto image = vision::decode_grey({reinterpret_cast<const char*>(data), size}, "input");
-    if (!image || image->total() > 4'000'000) return 0;
+    if (!image || image->total() > 400'000) return 0;
     plant::Camera camera;
     camera.width_px = image->cols;
     camera.height_px = image->rows;
