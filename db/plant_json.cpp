@@ -79,16 +79,24 @@ std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
                     {"height_px", c.height_px},
                     {"cu_px", number(c.cu_px)},
                     {"cv_px", number(c.cv_px)},
-                    {"k1", number(c.k1)}};
+                    {"k1", number(c.k1)},
+                    {"tilt_u_rad", number(c.tilt_u_rad)},
+                    {"tilt_v_rad", number(c.tilt_v_rad)}};
     });
 }
 std::vector<plant::Camera> cameras_from_json(const std::string& text) {
     return list_from_json<plant::Camera>(text, [](const Json& j) {
-        return plant::Camera{j.at("name"),     {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
-                             j.at("height_m"), j.at("f_px"),
-                             j.at("width_px"), j.at("height_px"),
-                             j.at("cu_px"),    j.at("cv_px"),
-                             j.at("k1")};
+        return plant::Camera{j.at("name"),
+                             {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+                             j.at("height_m"),
+                             j.at("f_px"),
+                             j.at("width_px"),
+                             j.at("height_px"),
+                             j.at("cu_px"),
+                             j.at("cv_px"),
+                             j.at("k1"),
+                             j.value("tilt_u_rad", 0.0),
+                             j.value("tilt_v_rad", 0.0)};
     });
 }
 

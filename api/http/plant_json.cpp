@@ -65,7 +65,9 @@ Json camera_json(const plant::Camera& camera) {
             {"height_px", camera.height_px},
             {"cu_px", camera.cu_px},
             {"cv_px", camera.cv_px},
-            {"k1", camera.k1}};
+            {"k1", camera.k1},
+            {"tilt_u_rad", camera.tilt_u_rad},
+            {"tilt_v_rad", camera.tilt_v_rad}};
 }
 
 Json bracket_json(const plant::Bracket& bracket) {

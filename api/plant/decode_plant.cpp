@@ -18,6 +18,7 @@ constexpr TextLimits kName{0, 200};
 constexpr json::NumberLimits kMetres{-1e6, 1e6};
 constexpr json::NumberLimits kHeading{-6.2832, 6.2832};
 constexpr json::NumberLimits kQuantity{-1e9, 1e9};
+constexpr json::NumberLimits kTilt{-0.5, 0.5};  // radians
 constexpr json::NumberLimits kPercent{0, 100};
 constexpr json::IntegerLimits kNumber{0, 1'000'000};
 constexpr json::IntegerLimits kPixels{0, 100'000};
@@ -162,6 +163,8 @@ Camera decode_camera(ObjectReader& in) {
     camera.cu_px = in.number("cu_px", kQuantity);
     camera.cv_px = in.number("cv_px", kQuantity);
     camera.k1 = in.number_or("k1", 0, kQuantity);
+    camera.tilt_u_rad = in.number_or("tilt_u_rad", 0, kTilt);
+    camera.tilt_v_rad = in.number_or("tilt_v_rad", 0, kTilt);
     return camera;
 }
 

@@ -87,7 +87,9 @@ Json encode(const Camera& c) {
             {"height_px", c.height_px},
             {"cu_px", c.cu_px},
             {"cv_px", c.cv_px},
-            {"k1", c.k1}};
+            {"k1", c.k1},
+            {"tilt_u_rad", c.tilt_u_rad},
+            {"tilt_v_rad", c.tilt_v_rad}};
 }
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }

@@ -59,6 +59,21 @@ INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlantStored,
                              return name;
                          });
 
+TEST(PlantStore, KeepsWhatTheCalibrationOfACameraSays) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant::Camera& camera = plant.vehicle_types[0].cameras[0];
+    camera.k1 = -0.08;
+    camera.tilt_u_rad = 0.003;
+    camera.tilt_v_rad = -0.001;
+    PlantStore(database).import(plant);
+
+    const plant::Camera kept = PlantStore(database).load()->vehicle_types[0].cameras[0];
+    EXPECT_EQ(kept.k1, -0.08);
+    EXPECT_EQ(kept.tilt_u_rad, 0.003);
+    EXPECT_EQ(kept.tilt_v_rad, -0.001);
+}
+
 TEST(PlantStore, ImportReplacesAllAndRaisesTheRevision) {
     Database database(":memory:");
     PlantStore store(database);

@@ -93,6 +93,22 @@ INSTANTIATE_TEST_SUITE_P(Shipped, PlantText,
                              return name;
                          });
 
+TEST(PlantText, KeepsTheTiltOfACameraAndRefusesOneNobodyMounts) {
+    Json file = document(kPlants + "/pulse-line.json");
+    Json& camera = file["vehicle_types"][0]["cameras"][0];
+    camera["tilt_u_rad"] = 0.003;
+    camera["tilt_v_rad"] = -0.001;
+    json::FieldErrors errors;
+    const Json written = encode_plant(decode_plant(file, errors), PlantForm::kFile);
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["tilt_u_rad"], 0.003);
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["tilt_v_rad"], -0.001);
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["tilt_u_rad"], 0);
+
+    camera["tilt_u_rad"] = 0.6;
+    EXPECT_EQ(faults_of(file),
+              std::vector<std::string>{"/vehicle_types/0/cameras/0/tilt_u_rad out_of_range"});
+}
+
 TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
     const Json schema = document(kPlants + "/../../api/plant.schema.json");
     const json::SchemaCheck check(schema);
