@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "server/cli/access_commands.hpp"
+#include "server/cli/calibrate_command.hpp"
 #include "server/cli/journal_command.hpp"
 #include "server/cli/locate_command.hpp"
 #include "server/cli/markers_commands.hpp"
@@ -31,6 +32,7 @@ int main(int argc, char** argv) {
     cli::add_plant_commands(app, exit_code);
     cli::add_access_commands(app, exit_code);
     cli::add_locate_command(app, exit_code);
+    cli::add_calibrate_command(app, exit_code);
     cli::add_markers_commands(app, exit_code);
     cli::add_journal_command(app, exit_code);
     app.add_subcommand("version", "Print the version")->callback([] {

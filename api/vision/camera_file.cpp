@@ -26,6 +26,11 @@ Result<plant::Camera> decode_camera(std::string_view text) {
     camera.height_m = in.number("height_m", {0.01, 100});
     camera.tilt_u_rad = in.number_or("tilt_u_rad", 0, {-0.5, 0.5});
     camera.tilt_v_rad = in.number_or("tilt_v_rad", 0, {-0.5, 0.5});
+    if (auto foot = in.object_if_any("body_from_camera")) {
+        camera.body_from_camera = {foot->number("x_m", {-1e3, 1e3}),
+                                   foot->number("y_m", {-1e3, 1e3}),
+                                   foot->number("heading_rad", {-10, 10})};
+    }
     if (const Status status = errors.status(); !status) return fail(status.error());
     return camera;
 }
@@ -39,7 +44,11 @@ std::string encode_camera(const plant::Camera& camera) {
                       {"k1", camera.k1},
                       {"height_m", camera.height_m},
                       {"tilt_u_rad", camera.tilt_u_rad},
-                      {"tilt_v_rad", camera.tilt_v_rad}}
+                      {"tilt_v_rad", camera.tilt_v_rad},
+                      {"body_from_camera",
+                       {{"x_m", camera.body_from_camera.x_m},
+                        {"y_m", camera.body_from_camera.y_m},
+                        {"heading_rad", camera.body_from_camera.heading_rad}}}}
                .dump(2) +
            "\n";
 }
