@@ -34,7 +34,7 @@ export function PlatformDrawing({ vehicle, type, stale }: PlatformDrawingProps) 
             <Bracket key={b.name} x={b.position.x_m} y={-b.position.y_m} edge={sheet.halfWidth} />
           ))}
           {vehicle.wheels.map((w) => (
-            <Wheel key={w.name} wheel={w} type={type} />
+            <Wheel key={w.name} wheel={w} type={type} scale={sheet.scale} />
           ))}
           {vehicle.parking_feet.map((f, i) => (
             <Foot key={f.name} name={f.name} index={i} sheet={sheet} />
@@ -43,10 +43,13 @@ export function PlatformDrawing({ vehicle, type, stale }: PlatformDrawingProps) 
             <rect
               key={c.name}
               className="camb"
-              x={Math.sign(c.body_from_camera.x_m) * (sheet.halfLength + 0.096) - 0.088}
-              y="-.07"
-              width=".176"
-              height=".14"
+              x={
+                Math.sign(c.body_from_camera.x_m) * (sheet.halfLength + 0.096 * sheet.scale) -
+                0.088 * sheet.scale
+              }
+              y={-0.07 * sheet.scale}
+              width={0.176 * sheet.scale}
+              height={0.14 * sheet.scale}
             />
           ))}
           <Centre vehicle={vehicle} type={type} />
@@ -59,17 +62,20 @@ export function PlatformDrawing({ vehicle, type, stale }: PlatformDrawingProps) 
   );
 }
 
-function Body({ sheet: { halfLength: l, halfWidth: w } }: { sheet: Sheet }) {
-  const arrow = l + (l * 1.3143 - l) * 0.6;
+function Body({ sheet: { halfLength: l, halfWidth: w, scale } }: { sheet: Sheet }) {
+  const arrow = l + 0.99 * scale;
   return (
     <>
-      <rect className="body" x={-l} y={-w} width={2 * l} height={2 * w} rx=".16" />
+      <rect className="body" x={-l} y={-w} width={2 * l} height={2 * w} rx={0.16 * scale} />
       <path
         className="fine"
         d={`M${-l} ${-w * 0.4}H${l}M${-l} ${w * 0.4}H${l}M${-l * 0.36} ${-w}V${w}M${l * 0.36} ${-w}V${w}M${l * 0.82} ${-w}V${w}M${-l * 0.82} ${-w}V${w}`}
       />
       <path className="axis" d={`M${-l * 1.295} 0H${l * 1.295}M0 ${-w * 1.28}V${w * 1.28}`} />
-      <path className="hd" d={`M${arrow} ${-w * 0.21}L${arrow + w * 0.36} 0L${arrow} ${w * 0.21}`} />
+      <path
+        className="hd"
+        d={`M${arrow} ${-0.2625 * scale}L${arrow + 0.45 * scale} 0L${arrow} ${0.2625 * scale}`}
+      />
     </>
   );
 }
@@ -90,11 +96,19 @@ function wheelPlace(name: string, type: VehicleType | undefined) {
   return type?.wheels.find((w) => w.name === name);
 }
 
-function Wheel({ wheel, type }: { wheel: Vehicle["wheels"][number]; type: VehicleType | undefined }) {
+function Wheel({
+  wheel,
+  type,
+  scale,
+}: {
+  wheel: Vehicle["wheels"][number];
+  type: VehicleType | undefined;
+  scale: number;
+}) {
   const at = wheelPlace(wheel.name, type);
   if (!at) return null;
   const state = wheelState(wheel);
-  const half = Math.max(0.15, at.diameter_m / 2);
+  const half = Math.max(0.15 * scale, at.diameter_m / 2);
   const turn = (-wheel.steering_rad * 180) / Math.PI;
   return (
     <>
@@ -102,7 +116,7 @@ function Wheel({ wheel, type }: { wheel: Vehicle["wheels"][number]; type: Vehicl
         className={`wring ${state === "warm" ? "adv" : state === "fault" ? "bad" : ""}`}
         cx={at.position.x_m}
         cy={-at.position.y_m}
-        r={Math.max(0.27, half + 0.06)}
+        r={Math.max(0.27 * scale, half + 0.06 * scale)}
       />
       <rect
         className="wheel"
@@ -110,7 +124,7 @@ function Wheel({ wheel, type }: { wheel: Vehicle["wheels"][number]; type: Vehicl
         y={-half / 2}
         width={2 * half}
         height={half}
-        rx=".03"
+        rx={0.03 * scale}
         transform={`translate(${at.position.x_m} ${-at.position.y_m}) rotate(${turn})`}
       />
     </>
@@ -124,7 +138,7 @@ function Foot({ name, index, sheet }: { name: string; index: number; sheet: Shee
   return (
     <>
       <path className="lead" d={`M${x} ${y}V${y * 1.2}`} />
-      <circle className="foot" cx={x} cy={y * 1.2} r=".14" />
+      <circle className="foot" cx={x} cy={y * 1.2} r={0.14 * sheet.scale} />
     </>
   );
 }
@@ -213,8 +227,10 @@ function WheelLabels({
         const state = wheelState(w);
         const { x_m: x, y_m: y } = at.position;
         const middle = Math.abs(y) < sheet.halfWidth * 0.3;
-        const place = middle
-          ? onSheet(sheet, { x_m: x - Math.sign(x) * 0.34, y_m: y })
+        const inside = middle || Math.abs(x) < sheet.halfLength * 0.3;
+        const side = x < 0 || !middle ? "from" : "to"; // of the wheel, where its words stand
+        const place = inside
+          ? onSheet(sheet, { x_m: x + (side === "from" ? 0.34 : -0.34) * sheet.scale, y_m: y })
           : onSheet(sheet, {
               x_m: Math.sign(x) * sheet.halfLength * 1.143,
               y_m: Math.sign(y) * sheet.height * 0.246,
@@ -225,7 +241,7 @@ function WheelLabels({
         });
         return (
           <span key={w.name}>
-            <span className={`wl ${middle ? (x < 0 ? "in from" : "in to") : ""}`} style={place}>
+            <span className={`wl ${inside ? `in ${side}` : ""}`} style={place}>
               {state !== "ok" && <StatusSymbol name={state === "warm" ? "a-3" : "a-2"} />}
               <b>{w.name}</b> {degrees(w.steering_rad, { decimals: 1, sign: true })}°
               {middle && (
@@ -237,8 +253,8 @@ function WheelLabels({
             </span>
             {state !== "ok" && (
               <span
-                className={`wl ${state === "warm" ? "adv2" : "bad2"} ${middle ? (x < 0 ? "from" : "to") : ""}`}
-                style={middle ? { ...place, marginTop: 22 } : below}
+                className={`wl ${state === "warm" ? "adv2" : "bad2"} ${inside ? side : ""}`}
+                style={inside ? { ...place, marginTop: 22 } : below}
               >
                 {state === "warm" ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) }) : w.fault}
               </span>
@@ -274,6 +290,7 @@ function LoadLabels({
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle.brackets, type);
   const centre = centreOfLoad(vehicle.brackets, type);
+  if (type?.brackets.length === 0) return null;
   if (!summary) {
     return (
       <span className="wl in" style={{ left: "50%", top: "38%" }}>

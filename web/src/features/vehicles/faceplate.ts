@@ -6,7 +6,11 @@ export interface Sheet {
   halfWidth: number;
   width: number; // of the view box, m
   height: number;
+  scale: number; // of symbols, against Tang's platform
 }
+
+const kAspect = 2.34;
+const kPlatformWidth_m = 13.8; // sheet of the platform of 10.5 m, for which the symbols were drawn
 
 /** Room for labels round the body, as shares of its size (from the mock). */
 export function sheetOf(type: VehicleType | undefined): Sheet {
@@ -14,8 +18,8 @@ export function sheetOf(type: VehicleType | undefined): Sheet {
   const ys = (type?.footprint ?? []).map((p) => Math.abs(p.y_m));
   const halfLength = xs.length ? Math.max(...xs) : 5.25;
   const halfWidth = ys.length ? Math.max(...ys) : 1.25;
-  const width = halfLength * 2 * 1.3143;
-  return { halfLength, halfWidth, width, height: width / 2.34 };
+  const width = 2 * Math.max(halfLength * 1.3143, halfWidth * 1.28 * kAspect);
+  return { halfLength, halfWidth, width, height: width / kAspect, scale: width / kPlatformWidth_m };
 }
 
 /** A body point as shares of the sheet from its left top corner. */

@@ -60,6 +60,19 @@ describe("drawing", () => {
     expect(parseFloat(front.left)).toBeGreaterThan(50);
     expect(parseFloat(front.top)).toBeLessThan(50);
   });
+  it("holds a body that is not as long as it is wide", () => {
+    const square = sheetOf({
+      footprint: [
+        { x_m: -0.5, y_m: -0.5 },
+        { x_m: 0.5, y_m: 0.5 },
+      ],
+    } as VehicleType);
+
+    expect(square.height / 2).toBeGreaterThan(0.5 * 1.2);
+    expect(square.width / 2).toBeGreaterThan(0.5 * 1.2);
+    expect(square.scale).toBeLessThan(0.3);
+    expect(sheetOf(type).scale).toBeCloseTo(1, 2);
+  });
   it.each([
     ["front left", 3, { x: 1, y: 1 }],
     ["back_right", 0, { x: -1, y: -1 }],
