@@ -93,6 +93,24 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
     return plan;
 }
 
+/// One way after another. A route begins where the vehicle first comes to the roadmap.
+LegPlan joined(const LegPlan& first, const LegPlan& rest) {
+    LegPlan plan = rest;
+    auto segments = first.segments;
+    segments.insert(segments.end(), rest.segments.begin(), rest.segments.end());
+    const auto sums = kinematics::summed(rest.mode, std::move(segments));
+    plan.segments = sums.segments;
+    plan.length_m = sums.length_m;
+    plan.duration_s = sums.duration_s;
+    plan.turns += first.turns;
+    plan.cost += first.cost;
+    for (const std::string& id : first.closures) {
+        auto& ids = plan.closures;
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    }
+    return plan;
+}
+
 /// What people want to know of a plan besides: how near it comes to what, and its outline.
 void describe(const Body& body, const Obstacles& obstacles,
               const std::vector<StandingBody>& standing, LegPlan& plan) {
@@ -342,20 +360,14 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
     kinematics::append_straight(segments, request.start,
                                 request.start.position() + first_m * ahead);
     kinematics::set_durations(*request.type, segments);
-    const auto pieces = kinematics::sweep(task->passage.body.pieces, segments);
-    if (const auto by = task->obstacles.violation(pieces, task->limits)) {
-        return blocked(*by, task->passage.body.clearance_m);
-    }
-    request.start = segments.back().end;
+    LegDraft draft;
+    draft.segments = std::move(segments);
+    draft.cost = arc_cost(task->cost, std::abs(first_m), false);
+    const auto first = finish(*task, MotionMode::kLinear, std::move(draft));
+    if (!first) return first;
+    request.start = first->segments.back().end;
     request.from_station = {};
-    return plan_leg(request).map([&](LegPlan plan) {
-        segments.insert(segments.end(), plan.segments.begin(), plan.segments.end());
-        const auto sums = kinematics::summed(plan.mode, std::move(segments));
-        plan.segments = sums.segments;
-        plan.length_m = sums.length_m;
-        plan.duration_s = sums.duration_s;
-        return plan;
-    });
+    return plan_leg(request).map([&](const LegPlan& rest) { return joined(*first, rest); });
 }
 
 std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,
