@@ -6,14 +6,14 @@
 
 #include "api/http/problem.hpp"
 #include "api/http/requests.hpp"
-#include "core/printing/marker_sheet.hpp"
+#include "core/printing/sheet_list.hpp"
 
 namespace pulseline::api {
 namespace {
 
-// About a second of drawing on the history thread.
+// Half a second of drawing on the history thread each; for SVG it grows with the square of sheets.
 constexpr std::size_t kMostPdfSheets = 300;
-constexpr std::size_t kMostSvgSheets = 40;
+constexpr std::size_t kMostSvgSheets = 100;
 
 Response file(const char* content_type, const char* extension, std::string bytes) {
     return {200,

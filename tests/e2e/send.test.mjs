@@ -137,6 +137,7 @@ test("the floor codes of the stations shown are printed, and listed", async () =
     const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("link", { name, exact: true }).click()]);
     return readFile(await download.path(), "latin1");
   };
+  assert.match(await saved("SVG"), /<svg/, "those of all stations fit into one file");
   await page.getByRole("button", { name: /^Ready/ }).click();
   assert.match(await saved("PDF"), /^%PDF-[^]*\/Type \/Page % 2/);
   const list = await saved("List");
