@@ -224,16 +224,4 @@ Result<std::string> print_sheets(const std::vector<Sheet>& sheets, SheetFormat f
     return bytes;
 }
 
-std::string sheet_list(const std::vector<Sheet>& sheets) {
-    std::string list = "kind,payload,size_m,x_m,y_m,up_rad\n";
-    for (const Sheet& sheet : sheets) {
-        const plant::Marker& m = sheet.marker;
-        char numbers[160];
-        std::snprintf(numbers, sizeof numbers, ",%.6f,%.6f,%.6f,%.8f\n", m.size_m, m.pose.x_m,
-                      m.pose.y_m, m.pose.heading_rad);
-        list += std::string(plant::to_string(m.kind)) + "," + m.payload + numbers;
-    }
-    return list;
-}
-
 }  // namespace pulseline::printing

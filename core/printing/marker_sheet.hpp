@@ -27,7 +27,4 @@ std::vector<Sheet> sheets_of(const plant::Plant& plant, const std::vector<int>& 
 /// too_large_for_page.
 Result<std::string> print_sheets(const std::vector<Sheet>& sheets, SheetFormat format);
 
-/// The list that goes with a set of sheets: a header and one line of CSV a marker.
-std::string sheet_list(const std::vector<Sheet>& sheets);
-
 }  // namespace pulseline::printing

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
@@ -17,7 +16,9 @@
 #include "api/vision/file_bytes.hpp"
 #include "api/vision/image_bytes.hpp"
 #include "core/calibration/camera_calibration.hpp"
+#include "core/printing/sheet_list.hpp"
 #include "core/vision/marker_reader.hpp"
+#include "server/cli/output_file.hpp"
 #include "server/cli/serve_command.hpp"
 
 namespace pulseline::server::cli {
@@ -97,45 +98,15 @@ Result<MountingCalibration> mounting_by_board(const plant::Camera& start, const 
                  "The board is turned against --board-at, or the camera against --start.");
 }
 
-struct ListedCode {
-    plant::MarkerKind kind = plant::MarkerKind::kQr;
-    std::string payload;
-    double size_m = 0;
-    Pose2 pose;
-};
-Result<std::vector<ListedCode>> read_codes(const std::string& file) {
+Result<std::vector<plant::Marker>> read_codes(const std::string& file) {
     const auto bytes = vision::read_bytes(file, kMostListBytes);
     if (!bytes) return fail(bytes.error());
-    std::vector<ListedCode> codes;
-    std::istringstream in(*bytes);
-    std::string line;
-    for (int number = 1; std::getline(in, line); ++number) {
-        if (number == 1 || line.empty()) continue;  // the header
-        std::istringstream fields(line);
-        std::string kind;
-        ListedCode code;
-        char comma = 0;
-        std::getline(fields, kind, ',');
-        std::getline(fields, code.payload, ',');
-        fields >> code.size_m >> comma >> code.pose.x_m >> comma >> code.pose.y_m >> comma >>
-            code.pose.heading_rad;
-        bool known = false;
-        for (const auto k :
-             {plant::MarkerKind::kQr, plant::MarkerKind::kAprilTag, plant::MarkerKind::kLandmark}) {
-            if (kind != plant::to_string(k)) continue;
-            code.kind = k;
-            known = true;
-        }
-        if (!fields || !known || !(code.size_m > 0))
-            return wrong("bad_list", fmt::format("{}, line {}: this is no kind,payload,size_m,x_m,"
-                                                 "y_m,up_rad.",
-                                                 file, number));
-        codes.push_back(std::move(code));
-    }
+    auto codes = printing::read_sheet_list(*bytes);
+    if (!codes) codes.error().what = file + ": " + codes.error().what;
     return codes;
 }
 
-void add_corners(const ListedCode& code, const vision::MarkerReading& reading,
+void add_corners(const plant::Marker& code, const vision::MarkerReading& reading,
                  const Pose2& body_from_list, std::vector<FloorPoint>& points) {
     const Pose2 body_from_code = body_from_list * code.pose;
     const double half_m = code.size_m / 2;
@@ -154,7 +125,7 @@ Result<MountingCalibration> mounting_by_codes(const plant::Camera& start, const 
     if (!codes) return fail(codes.error());
     std::vector<FloorPoint> points;
     std::set<std::pair<plant::MarkerKind, double>> kinds;
-    for (const ListedCode& code : *codes) kinds.insert({code.kind, code.size_m});
+    for (const plant::Marker& code : *codes) kinds.insert({code.kind, code.size_m});
     for (const auto& [kind, size_m] : kinds) {
         vision::ReaderOptions options;
         options.size_m = size_m;
@@ -166,19 +137,13 @@ Result<MountingCalibration> mounting_by_codes(const plant::Camera& start, const 
         auto readings = vision::read_others(*first, image, start, options);
         readings.push_back(*first);
         for (const auto& reading : readings) {
-            for (const ListedCode& code : *codes) {
+            for (const plant::Marker& code : *codes) {
                 if (code.kind == kind && code.size_m == size_m && code.payload == reading.payload)
                     add_corners(code, reading, inverse(*body), points);
             }
         }
     }
     return calibration::calibrate_mounting(start, points);
-}
-
-bool write(const std::string& file, const std::string& bytes) {
-    std::ofstream out(file, std::ios::binary);
-    out << bytes;
-    return static_cast<bool>(out.flush());
 }
 
 int refused(const Error& error, std::ostream& out) {
@@ -188,7 +153,7 @@ int refused(const Error& error, std::ostream& out) {
 
 int keep(const plant::Camera& camera, const std::vector<calibration::Residual>& residuals,
          const std::string& file, const std::string& picture, std::ostream& out) {
-    if (!write(file, vision::encode_camera(camera))) {
+    if (!write_file(file, vision::encode_camera(camera))) {
         out << "pulseline: cannot write " << file << "\n";
         return kFailed;
     }
@@ -196,7 +161,7 @@ int keep(const plant::Camera& camera, const std::vector<calibration::Residual>& 
     if (picture.empty()) return 0;
     std::vector<unsigned char> png;
     cv::imencode(".png", calibration::residual_picture(camera, residuals, kMagnify), png);
-    if (!write(picture, std::string(png.begin(), png.end()))) {
+    if (!write_file(picture, std::string(png.begin(), png.end()))) {
         out << "pulseline: cannot write " << picture << "\n";
         return kFailed;
     }

@@ -2,12 +2,12 @@
 
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
-#include "core/printing/marker_sheet.hpp"
+#include "core/printing/sheet_list.hpp"
 #include "db/plant_store.hpp"
+#include "server/cli/output_file.hpp"
 #include "server/cli/serve_command.hpp"
 
 namespace pulseline::server::cli {
@@ -20,12 +20,6 @@ std::string file_name(const plant::Marker& marker, const std::string& format) {
     for (char& c : name)
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-') c = '_';
     return name + "." + format;
-}
-
-bool write(const fs::path& path, const std::string& bytes) {
-    std::ofstream out(path, std::ios::binary);
-    out << bytes;
-    return static_cast<bool>(out.flush());
 }
 
 }  // namespace
@@ -47,14 +41,14 @@ int write_marker_sheets(const plant::Plant& plant, const SheetInput& input, std:
             return kFailed;
         }
         const fs::path path = fs::path(input.folder) / file_name(sheet.marker, input.format);
-        if (!write(path, *bytes)) {
+        if (!write_file(path, *bytes)) {
             out << "pulseline: cannot write " << path.string() << "\n";
             return kFailed;
         }
         out << path.string() << "\n";
     }
     const fs::path list = fs::path(input.folder) / "list.csv";
-    if (!write(list, printing::sheet_list(sheets))) {
+    if (!write_file(list, printing::sheet_list(sheets))) {
         out << "pulseline: cannot write " << list.string() << "\n";
         return kFailed;
     }

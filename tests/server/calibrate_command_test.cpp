@@ -12,6 +12,7 @@
 
 #include "api/vision/camera_file.hpp"
 #include "core/simulation/floor_camera.hpp"
+#include "tests/db/temp_folder.hpp"
 
 namespace pulseline::server::cli {
 namespace {
@@ -77,17 +78,9 @@ Pose2 below(const plant::Camera& camera, double turn_rad) {
 
 class Calibrate : public testing::Test {
 protected:
-    void SetUp() override {
-        folder_ = fs::temp_directory_path() /
-                  (std::string("pulseline_calibrate_") +
-                   testing::UnitTest::GetInstance()->current_test_info()->name());
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    std::string file(const std::string& name) const { return (folder_ / name).string(); }
+    std::string file(const std::string& name) const { return folder_.file(name); }
     std::string write(const std::string& name, const std::string& bytes) {
-        std::ofstream(folder_ / name, std::ios::binary) << bytes;
+        std::ofstream(file(name), std::ios::binary) << bytes;
         return file(name);
     }
     std::string write(const std::string& name, const cv::Mat& image) {
@@ -123,7 +116,7 @@ protected:
         out_.str("");
     }
 
-    fs::path folder_;
+    db::TempFolder folder_;
     std::ostringstream out_;
 };
 

@@ -4,6 +4,8 @@
 
 #include <vector>
 
+#include "core/printing/sheet_list.hpp"
+
 namespace pulseline::printing {
 namespace {
 
@@ -80,10 +82,38 @@ TEST(MarkerSheet, RefusesWhatCannotBePrinted) {
     EXPECT_EQ(reason(marker(MarkerKind::kQr, "ST04-F", 0.25)), "too_large_for_page");
 }
 
-TEST(SheetList, HasOneLineAMarker) {
-    EXPECT_EQ(sheet_list({{marker(MarkerKind::kAprilTag, "17", 0.05), ""}}),
+TEST(SheetList, HasOneLineAMarkerAndIsReadBack) {
+    const std::vector<Sheet> sheets{{marker(MarkerKind::kAprilTag, "17", 0.05), ""},
+                                    {marker(MarkerKind::kQr, "ST04-F", 0.06), ""}};
+    const std::string list = sheet_list(sheets);
+    EXPECT_EQ(list,
               "kind,payload,size_m,x_m,y_m,up_rad\n"
-              "apriltag,17,0.050000,12.500000,3.250000,1.50000000\n");
+              "apriltag,17,0.050000,12.500000,3.250000,1.50000000\n"
+              "qr,ST04-F,0.060000,12.500000,3.250000,1.50000000\n");
+    const auto read = read_sheet_list(list);
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ((*read)[i].kind, sheets[i].marker.kind);
+        EXPECT_EQ((*read)[i].payload, sheets[i].marker.payload);
+        EXPECT_EQ((*read)[i].size_m, sheets[i].marker.size_m);
+        EXPECT_EQ((*read)[i].pose, sheets[i].marker.pose);
+    }
+}
+
+TEST(SheetList, IsRefusedWithTheLineThatIsNone) {
+    const std::string header = "kind,payload,size_m,x_m,y_m,up_rad\n";
+    const std::string good = "qr,ST04-F,0.06,1,2,3\r\n";
+    EXPECT_TRUE(read_sheet_list(header + good + "\n"));
+    const auto wrong_line = [](const std::string& list) -> std::int64_t {
+        const auto read = read_sheet_list(list);
+        if (read || read.error().reason.code != "bad_list") return 0;
+        return std::get<std::int64_t>(read.error().reason.params.at(0).value);
+    };
+    EXPECT_EQ(wrong_line(good), 1);
+    for (const char* line : {"barcode,1,0.06,1,2,3", "qr,,0.06,1,2,3", "qr,A,0,1,2,3",
+                             "qr,A,0.06,1,2", "qr,A,0.06,1;2,3", "qr,A,0.06,1,2,3,4", "qr"})
+        EXPECT_EQ(wrong_line(header + good + line), 3) << line;
 }
 
 }  // namespace
