@@ -240,7 +240,7 @@ TEST(LegPlanner, BacksOutOfABayInWhichItCannotTurn) {
 TEST(LegPlanner, DrivesStraightAheadOrBackFirstWhereItIsAskedTo) {
     LegWorld world(8);
     world.area("rack", {{36, 6}, {38, 6}, {38, 14}, {36, 14}});  // ahead of station 1
-    const LegPlanner planner(world.plant());
+    LegPlanner planner(world.plant());
     const auto request = world.request("platform", 1, 3);
 
     for (const double first_m : {3.0, -4.0}) {
@@ -252,8 +252,13 @@ TEST(LegPlanner, DrivesStraightAheadOrBackFirstWhereItIsAskedTo) {
         auto later = request;
         later.start = {20 + first_m, 10, 0};
         later.from_station = {};
-        EXPECT_NEAR(plan->length_m, planner.plan_leg(later)->length_m + std::abs(first_m), 1e-9);
+        const auto rest = planner.plan_leg(later);
+        EXPECT_NEAR(plan->length_m, rest->length_m + std::abs(first_m), 1e-9);
+        EXPECT_NEAR(plan->cost, rest->cost + world.plant().routing.k_same * std::abs(first_m),
+                    1e-9);
     }
+    planner.set_closures({{"wet", "wet", request.hall, {{{27, 8}, {28, 8}, {28, 12}, {27, 12}}}}});
+    EXPECT_EQ(planner.plan_leg_after(3, request)->closures, std::vector<std::string>{"wet"});
     const auto into_the_rack = planner.plan_leg_after(11, request);
     ASSERT_FALSE(into_the_rack);
     EXPECT_EQ(into_the_rack.error().reason.code, "blocked");
