@@ -1,5 +1,6 @@
 #include "core/simulation/stop_sensor.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 
@@ -25,6 +26,16 @@ fleet::CameraReading not_found(const plant::Camera& camera, std::string why) {
     reading.camera = camera.name;
     reading.why_not = std::move(why);
     return reading;
+}
+
+/// The code that lies next to the camera's foot as far as the vehicle knows.
+std::optional<vision::ExpectedMarker> expected_below(const plant::Camera& camera,
+                                                     const KnownFloor& known) {
+    const geometry::Point2 foot = known.hall_from_body * camera.body_from_camera.position();
+    const auto nearest = std::ranges::min_element(
+        known.codes, {}, [&](const Pose2& code) { return distance(code.position(), foot); });
+    if (nearest == known.codes.end()) return std::nullopt;
+    return vision::ExpectedMarker{inverse(known.hall_from_body) * *nearest};
 }
 
 /// What the vehicle makes of the true image point when its calibration differs from the truth.
@@ -80,6 +91,7 @@ StopView sense_stop(std::span<const plant::Camera> actual,
             render_floor(actual[i], hall_from_body, in_reach, ImageConditions::nominal(random)));
         vision::ReaderOptions reader;
         reader.size_m = options.code_size_m;
+        if (options.known) reader.expected = expected_below(calibrated[i], *options.known);
         const auto seen =
             vision::read_marker(options.kind, view.images.back(), calibrated[i], reader);
         view.readings.push_back(

@@ -15,6 +15,12 @@ namespace pulseline::simulation {
 /// kRendered makes real images and reads them; kAnalytic draws the reader's measured error.
 enum class Sensing { kRendered, kAnalytic };
 
+/// What a vehicle knows of the floor below it: each camera expects the code next to its foot.
+struct KnownFloor {
+    Pose2 hall_from_body;      // as odometry has it
+    std::vector<Pose2> codes;  // surveyed, hall frame
+};
+
 struct SensingOptions {
     Sensing mode = Sensing::kRendered;
     /// One sigma of the cameras' mounting and scale, part of every reading's sigma_m.
@@ -22,6 +28,7 @@ struct SensingOptions {
     /// What the vehicle's cameras look for.
     plant::MarkerKind kind = plant::MarkerKind::kQr;
     double code_size_m = 0.060;
+    std::optional<KnownFloor> known;
 };
 
 struct StopView {

@@ -10,8 +10,8 @@
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/cell_grid.hpp"
 #include "core/vision/level_plane.hpp"
-#include "core/vision/round_search.hpp"
 #include "core/vision/sample.hpp"
+#include "core/vision/search_image.hpp"
 #include "core/vision/tag_family.hpp"
 #include "core/vision/tag_search.hpp"
 
@@ -23,9 +23,6 @@ using plant::kTagCells;
 constexpr int kProfilesPerCell = 6;
 // Border and margin cells as they must be; dirt takes some, another pattern half of them.
 constexpr double kFrameShare = 0.8;
-
-// The usual size first, then others, only to be able to say that the size is wrong.
-constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
 
 bool in_border(int row, int column) {
     return row >= 0 && column >= 0 && row < kTagCells && column < kTagCells;
@@ -129,14 +126,14 @@ std::optional<Located> decode(const cv::Mat& grey, const plant::Camera& camera,
 }
 
 std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
-                              double expected_cell_px) {
-    const int shrink = search_shrink(expected_cell_px);
-    const cv::Mat small = shrunk(grey, shrink);
-    for (const double scale : kScales)
-        for (const Placement& placement :
-             search_tags(small, camera, scale * expected_cell_px, shrink))
+                              const ReaderOptions& options, double cell_px) {
+    const double reach_px = (kTagCells / 2.0 + 1) * std::sqrt(2.0) * cell_px;
+    const auto try_in = [&](const SearchImage& image, double scale) -> std::optional<Located> {
+        for (const Placement& placement : search_tags(image, camera, scale * cell_px))
             if (auto found = decode(grey, camera, placement)) return found;
-    return std::nullopt;
+        return std::nullopt;
+    };
+    return search(grey, camera, options, cell_px, reach_px, try_in);
 }
 
 }  // namespace
@@ -145,7 +142,7 @@ ReadResult read_apriltag(const cv::Mat& grey, const plant::Camera& camera,
                          const ReaderOptions& options) {
     if (!is_image_of(grey, camera)) return refuse("bad_image");
     const double units_per_m = kTagCells / size_m(plant::MarkerKind::kAprilTag, options);
-    const auto located = locate(grey, camera, pixels_per_metre(camera) / units_per_m);
+    const auto located = locate(grey, camera, options, pixels_per_metre(camera) / units_per_m);
     if (!located) return refuse("no_code");
     if (located->code.mirrored) return refuse("mirrored");
     const auto sites = cell_borders(kTagCells, kProfilesPerCell, [&](int row, int column) {

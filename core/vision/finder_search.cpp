@@ -1,6 +1,7 @@
 #include "core/vision/finder_search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/plant/marker_geometry.hpp"
@@ -13,6 +14,8 @@ constexpr float kLeastScore = 0.3F;
 constexpr std::size_t kMostPeaks = 14;
 constexpr std::size_t kMostTriples = 4;
 constexpr std::size_t kMostPairs = 12;
+constexpr std::size_t kMostSingles = 60;
+constexpr double kSingleTurn_rad = kPi / 360;
 constexpr double kLeg = plant::kQrModules - 7;  // modules between finder centres
 constexpr double kLegTolerance = 0.08;          // of the leg: peaks are good to half a module
 
@@ -48,6 +51,30 @@ Candidate candidate(Pixel corner, Pixel right, Pixel down, float score) {
     return c;
 }
 
+/// Placements in the window that put a finder of the code onto a peak.
+std::vector<Candidate> singles(const std::vector<RoundPeak>& peaks, const SearchWindow& window,
+                               double module_px) {
+    constexpr double kHalfLeg = kLeg / 2;
+    constexpr std::array<Pixel, 3> kFinders{
+        {{-kHalfLeg, -kHalfLeg}, {kHalfLeg, -kHalfLeg}, {-kHalfLeg, kHalfLeg}}};
+    const int turns = static_cast<int>(window.reach_rad / kSingleTurn_rad);
+    std::vector<Candidate> found;
+    for (const RoundPeak& peak : peaks) {
+        for (const Pixel finder : kFinders) {
+            for (int turn = -turns; turn <= turns; ++turn) {
+                Candidate c;
+                c.placement.angle_rad = window.angle_rad + turn * kSingleTurn_rad;
+                c.placement.unit_px = module_px;
+                c.placement.centre = peak.ideal - c.placement.turned(finder.u, finder.v);
+                // Odometry is better than its reach mostly.
+                c.score = peak.score - 0.1F * static_cast<float>(std::abs(turn));
+                if (window.holds(c.placement)) found.push_back(c);
+            }
+        }
+    }
+    return found;
+}
+
 void keep_best(std::vector<Candidate>& candidates, std::size_t most,
                std::vector<Placement>& placements) {
     std::ranges::sort(candidates, std::ranges::greater{}, &Candidate::score);
@@ -57,10 +84,10 @@ void keep_best(std::vector<Candidate>& candidates, std::size_t most,
 
 }  // namespace
 
-std::vector<Placement> search_finders(const cv::Mat& small, const plant::Camera& camera,
-                                      double expected_module_px, int shrink) {
-    const auto peaks = find_round(small, camera, round_finder(expected_module_px), shrink,
-                                  kLeastScore, kMostPeaks);
+std::vector<Placement> search_finders(const SearchImage& image, const plant::Camera& camera,
+                                      double expected_module_px) {
+    const auto peaks =
+        find_round(image, camera, round_finder(expected_module_px), kLeastScore, kMostPeaks);
     const double leg_px = kLeg * expected_module_px;
     const auto is_long = [&](Pixel way, double length) {
         return std::abs(std::hypot(way.u, way.v) - length) < kLegTolerance * leg_px;
@@ -91,8 +118,14 @@ std::vector<Placement> search_finders(const cv::Mat& small, const plant::Camera&
         }
     }
     std::vector<Placement> placements;
+    for (auto* found : {&triples, &pairs})
+        std::erase_if(*found, [&](const Candidate& c) { return !image.wants(c.placement); });
     keep_best(triples, kMostTriples, placements);
     keep_best(pairs, kMostPairs, placements);
+    if (image.window) {
+        auto alone = singles(peaks, *image.window, expected_module_px);
+        keep_best(alone, kMostSingles, placements);
+    }
     return placements;
 }
 

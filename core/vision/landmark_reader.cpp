@@ -1,11 +1,11 @@
 #include "core/vision/landmark_reader.hpp"
 
-#include <array>
+#include <optional>
 
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/landmark_code.hpp"
 #include "core/vision/landmark_search.hpp"
-#include "core/vision/round_search.hpp"
+#include "core/vision/search_image.hpp"
 
 namespace pulseline::vision {
 namespace {
@@ -13,9 +13,6 @@ namespace {
 namespace landmark = plant::landmark;
 
 constexpr double kDotWidth_m = 2 * landmark::kDot_m;
-
-// The usual size first, then others, only to be able to say that the size is wrong.
-constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
 
 }  // namespace
 
@@ -25,11 +22,10 @@ ReadResult read_landmark(const cv::Mat& grey, const plant::Camera& camera,
     const double outer_m = size_m(plant::MarkerKind::kLandmark, options);
     const double units_per_m = 2 * landmark::kOuter_m / outer_m;
     const double unit_px = pixels_per_metre(camera) / units_per_m;
+    const double reach_px = landmark::kOuter_m * unit_px;
     bool ambiguous = false;
-    const int shrink = search_shrink(landmark::kDot_m * unit_px);
-    const cv::Mat small = shrunk(grey, shrink);
-    for (const double scale : kScales) {
-        for (const Placement& start : search_landmarks(small, camera, scale * unit_px, shrink)) {
+    const auto try_in = [&](const SearchImage& image, double scale) -> std::optional<ReadResult> {
+        for (const Placement& start : search_landmarks(image, camera, scale * unit_px)) {
             const auto dots =
                 fit_edges(grey, camera, dot_borders(), kDotWidth_m, start, FitEffort::kLocate);
             if (!dots) continue;
@@ -41,7 +37,10 @@ ReadResult read_landmark(const cv::Mat& grey, const plant::Camera& camera,
                 fit_edges(grey, camera, landmark_borders(ring.code), kDotWidth_m, dots->placement),
                 camera, units_per_m, options);
         }
-    }
+        return std::nullopt;
+    };
+    const double dot_px = landmark::kDot_m * unit_px;
+    if (auto found = search(grey, camera, options, dot_px, reach_px, try_in)) return *found;
     return refuse(ambiguous ? "ambiguous_code" : "no_code");
 }
 

@@ -16,6 +16,7 @@ constexpr float kLeastScore = 0.4F;
 constexpr std::size_t kMostPeaks = 40;
 constexpr std::size_t kMostPlacements = 6;
 constexpr int kFewestDots = 4;
+constexpr int kFewestDotsInWindow = 3;
 constexpr double kScaleTolerance = 0.06;  // of a pair's distance: peaks are good to 0.3 mm
 constexpr double kDotTolerance_m = 0.0012;
 
@@ -83,10 +84,11 @@ Similarity refined(const Match& m) {
 
 }  // namespace
 
-std::vector<Placement> search_landmarks(const cv::Mat& small, const plant::Camera& camera,
-                                        double expected_px_per_m, int shrink) {
+std::vector<Placement> search_landmarks(const SearchImage& image, const plant::Camera& camera,
+                                        double expected_px_per_m) {
     const auto peaks =
-        find_round(small, camera, dark_dot(expected_px_per_m), shrink, kLeastScore, kMostPeaks);
+        find_round(image, camera, dark_dot(expected_px_per_m), kLeastScore, kMostPeaks);
+    const int fewest = image.window ? kFewestDotsInWindow : kFewestDots;
     const double tolerance_px = kDotTolerance_m * expected_px_per_m;
     struct Candidate {
         Placement placement;
@@ -103,15 +105,15 @@ std::vector<Placement> search_landmarks(const cv::Mat& small, const plant::Camer
         Similarity start{(m.u * p.u + m.v * p.v) / size2, (m.u * p.v - m.v * p.u) / size2, {}};
         start.shift = first.ideal - start.at(dot(i));
         const Match rough = match(start, peaks, 1.5 * tolerance_px);
-        if (rough.count < kFewestDots) return;
+        if (rough.count < fewest) return;
         const Match fine = match(refined(rough), peaks, tolerance_px);
-        if (fine.count < kFewestDots) return;
+        if (fine.count < fewest) return;
         const Similarity place = refined(fine);
         Placement placement;
         placement.centre = place.shift;
         placement.angle_rad = std::atan2(place.s, place.c);
         placement.unit_px = std::hypot(place.c, place.s);
-        candidates.push_back({placement, fine.score});
+        if (image.wants(placement)) candidates.push_back({placement, fine.score});
     };
     for (const RoundPeak& first : peaks)
         for (const RoundPeak& second : peaks)

@@ -36,8 +36,18 @@ struct MarkerReading {
     std::array<Pixel, 4> corners{};  // top left, top right, bottom right, bottom left, in the image
 };
 
+/// A marker that must be near, by odometry and survey.
+struct ExpectedMarker {
+    geometry::Pose2 body_from_marker;  // heading: its "up"
+    double reach_m = 0.015;            // how far away it may be
+    double reach_rad = 0.02;
+};
+
 /// What is known beforehand, and when a reading is refused.
 struct ReaderOptions {
+    /// Where a marker is looked for first, and found by less of its print: with its direction known
+    /// one finder or three dots suffice. What lies elsewhere is found all the same.
+    std::optional<ExpectedMarker> expected;
     double size_m = 0;               // outer size of the black print; 0: the usual one of the kind
     double max_scale_error = 0.015;  // 3 mm of height are 0.7 %
     double min_inlier_share = 0.6;

@@ -1,13 +1,13 @@
 #include "core/vision/qr_reader.hpp"
 
-#include <array>
+#include <cmath>
 #include <optional>
 
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/cell_grid.hpp"
 #include "core/vision/finder_search.hpp"
 #include "core/vision/qr_symbol.hpp"
-#include "core/vision/round_search.hpp"
+#include "core/vision/search_image.hpp"
 
 namespace pulseline::vision {
 namespace {
@@ -15,11 +15,11 @@ namespace {
 using plant::kQrModules;
 
 // Finder and timing patterns must be there: 90 % leaves room for dirt, a wrong grid matches half.
+// Where the code is expected two finders may be covered; its checksum says whether it was read.
 constexpr double kFixedPatternShare = 0.9;
+constexpr double kExpectedPatternShare = 0.65;
 constexpr int kProfilesPerModule = 2;
-
-// The usual size first, then others, only to be able to say that the size is wrong.
-constexpr std::array<double, 3> kScales{1, 0.84, 1.19};
+constexpr double kQuietModules = 4;
 
 struct Located {
     QrText text;
@@ -28,23 +28,24 @@ struct Located {
 };
 
 std::optional<Located> decode(const cv::Mat& grey, const plant::Camera& camera,
-                              const Placement& placement) {
+                              const Placement& placement, double least_share) {
     CellGrid modules(grey, camera, placement, kQrModules);
-    if (fixed_pattern_share(modules) < kFixedPatternShare) return std::nullopt;
+    if (fixed_pattern_share(modules) < least_share) return std::nullopt;
     auto text = decode_qr(modules);
     if (!text) return std::nullopt;
     return Located{std::move(*text), placement, std::move(modules)};
 }
 
 std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
-                              double expected_module_px) {
-    const int shrink = search_shrink(expected_module_px);
-    const cv::Mat small = shrunk(grey, shrink);
-    for (const double scale : kScales)
-        for (const Placement& placement :
-             search_finders(small, camera, scale * expected_module_px, shrink))
-            if (auto found = decode(grey, camera, placement)) return found;
-    return std::nullopt;
+                              const ReaderOptions& options, double module_px) {
+    const double reach_px = (kQrModules / 2.0 + kQuietModules) * std::sqrt(2.0) * module_px;
+    const auto try_in = [&](const SearchImage& image, double scale) -> std::optional<Located> {
+        const double least_share = image.window ? kExpectedPatternShare : kFixedPatternShare;
+        for (const Placement& placement : search_finders(image, camera, scale * module_px))
+            if (auto found = decode(grey, camera, placement, least_share)) return found;
+        return std::nullopt;
+    };
+    return search(grey, camera, options, module_px, reach_px, try_in);
 }
 
 }  // namespace
@@ -52,7 +53,7 @@ std::optional<Located> locate(const cv::Mat& grey, const plant::Camera& camera,
 ReadResult read_qr(const cv::Mat& grey, const plant::Camera& camera, const ReaderOptions& options) {
     if (!is_image_of(grey, camera)) return refuse("bad_image");
     const double units_per_m = kQrModules / size_m(plant::MarkerKind::kQr, options);
-    const auto located = locate(grey, camera, pixels_per_metre(camera) / units_per_m);
+    const auto located = locate(grey, camera, options, pixels_per_metre(camera) / units_per_m);
     if (!located) return refuse("no_code");
     if (located->text.mirrored) return refuse("mirrored");
     const auto sites = cell_borders(kQrModules, kProfilesPerModule, [&](int row, int column) {

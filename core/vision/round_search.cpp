@@ -100,29 +100,12 @@ double vertex(float before, float top, float after) {
 
 }  // namespace
 
-int search_shrink(double feature_px) {
-    constexpr double kLeast_px = 2.5;  // of a feature in the shrunk image
-    int shrink = 1;
-    while (shrink < 8 && feature_px >= 2 * kLeast_px * shrink) shrink *= 2;
-    return shrink;
-}
-
-cv::Mat shrunk(const cv::Mat& grey, int shrink) {
-    cv::Mat small = grey;  // halved step by step: OpenCV vectorises only that
-    for (int step = shrink; step > 1; step /= 2) {
-        cv::Mat half;
-        const cv::Size size(std::max(1, small.cols / 2), std::max(1, small.rows / 2));
-        cv::resize(small, half, size, 0, 0, cv::INTER_AREA);
-        small = half;
-    }
-    return small;
-}
-
-std::vector<RoundPeak> find_round(const cv::Mat& small, const plant::Camera& camera,
-                                  const RoundPattern& pattern, int shrink, float least_score,
+std::vector<RoundPeak> find_round(const SearchImage& image, const plant::Camera& camera,
+                                  const RoundPattern& pattern, float least_score,
                                   std::size_t most) {
-    const int reach = static_cast<int>(std::ceil(pattern.reach_px / shrink));
-    const cv::Mat score = correlate(small, ring_taps(pattern, shrink), reach);
+    if (image.small.empty()) return {};
+    const int reach = static_cast<int>(std::ceil(pattern.reach_px / image.shrink));
+    const cv::Mat score = correlate(image.small, ring_taps(pattern, image.shrink), reach);
     const int apart = 2 * std::max(1, reach / 3) + 1;
     cv::Mat highest;
     cv::dilate(score, highest, cv::Mat::ones(apart, apart, CV_8U));
@@ -135,8 +118,7 @@ std::vector<RoundPeak> find_round(const cv::Mat& small, const plant::Camera& cam
             const double su = u + vertex(row[u - 1], row[u], row[u + 1]);
             const double sv =
                 v + vertex(score.at<float>(v - 1, u), row[u], score.at<float>(v + 1, u));
-            const Pixel image{shrink * (su + 0.5) - 0.5, shrink * (sv + 0.5) - 0.5};
-            peaks.push_back({undistorted(camera, image), row[u]});
+            peaks.push_back({image.ideal(camera, su, sv), row[u]});
         }
     }
     std::ranges::sort(peaks, std::ranges::greater{}, &RoundPeak::score);

@@ -12,8 +12,13 @@ namespace {
 
 constexpr int kBins = 90;  // one degree of border direction each
 constexpr std::size_t kMostDirections = 3;
-constexpr std::size_t kPeaksPerDirection = 3;
-constexpr float kLeastScore = 0.45F;  // of two evenly lit, sharp levels: 1
+// Scores: two evenly lit, sharp levels are 1.
+struct Effort {
+    std::size_t peaks_per_direction;
+    float least_score;
+};
+constexpr Effort kAnywhere{3, 0.45F};
+constexpr Effort kInWindow{6, 0.3F};
 
 /// Directions (radians in [0, pi/2)) with the most border, strongest first.
 std::vector<double> border_directions(const cv::Mat& small) {
@@ -102,7 +107,7 @@ struct Peak {
 };
 
 /// Places in the upright image where a light frame surrounds a dark one.
-std::vector<Peak> frames(const cv::Mat& upright, double cell_px) {
+std::vector<Peak> frames(const cv::Mat& upright, double cell_px, const Effort& effort) {
     const BoxSums sums(upright);
     const auto half = [&](double cells) {
         return static_cast<int>(std::lround(cells * cell_px / 2 - 0.5));
@@ -131,25 +136,38 @@ std::vector<Peak> frames(const cv::Mat& upright, double cell_px) {
     for (int v = 1; v + 1 < score.rows; ++v)
         for (int u = 1; u + 1 < score.cols; ++u)
             if (const float s = score.at<float>(v, u);
-                s >= kLeastScore && s >= highest.at<float>(v, u))
+                s >= effort.least_score && s >= highest.at<float>(v, u))
                 peaks.push_back({static_cast<double>(u), static_cast<double>(v), s});
     std::ranges::sort(peaks, std::ranges::greater{}, &Peak::score);
-    if (peaks.size() > kPeaksPerDirection) peaks.resize(kPeaksPerDirection);
+    if (peaks.size() > effort.peaks_per_direction) peaks.resize(effort.peaks_per_direction);
     return peaks;
+}
+
+double quarter(double angle_rad) { return angle_rad - kPi / 2 * std::floor(angle_rad / (kPi / 2)); }
+
+/// Which of its four turns a tag has is not known yet.
+bool is_near(Pixel centre, const SearchImage& image) {
+    if (!image.window) return true;
+    const Pixel off = centre - image.window->centre;
+    return std::hypot(off.u, off.v) <= image.window->reach_px;
 }
 
 }  // namespace
 
-std::vector<Placement> search_tags(const cv::Mat& small, const plant::Camera& camera,
-                                   double expected_cell_px, int shrink) {
-    const double cell = expected_cell_px / shrink;
+std::vector<Placement> search_tags(const SearchImage& image, const plant::Camera& camera,
+                                   double expected_cell_px) {
+    const cv::Mat& small = image.small;
+    if (small.empty()) return {};
+    const double cell = expected_cell_px / image.shrink;
     const double room = (plant::kTagCells + 2) * cell;  // margins may reach out of the image
     struct Candidate {
         Placement placement;
         float score;
     };
     std::vector<Candidate> candidates;
-    for (const double direction : border_directions(small)) {
+    const auto directions =
+        image.window ? std::vector{quarter(image.window->angle_rad)} : border_directions(small);
+    for (const double direction : directions) {
         const double c = std::cos(direction);
         const double s = std::sin(direction);
         const cv::Size size(static_cast<int>(small.cols * c + small.rows * s + room),
@@ -160,16 +178,16 @@ std::vector<Placement> search_tags(const cv::Mat& small, const plant::Camera& ca
                                to.v + s * from.u - c * from.v);
         cv::Mat upright;
         cv::warpAffine(small, upright, turn, size, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
-        for (const Peak& peak : frames(upright, cell)) {
+        for (const Peak& peak : frames(upright, cell, image.window ? kInWindow : kAnywhere)) {
             const double du = peak.u - to.u;
             const double dv = peak.v - to.v;
             const Pixel at{from.u + c * du - s * dv, from.v + s * du + c * dv};
             if (at.u < 0 || at.v < 0 || at.u > small.cols - 1 || at.v > small.rows - 1) continue;
             Placement p;
-            p.centre =
-                undistorted(camera, {shrink * (at.u + 0.5) - 0.5, shrink * (at.v + 0.5) - 0.5});
+            p.centre = image.ideal(camera, at.u, at.v);
             p.angle_rad = direction;
             p.unit_px = expected_cell_px;
+            if (!is_near(p.centre, image)) continue;
             candidates.push_back({p, peak.score});
         }
     }

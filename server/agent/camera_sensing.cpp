@@ -65,9 +65,12 @@ void CameraSensing::look_for_nearest(const std::vector<FloorCode>& codes) {
     }
 }
 
-void CameraSensing::look() {
+void CameraSensing::look() { look_expecting(std::nullopt); }
+
+void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) {
     const auto codes = codes_around();
     look_for_nearest(codes);
+    options_.known = std::move(known);
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
     readings_ = std::move(view.readings);
@@ -79,7 +82,9 @@ void CameraSensing::look() {
 bool CameraSensing::take_fresh() { return std::exchange(fresh_, false); }
 
 Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& target) {
-    look();
+    simulation::KnownFloor known{motion_.believed_pose(), {}};
+    for (const auto& marker : target.markers) known.codes.push_back(marker.pose);
+    look_expecting(std::move(known));
     std::vector<localisation::CodeObservation> seen;
     for (const auto& reading : readings_) {
         if (reading.found) seen.push_back(observation(reading));

@@ -45,6 +45,7 @@ public:
 
 private:
     std::vector<simulation::FloorCode> codes_around() const;
+    void look_expecting(std::optional<simulation::KnownFloor> known);
     void look_for_nearest(const std::vector<simulation::FloorCode>& codes);
 
     const simulation::World& world_;

@@ -51,6 +51,10 @@ constexpr std::array<Level, 3> kLevels{{{"clean", &ImageConditions::clean},
                                         {"nominal", &ImageConditions::nominal},
                                         {"hard", &ImageConditions::hard}}};
 
+// One sigma of what odometry expects; the reader searches three times as far.
+constexpr double kOdometry_m = 0.005;
+constexpr double kOdometry_rad = 0.006;
+
 /// One image and the truth about it.
 struct View {
     plant::Camera camera;
@@ -58,6 +62,7 @@ struct View {
     cv::Mat image;
     vision::Pixel centre;
     double angle_rad = 0;
+    vision::ExpectedMarker expected;
     double render_ms = 0;
 };
 
@@ -94,6 +99,12 @@ View make_view(MarkerKind kind, const Level& level, int number, std::mt19937_64&
     view.centre = simulation::FloorProjection(view.camera, conditions)
                       .image_from_floor(camera_from_code.position());
     view.angle_rad = kPi / 2 - turn;
+    std::mt19937_64 of_odometry(static_cast<std::uint64_t>(number));
+    std::normal_distribution<double> normal;
+    view.expected.body_from_marker =
+        view.camera.body_from_camera * camera_from_code *
+        geometry::Pose2{kOdometry_m * normal(of_odometry), kOdometry_m * normal(of_odometry),
+                        kOdometry_rad * normal(of_odometry)};
     return view;
 }
 
@@ -173,6 +184,7 @@ nlohmann::json run(MarkerKind kind, const Level& level, int images, bool own_onl
     auto methods = bench::methods(kind);
     if (own_only) methods.resize(1);
     std::vector<Tally> tallies(methods.size());
+    Tally expected;
     std::vector<double> render_ms;
     for (int i = 0; i < images; ++i) {
         const View view = make_view(kind, level, i, random);
@@ -182,6 +194,11 @@ nlohmann::json run(MarkerKind kind, const Level& level, int images, bool own_onl
             const auto outcome = methods[m].run(view.image, view.camera);
             tallies[m].add(outcome, view, cpu_ms() - begin);
         }
+        const double begin = cpu_ms();
+        vision::ReaderOptions options;
+        options.expected = view.expected;
+        const auto outcome = bench::read_ours(kind, view.image, view.camera, options);
+        expected.add(outcome, view, cpu_ms() - begin);
     }
     nlohmann::json out{{"kind", plant::to_string(kind)},
                        {"level", level.name},
@@ -191,6 +208,8 @@ nlohmann::json run(MarkerKind kind, const Level& level, int images, bool own_onl
         tallies[m].print(plant::to_string(kind), level.name, methods[m].name);
         out["methods"][methods[m].name] = tallies[m].json();
     }
+    expected.print(plant::to_string(kind), level.name, "pulseline, expected");
+    out["methods"]["pulseline, expected"] = expected.json();
     fmt::print("{:9} {:8} rendering one image: ms p50 {:.1f} p95 {:.1f}\n", plant::to_string(kind),
                level.name, quantile(render_ms, 0.5), quantile(render_ms, 0.95));
     return out;

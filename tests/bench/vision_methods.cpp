@@ -31,9 +31,7 @@ using vision::Pixel;
 
 template <MarkerKind kind>
 Outcome pulseline_reader(const cv::Mat& grey, const Camera& camera) {
-    const auto r = vision::read_marker(kind, grey, camera);
-    if (!r) return {std::nullopt, r.error().reason.code};
-    return {Found{r->payload, r->centre, r->angle_rad, false, r->sigma_px}, ""};
+    return read_ours(kind, grey, camera, {});
 }
 
 /// Corners in the order top left, top right, bottom right, bottom left.
@@ -174,6 +172,13 @@ Outcome li_p4p(const cv::Mat& grey, const Camera& camera) {
 }
 
 }  // namespace
+
+Outcome read_ours(MarkerKind kind, const cv::Mat& grey, const Camera& camera,
+                  const vision::ReaderOptions& options) {
+    const auto r = vision::read_marker(kind, grey, camera, options);
+    if (!r) return {std::nullopt, r.error().reason.code};
+    return {Found{r->payload, r->centre, r->angle_rad, false, r->sigma_px}, ""};
+}
 
 std::vector<Method> methods(MarkerKind kind) {
     switch (kind) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/plant/plant.hpp"
+#include "core/vision/marker_reader.hpp"
 #include "core/vision/optics.hpp"
 
 /// Everything that is compared in bench_vision, behind one shape.
@@ -26,6 +27,10 @@ struct Method {
     std::string name;
     Outcome (*run)(const cv::Mat& grey, const plant::Camera& camera);
 };
+
+/// The program's own reader.
+Outcome read_ours(plant::MarkerKind kind, const cv::Mat& grey, const plant::Camera& camera,
+                  const vision::ReaderOptions& options);
 
 /// First the program's own reader, then libraries and the papers' pipelines.
 std::vector<Method> methods(plant::MarkerKind kind);

@@ -132,6 +132,21 @@ TEST(SenseStopOfOneCamera, ReadsTheKindItLooksForAmongOthers) {
     }
 }
 
+TEST(SenseStopOfOneCamera, ReadsTheCodeThatItExpectsOfTwoInView) {
+    const std::vector<plant::Camera> camera{platform_cameras().front()};
+    const Pose2 truth{30, 12, radians(70)};
+    const std::vector<FloorCode> codes{{"ST04-F", truth * Pose2{5.346 + 0.042, 0.01, 0.1}},
+                                       {"ST05-F", truth * Pose2{5.346 - 0.042, -0.01, -0.1}}};
+    for (const FloorCode& wanted : codes) {
+        SensingOptions options;
+        options.known = KnownFloor{truth * Pose2{0.008, -0.005, 0.002}, {wanted.pose}};
+        std::mt19937_64 random{5};
+        const StopView view = sense_stop(camera, camera, truth, codes, options, random);
+        ASSERT_TRUE(view.readings[0].found) << view.readings[0].why_not;
+        EXPECT_EQ(view.readings[0].payload, wanted.payload);
+    }
+}
+
 TEST(CameraPicture, FitsTheFrameAndKeepsHalfTheSize) {
     const Stop stop;
     const auto cameras = platform_cameras();

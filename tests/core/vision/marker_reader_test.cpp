@@ -5,6 +5,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
+#include <span>
 
 #include "tests/core/vision/marker_view.hpp"
 
@@ -148,6 +149,92 @@ TEST_P(EveryKind, AMarkerOfAnotherKindIsNotTakenForIt) {
         v.payload = other == MarkerKind::kQr ? "ST04-F" : "17";
         EXPECT_FALSE(read_marker(GetParam(), v.image(), v.camera));
     }
+}
+
+ReaderOptions expecting(const geometry::Pose2& body_from_marker) {
+    ReaderOptions options;
+    options.expected = ExpectedMarker{body_from_marker};
+    return options;
+}
+
+TEST_P(EveryKind, OneThatIsExpectedIsPlacedAsWell) {
+    MarkerView v = view();
+    v.camera.body_from_camera = {5.3, 0.1, 0.7};
+    v.camera.k1 = -0.1;
+    const auto body_from_marker = v.camera.body_from_camera * v.camera_from_code;
+    v.conditions.seed = 3;
+    const std::vector<simulation::FloorCode> codes{
+        {v.payload, body_from_marker, v.code().size_m, false, v.kind}};
+    const cv::Mat image = simulation::render_floor(v.camera, {}, codes, v.conditions);
+    const auto anywhere = read_marker(v.kind, image, v.camera);
+    ASSERT_TRUE(anywhere);
+    const auto expected =
+        read_marker(v.kind, image, v.camera,
+                    expecting(body_from_marker * geometry::Pose2{0.008, -0.006, 0.012}));
+    ASSERT_TRUE(expected) << expected.error().reason.code;
+    EXPECT_EQ(expected->payload, v.payload);
+    EXPECT_NEAR(expected->centre.u, anywhere->centre.u, 0.01);
+    EXPECT_NEAR(expected->centre.v, anywhere->centre.v, 0.01);
+    EXPECT_NEAR(expected->angle_rad, anywhere->angle_rad, 1e-5);
+}
+
+TEST_P(EveryKind, AWrongExpectationHidesNoMarker) {
+    const MarkerView v = view();
+    const cv::Mat image = v.image();
+    for (const geometry::Pose2 off : {geometry::Pose2{0.04, 0, 0},
+                                      {0, 0, kPi},
+                                      {3, -7, 0.2},
+                                      {0.09, 0.07, 0.1},
+                                      {1e9, 1e9, 1e9}}) {
+        const auto reading =
+            read_marker(v.kind, image, v.camera, expecting(v.camera_from_code * off));
+        ASSERT_TRUE(reading) << off.x_m << " " << off.y_m;
+        EXPECT_EQ(reading->payload, v.payload);
+    }
+}
+
+/// A grey sheet over part of the marker; marker coordinates of the print: right and down, 1 is half
+/// its side.
+void cover(cv::Mat& image, const MarkerReading& marker, cv::Rect2d part) {
+    const Pixel right =
+        0.25 * (marker.corners[1] - marker.corners[0] + marker.corners[2] - marker.corners[3]);
+    const Pixel down{-right.v, right.u};
+    std::vector<cv::Point> corners;
+    for (const auto& [a, b] : {std::pair{part.x, part.y},
+                               {part.x + part.width, part.y},
+                               {part.x + part.width, part.y + part.height},
+                               {part.x, part.y + part.height}}) {
+        const Pixel p = marker.centre + a * right + b * down;
+        corners.emplace_back(static_cast<int>(p.u), static_cast<int>(p.v));
+    }
+    cv::fillConvexPoly(image, corners, cv::Scalar(150));
+}
+
+TEST_P(EveryKind, HalfCoveredItIsReadWhereItIsExpectedAndNeverWrongly) {
+    const cv::Rect2d qr_finders[] = {{-1.1, -1.1, 0.8, 0.8}, {0.3, -1.1, 0.8, 0.8}};
+    const cv::Rect2d tag_frame[] = {{-1.3, -1.3, 2.6, 0.5}};
+    const cv::Rect2d landmark_dots[] = {{-0.6, -0.6, 0.6, 0.6}};
+    int read = 0;
+    for (int i = 0; i < 12; ++i) {
+        MarkerView v = view();
+        v.camera_from_code.heading_rad = 0.5 * i;
+        v.conditions.seed = static_cast<std::uint64_t>(i);
+        cv::Mat image = v.image();
+        const auto whole = read_marker(v.kind, image, v.camera);
+        ASSERT_TRUE(whole);
+        const auto parts = v.kind == MarkerKind::kQr ? std::span<const cv::Rect2d>(qr_finders)
+                           : v.kind == MarkerKind::kAprilTag ? tag_frame
+                                                             : landmark_dots;
+        for (const auto& part : parts) cover(image, *whole, part);
+        const auto reading =
+            read_marker(v.kind, image, v.camera,
+                        expecting(v.camera_from_code * geometry::Pose2{0.004, -0.003, 0.008}));
+        if (!reading) continue;
+        ++read;
+        EXPECT_EQ(reading->payload, v.payload);
+        EXPECT_LT(v.error_px(*reading), 0.1);
+    }
+    EXPECT_GE(read, 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, EveryKind,
