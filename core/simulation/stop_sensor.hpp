@@ -28,7 +28,7 @@ struct SensingOptions {
     /// What the vehicle's cameras look for.
     plant::MarkerKind kind = plant::MarkerKind::kQr;
     double code_size_m = 0.060;
-    std::optional<KnownFloor> known;
+    std::optional<KnownFloor> known = {};
 };
 
 struct StopView {

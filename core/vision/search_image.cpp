@@ -25,20 +25,17 @@ cv::Mat shrunk(const cv::Mat& grey, int shrink) {
     return small;
 }
 
-/// The part of the image within `reach_px` of the window's centre, on the grid of shrunk pixels.
+/// The part of the image within `reach_px` of the window's centre, in whole shrunk pixels.
 cv::Rect part_around(const SearchWindow& window, const plant::Camera& camera, const cv::Mat& grey,
                      double reach_px, int shrink) {
     const Pixel middle = distorted(camera, window.centre);
-    const auto low = [&](double at, int size) {
-        const double from = std::clamp(at - reach_px, 0.0, static_cast<double>(size));
-        return static_cast<int>(from) / shrink * shrink;
+    const auto in_whole = [&](double at, int size) {
+        return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size))) / shrink * shrink;
     };
-    const auto high = [&](double at, int size) {
-        return static_cast<int>(std::clamp(at + reach_px + 1, 0.0, static_cast<double>(size)));
-    };
-    const int left = low(middle.u, grey.cols);
-    const int top = low(middle.v, grey.rows);
-    return {left, top, high(middle.u, grey.cols) - left, high(middle.v, grey.rows) - top};
+    const int left = in_whole(middle.u - reach_px, grey.cols);
+    const int top = in_whole(middle.v - reach_px, grey.rows);
+    return {left, top, in_whole(middle.u + reach_px + shrink, grey.cols) - left,
+            in_whole(middle.v + reach_px + shrink, grey.rows) - top};
 }
 
 }  // namespace
@@ -66,7 +63,7 @@ SearchImage::SearchImage(const cv::Mat& grey, const plant::Camera& camera, doubl
         return;
     }
     const auto part = part_around(*window, camera, grey, reach_px + window->reach_px, shrink);
-    if (part.width < shrink || part.height < shrink) return;  // expected out of sight
+    if (part.empty()) return;  // expected out of sight
     from = part.tl();
     small = shrunk(grey(part), shrink);
 }
