@@ -69,24 +69,33 @@ std::vector<plant::Wheel> wheels_from_json(const std::string& text) {
 
 std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
     return list_to_json(cameras, [](const plant::Camera& c) {
-        return Json{{"name", c.name},
-                    {"x_m", number(c.body_from_camera.x_m)},
-                    {"y_m", number(c.body_from_camera.y_m)},
-                    {"heading_rad", number(c.body_from_camera.heading_rad)},
-                    {"height_m", number(c.height_m)},
-                    {"f_px", number(c.f_px)},
-                    {"width_px", c.width_px},
-                    {"height_px", c.height_px},
-                    {"cu_px", number(c.cu_px)},
-                    {"cv_px", number(c.cv_px)},
-                    {"k1", number(c.k1)},
-                    {"tilt_u_rad", number(c.tilt_u_rad)},
-                    {"tilt_v_rad", number(c.tilt_v_rad)}};
+        Json json{{"name", c.name},
+                  {"x_m", number(c.body_from_camera.x_m)},
+                  {"y_m", number(c.body_from_camera.y_m)},
+                  {"heading_rad", number(c.body_from_camera.heading_rad)},
+                  {"height_m", number(c.height_m)},
+                  {"f_px", number(c.f_px)},
+                  {"width_px", c.width_px},
+                  {"height_px", c.height_px},
+                  {"cu_px", number(c.cu_px)},
+                  {"cv_px", number(c.cv_px)},
+                  {"k1", number(c.k1)},
+                  {"tilt_u_rad", number(c.tilt_u_rad)},
+                  {"tilt_v_rad", number(c.tilt_v_rad)}};
+        if (const auto& m = c.loaded) {
+            json["loaded"] = {{"x_m", number(m->body_from_camera.x_m)},
+                              {"y_m", number(m->body_from_camera.y_m)},
+                              {"heading_rad", number(m->body_from_camera.heading_rad)},
+                              {"height_m", number(m->height_m)},
+                              {"tilt_u_rad", number(m->tilt_u_rad)},
+                              {"tilt_v_rad", number(m->tilt_v_rad)}};
+        }
+        return json;
     });
 }
 std::vector<plant::Camera> cameras_from_json(const std::string& text) {
     return list_from_json<plant::Camera>(text, [](const Json& j) {
-        return plant::Camera{j.at("name"),
+        plant::Camera camera{j.at("name"),
                              {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
                              j.at("height_m"),
                              j.at("f_px"),
@@ -97,6 +106,14 @@ std::vector<plant::Camera> cameras_from_json(const std::string& text) {
                              j.at("k1"),
                              j.value("tilt_u_rad", 0.0),
                              j.value("tilt_v_rad", 0.0)};
+        if (j.contains("loaded")) {
+            const Json& m = j.at("loaded");
+            camera.loaded = plant::CameraMounting{{m.at("x_m"), m.at("y_m"), m.at("heading_rad")},
+                                                  m.at("height_m"),
+                                                  m.at("tilt_u_rad"),
+                                                  m.at("tilt_v_rad")};
+        }
+        return camera;
     });
 }
 

@@ -57,17 +57,24 @@ Json wheel_json(const plant::Wheel& wheel) {
 }
 
 Json camera_json(const plant::Camera& camera) {
-    return {{"name", camera.name},
-            {"body_from_camera", pose_json(camera.body_from_camera)},
-            {"height_m", camera.height_m},
-            {"f_px", camera.f_px},
-            {"width_px", camera.width_px},
-            {"height_px", camera.height_px},
-            {"cu_px", camera.cu_px},
-            {"cv_px", camera.cv_px},
-            {"k1", camera.k1},
-            {"tilt_u_rad", camera.tilt_u_rad},
-            {"tilt_v_rad", camera.tilt_v_rad}};
+    Json json{{"name", camera.name},
+              {"body_from_camera", pose_json(camera.body_from_camera)},
+              {"height_m", camera.height_m},
+              {"f_px", camera.f_px},
+              {"width_px", camera.width_px},
+              {"height_px", camera.height_px},
+              {"cu_px", camera.cu_px},
+              {"cv_px", camera.cv_px},
+              {"k1", camera.k1},
+              {"tilt_u_rad", camera.tilt_u_rad},
+              {"tilt_v_rad", camera.tilt_v_rad}};
+    if (const auto& loaded = camera.loaded) {
+        json["loaded"] = {{"body_from_camera", pose_json(loaded->body_from_camera)},
+                          {"height_m", loaded->height_m},
+                          {"tilt_u_rad", loaded->tilt_u_rad},
+                          {"tilt_v_rad", loaded->tilt_v_rad}};
+    }
+    return json;
 }
 
 Json bracket_json(const plant::Bracket& bracket) {

@@ -165,6 +165,12 @@ Camera decode_camera(ObjectReader& in) {
     camera.k1 = in.number_or("k1", 0, kQuantity);
     camera.tilt_u_rad = in.number_or("tilt_u_rad", 0, kTilt);
     camera.tilt_v_rad = in.number_or("tilt_v_rad", 0, kTilt);
+    if (auto loaded = in.object_if_any("loaded")) {
+        camera.loaded = plant::CameraMounting{
+            decode_pose(loaded->object("body_from_camera")), loaded->number("height_m", kMetres),
+            loaded->number_or("tilt_u_rad", 0, kTilt), loaded->number_or("tilt_v_rad", 0, kTilt)};
+        loaded->refuse_unknown();
+    }
     return camera;
 }
 

@@ -79,17 +79,24 @@ Json encode(const Wheel& w) {
 }
 
 Json encode(const Camera& c) {
-    return {{"name", c.name},
-            {"body_from_camera", encode(c.body_from_camera)},
-            {"height_m", c.height_m},
-            {"f_px", c.f_px},
-            {"width_px", c.width_px},
-            {"height_px", c.height_px},
-            {"cu_px", c.cu_px},
-            {"cv_px", c.cv_px},
-            {"k1", c.k1},
-            {"tilt_u_rad", c.tilt_u_rad},
-            {"tilt_v_rad", c.tilt_v_rad}};
+    Json json{{"name", c.name},
+              {"body_from_camera", encode(c.body_from_camera)},
+              {"height_m", c.height_m},
+              {"f_px", c.f_px},
+              {"width_px", c.width_px},
+              {"height_px", c.height_px},
+              {"cu_px", c.cu_px},
+              {"cv_px", c.cv_px},
+              {"k1", c.k1},
+              {"tilt_u_rad", c.tilt_u_rad},
+              {"tilt_v_rad", c.tilt_v_rad}};
+    if (c.loaded) {
+        json["loaded"] = {{"body_from_camera", encode(c.loaded->body_from_camera)},
+                          {"height_m", c.loaded->height_m},
+                          {"tilt_u_rad", c.loaded->tilt_u_rad},
+                          {"tilt_v_rad", c.loaded->tilt_v_rad}};
+    }
+    return json;
 }
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }

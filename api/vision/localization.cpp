@@ -142,10 +142,11 @@ Result<Localization> localize(const plant::Plant& plant, const LocalizationQuest
         }
     }
     const auto prints = prints_of(plant);
+    const auto cameras = plant::cameras_of(*type, plant::is_loaded(*vehicle));
     for (std::size_t i = 0; i < question.images.size(); ++i) {
         const CameraImage& image = question.images[i];
-        const auto camera = std::ranges::find(type->cameras, image.camera, &plant::Camera::name);
-        if (camera == type->cameras.end()) {
+        const auto camera = std::ranges::find(cameras, image.camera, &plant::Camera::name);
+        if (camera == cameras.end()) {
             return fail(Errc::kNotFound, "unknown_camera",
                         "The vehicle has no camera of that name. GET /api/v1/plant lists them.",
                         at("camera", i), {{"camera", image.camera}});

@@ -6,10 +6,6 @@
 
 namespace pulseline::fleet {
 
-bool is_loaded(const plant::Vehicle& vehicle) {
-    return vehicle.load_kg > 0 || !vehicle.load_name.empty();
-}
-
 std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall) {
     for (std::size_t i = 0; i < plant.halls.size(); ++i) {
         if (plant.halls[i].id == hall) return i;

@@ -23,8 +23,6 @@ struct FloorClass {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> way_between;  // of motion.ways
 };
 
-/// Whether the vehicle carries something that counts with its outline.
-bool is_loaded(const plant::Vehicle& vehicle);
 /// Number of a hall in the ids of tiles.
 std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall);
 

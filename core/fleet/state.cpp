@@ -71,7 +71,7 @@ double speed_share(const VehicleRun& run) {
                : 1.0;
 }
 
-bool is_loaded(const VehicleRun& run) { return is_loaded(*run.vehicle); }
+bool is_loaded(const VehicleRun& run) { return plant::is_loaded(*run.vehicle); }
 
 std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose) {
     std::vector<geometry::Polygon> outline;

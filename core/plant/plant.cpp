@@ -54,6 +54,20 @@ const RoadmapNode* find_node(const Plant& plant, const NodeId& id) {
     return find_id(plant.nodes, id);
 }
 
+bool is_loaded(const Vehicle& vehicle) { return vehicle.load_kg > 0 || !vehicle.load_name.empty(); }
+
+std::vector<Camera> cameras_of(const VehicleType& type, bool loaded) {
+    std::vector<Camera> cameras = type.cameras;
+    for (Camera& camera : cameras) {
+        if (!loaded || !camera.loaded) continue;
+        camera.body_from_camera = camera.loaded->body_from_camera;
+        camera.height_m = camera.loaded->height_m;
+        camera.tilt_u_rad = camera.loaded->tilt_u_rad;
+        camera.tilt_v_rad = camera.loaded->tilt_v_rad;
+    }
+    return cameras;
+}
+
 std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded) {
     std::vector<Polygon> pieces = geometry::convex_pieces(type.footprint);
     if (loaded && !type.load_footprint.empty()) {

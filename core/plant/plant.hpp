@@ -95,6 +95,14 @@ struct Wheel {
 
 /// Downward camera (design.md section 10). The mounting says where the foot of its optical axis
 /// lies in the body frame and how the image's +u axis is turned against body x.
+/// How a camera hangs over the floor, from calibration; fields as in Camera.
+struct CameraMounting {
+    Pose2 body_from_camera;
+    double height_m = 0;
+    double tilt_u_rad = 0;
+    double tilt_v_rad = 0;
+};
+
 struct Camera {
     std::string name;  // "front", "back"
     Pose2 body_from_camera;
@@ -109,6 +117,8 @@ struct Camera {
     /// towards +v. The foot is that of the optical centre, straight below it.
     double tilt_u_rad = 0;
     double tilt_v_rad = 0;
+    /// When the vehicle carries its load, under which the body gives; none: as without.
+    std::optional<CameraMounting> loaded = {};
 };
 
 struct Bracket {
@@ -207,6 +217,10 @@ const Vehicle* find_vehicle(const Plant& plant, const VehicleId& id);
 const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
                             const std::string& serial_number);
 const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
+/// Whether the vehicle carries something that counts with its outline.
+bool is_loaded(const Vehicle& vehicle);
+/// The cameras as they hang with or without load.
+std::vector<Camera> cameras_of(const VehicleType& type, bool loaded);
 /// Footprint of vehicle and load together (convex pieces, body frame).
 std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded);
 

@@ -53,12 +53,17 @@ double first_charge(const plant::Vehicle& vehicle, const VehicleSettings& settin
     return std::uniform_real_distribution<double>(82, 98)(random);
 }
 
+plant::VehicleType as_loaded(plant::VehicleType type, const plant::Vehicle& vehicle) {
+    type.cameras = plant::cameras_of(type, plant::is_loaded(vehicle));
+    return type;
+}
+
 }  // namespace
 
 Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                  const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth)
     : vehicle_(vehicle),
-      type_(*plant::find_vehicle_type(world.plant, vehicle.type)),
+      type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
       settings_(settings),
       motion_(type_, true_pose, simulation::seed_for(settings.seed, "motion " + vehicle.id.str()),
               settings.time_factor),

@@ -60,7 +60,7 @@ private:
     void write_truth(Steady::time_point now);
 
     const plant::Vehicle& vehicle_;
-    const plant::VehicleType& type_;
+    const plant::VehicleType type_;  // its cameras as they hang under its load
     VehicleSettings settings_;
     simulation::VehicleMotion motion_;
     CameraSensing sensing_;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <sstream>
+#include <tuple>
 #include <utility>
 
 #include "api/vision/camera_file.hpp"
@@ -151,9 +152,13 @@ int refused(const Error& error, std::ostream& out) {
     return kFailed;
 }
 
-int keep(const plant::Camera& camera, const std::vector<calibration::Residual>& residuals,
-         const std::string& file, const std::string& picture, std::ostream& out) {
-    if (!write_file(file, vision::encode_camera(camera))) {
+/// Writes `found`; the picture shows the residuals as seen by `camera`.
+template <typename Input>
+int keep(const plant::Camera& found, const plant::Camera& camera,
+         const std::vector<calibration::Residual>& residuals, const Input& input,
+         std::ostream& out) {
+    const auto& [file, picture] = std::tie(input.out, input.residuals);
+    if (!write_file(file, vision::encode_camera(found))) {
         out << "pulseline: cannot write " << file << "\n";
         return kFailed;
     }
@@ -196,15 +201,16 @@ int calibrate_lens(const LensInput& input, std::ostream& out) {
         "(sigma {:.5f}); rms {:.3f} px over {} corners of {} pictures\n",
         c.f_px, lens->sigma_f_px, c.cu_px, c.cv_px, lens->sigma_centre_px, c.k1, lens->sigma_k1,
         lens->rms_px, lens->residuals.size(), views.size());
-    return keep(c, lens->residuals, input.out, input.residuals, out);
+    return keep(c, c, lens->residuals, input, out);
 }
 
 int calibrate_mounting(const MountingInput& input, std::ostream& out) {
-    auto camera = vision::read_camera_file(input.camera_file);
-    if (!camera) return refused(camera.error(), out);
+    const auto file = vision::read_camera_file(input.camera_file);
+    if (!file) return refused(file.error(), out);
+    plant::Camera drawn = *file;
     const auto image = vision::read_grey_file(input.image);
     if (!image) return refused(image.error(), out);
-    if (!vision::is_image_of(*image, *camera))
+    if (!vision::is_image_of(*image, drawn))
         return refused({Errc::kInvalid,
                         {"bad_image", {}},
                         input.image + " has not the size that " + input.camera_file + " says.",
@@ -217,10 +223,10 @@ int calibrate_mounting(const MountingInput& input, std::ostream& out) {
                         "--start is x_m y_m heading_deg height_m as drawn.",
                         {}},
                        out);
-    camera->body_from_camera = *start;
-    camera->height_m = input.start[3];
-    const auto mounting = input.codes_file.empty() ? mounting_by_board(*camera, *image, input)
-                                                   : mounting_by_codes(*camera, *image, input);
+    drawn.body_from_camera = *start;
+    drawn.height_m = input.start[3];
+    const auto mounting = input.codes_file.empty() ? mounting_by_board(drawn, *image, input)
+                                                   : mounting_by_codes(drawn, *image, input);
     if (!mounting) return refused(mounting.error(), out);
     const plant::Camera& c = mounting->camera;
     out << fmt::format(
@@ -231,7 +237,12 @@ int calibrate_mounting(const MountingInput& input, std::ostream& out) {
         degrees(c.body_from_camera.heading_rad), degrees(mounting->sigma_heading_rad), c.height_m,
         mounting->sigma_height_m, degrees(c.tilt_u_rad), degrees(c.tilt_v_rad),
         degrees(mounting->sigma_tilt_rad), mounting->rms_px, mounting->residuals.size());
-    return keep(c, mounting->residuals, input.out, input.residuals, out);
+    plant::Camera found = input.loaded ? *file : c;
+    if (input.loaded) {
+        found.loaded =
+            plant::CameraMounting{c.body_from_camera, c.height_m, c.tilt_u_rad, c.tilt_v_rad};
+    }
+    return keep(found, c, mounting->residuals, input, out);
 }
 
 void add_calibrate_command(CLI::App& app, int& exit_code) {
@@ -274,6 +285,8 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
                      "The vehicle in the frame of that list: x_m y_m heading_deg")
         ->expected(3);
     codes->excludes(board_at);
+    of_mounting->add_flag("--loaded", mounting->loaded,
+                          "With the load on: kept beside the unloaded mounting of --camera");
     of_mounting->add_option("--out", mounting->out, "Camera file to write")->required();
     of_mounting->add_option("--residuals", mounting->residuals,
                             "Picture of the residuals to write (PNG)");

@@ -33,6 +33,8 @@ struct MountingInput {
     std::string codes_file;
     /// The vehicle's pose in the frame of that list: x_m, y_m, heading_deg.
     std::vector<double> body_at{0, 0, 0};
+    /// The picture was taken with the load on: what is found becomes the camera file's `loaded`.
+    bool loaded = false;
     std::string out;
     std::string residuals;
 };

@@ -66,12 +66,18 @@ TEST(PlantStore, KeepsWhatTheCalibrationOfACameraSays) {
     camera.k1 = -0.08;
     camera.tilt_u_rad = 0.003;
     camera.tilt_v_rad = -0.001;
+    camera.loaded = plant::CameraMounting{{5.34, 0.001, 0.01}, 0.452, 0.002, -0.003};
     PlantStore(database).import(plant);
 
     const plant::Camera kept = PlantStore(database).load()->vehicle_types[0].cameras[0];
     EXPECT_EQ(kept.k1, -0.08);
     EXPECT_EQ(kept.tilt_u_rad, 0.003);
     EXPECT_EQ(kept.tilt_v_rad, -0.001);
+    ASSERT_TRUE(kept.loaded);
+    EXPECT_EQ(kept.loaded->body_from_camera, (geometry::Pose2{5.34, 0.001, 0.01}));
+    EXPECT_EQ(kept.loaded->height_m, 0.452);
+    EXPECT_EQ(kept.loaded->tilt_u_rad, 0.002);
+    EXPECT_EQ(kept.loaded->tilt_v_rad, -0.003);
 }
 
 TEST(PlantStore, ImportReplacesAllAndRaisesTheRevision) {

@@ -156,6 +156,26 @@ TEST_F(Calibrate, FindsTheMountingFromABoardOnTheFloor) {
     expect_true_mounting(2e-4, radians(0.05));
 }
 
+TEST_F(Calibrate, KeepsTheMountingUnderLoadBesideTheOther) {
+    const Pose2 at = below(true_camera(), radians(4));
+    MountingInput input = mounting();
+    const auto before = vision::read_camera_file(input.camera_file);
+    input.image = write("floor.png", picture_of_board(true_camera(), at));
+    input.board = {kCorners, kSquare_m};
+    input.board_at = {at.x_m, at.y_m, degrees(at.heading_rad)};
+    input.loaded = true;
+
+    ASSERT_EQ(calibrate_mounting(input, out_), 0) << out_.str();
+
+    const auto found = vision::read_camera_file(file("camera.json"));
+    ASSERT_TRUE(before && found && found->loaded) << out_.str();
+    EXPECT_NEAR(found->loaded->height_m, true_camera().height_m, 2e-4);
+    EXPECT_NEAR(found->loaded->body_from_camera.x_m, true_camera().body_from_camera.x_m, 2e-4);
+    EXPECT_NEAR(found->loaded->tilt_u_rad, true_camera().tilt_u_rad, radians(0.05));
+    EXPECT_EQ(found->body_from_camera, before->body_from_camera);
+    EXPECT_EQ(found->height_m, before->height_m);
+}
+
 TEST_F(Calibrate, FindsTheMountingFromCodesOfAList) {
     const Pose2 body{20, 30, 1.2};
     std::vector<simulation::FloorCode> codes;

@@ -109,6 +109,25 @@ TEST(PlantText, KeepsTheTiltOfACameraAndRefusesOneNobodyMounts) {
               std::vector<std::string>{"/vehicle_types/0/cameras/0/tilt_u_rad out_of_range"});
 }
 
+TEST(PlantText, KeepsTheMountingOfACameraUnderLoad) {
+    Json file = document(kPlants + "/pulse-line.json");
+    Json& camera = file["vehicle_types"][0]["cameras"][0];
+    camera["loaded"] = {
+        {"body_from_camera", {{"x_m", 5.34}, {"y_m", 0.001}, {"heading_rad", 0.01}}},
+        {"height_m", 0.452},
+        {"tilt_u_rad", 0.002}};
+    json::FieldErrors errors;
+    const Json written = encode_plant(decode_plant(file, errors), PlantForm::kFile);
+    Json expected = camera["loaded"];
+    expected["tilt_v_rad"] = 0;
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["loaded"], expected);
+    EXPECT_FALSE(written["vehicle_types"][0]["cameras"][1].contains("loaded"));
+
+    camera["loaded"]["height_m"] = -1;
+    camera["loaded"]["weight"] = 3;
+    EXPECT_EQ(faults_of(file).size(), 2U);
+}
+
 TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
     const Json schema = document(kPlants + "/../../api/plant.schema.json");
     const json::SchemaCheck check(schema);

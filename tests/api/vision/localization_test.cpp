@@ -113,6 +113,23 @@ TEST_F(Localize, TwoImagesGivePoseDeviationAndPictures) {
     EXPECT_EQ(answer->cameras[0].picture.substr(0, 2), "\xFF\xD8");
 }
 
+TEST_F(Localize, ALoadedVehicleIsPlacedByItsCamerasUnderLoad) {
+    const auto asked = question(at_4);
+    // What took the images is the mounting under load; without load the cameras look elsewhere.
+    for (plant::Camera& camera : plant.vehicle_types[0].cameras) {
+        camera.loaded = plant::CameraMounting{camera.body_from_camera, camera.height_m, 0, 0};
+        camera.body_from_camera.y_m += 0.003;
+        camera.height_m += 0.002;
+    }
+    const auto unloaded = localize(plant, asked);
+    plant.vehicles[0].load_kg = 22'000;
+    const auto loaded = localize(plant, asked);
+
+    ASSERT_TRUE(unloaded && unloaded->fix && loaded && loaded->fix);
+    EXPECT_GT(distance(unloaded->fix->pose.position(), at_4.position()), 0.002);
+    EXPECT_LT(distance(loaded->fix->pose.position(), at_4.position()), 1e-4);
+}
+
 TEST_F(Localize, WithOneCodeCoveredTheOtherGivesLess) {
     auto asked = question(at_4);
     asked.images[1].bytes = png(cv::Mat(1024, 1280, CV_8U, cv::Scalar(120)));

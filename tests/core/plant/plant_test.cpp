@@ -23,6 +23,25 @@ Plant small() {
     return plant;
 }
 
+TEST(Plant, CamerasHangOtherwiseUnderLoad) {
+    VehicleType type;
+    type.cameras.resize(2);
+    type.cameras[0].name = "front";
+    type.cameras[0].k1 = -0.06;
+    type.cameras[0].loaded = CameraMounting{{5.34, 0.001, 0.01}, 0.452, 0.002, -0.003};
+    type.cameras[1].height_m = 0.455;
+
+    EXPECT_EQ(cameras_of(type, false)[0].height_m, type.cameras[0].height_m);
+    const auto loaded = cameras_of(type, true);
+    EXPECT_EQ(loaded[0].name, "front");
+    EXPECT_EQ(loaded[0].k1, -0.06);
+    EXPECT_EQ(loaded[0].body_from_camera, (Pose2{5.34, 0.001, 0.01}));
+    EXPECT_EQ(loaded[0].height_m, 0.452);
+    EXPECT_EQ(loaded[0].tilt_u_rad, 0.002);
+    EXPECT_EQ(loaded[0].tilt_v_rad, -0.003);
+    EXPECT_EQ(loaded[1].height_m, 0.455);
+}
+
 TEST(Plant, FindsByKeyNumberPayloadAndIdentity) {
     const Plant plant = small();
 
