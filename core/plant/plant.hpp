@@ -93,8 +93,6 @@ struct Wheel {
     double diameter_m = 0;
 };
 
-/// Downward camera (design.md section 10). The mounting says where the foot of its optical axis
-/// lies in the body frame and how the image's +u axis is turned against body x.
 /// How a camera hangs over the floor, from calibration; fields as in Camera.
 struct CameraMounting {
     Pose2 body_from_camera;
@@ -103,6 +101,8 @@ struct CameraMounting {
     double tilt_v_rad = 0;
 };
 
+/// Downward camera (design.md section 10). The mounting says where the foot of its optical axis
+/// lies in the body frame and how the image's +u axis is turned against body x.
 struct Camera {
     std::string name;  // "front", "back"
     Pose2 body_from_camera;
