@@ -4,11 +4,19 @@ import { ApiProblem } from "@/shared/api";
 import type { StopRecord } from "@/shared/api/types";
 import { usePlant, useServerNow } from "@/shared/live";
 import { Link } from "@/shared/router";
-import { Card, Icon, PanelEmpty, PanelFailed, PanelLoading, StatusSymbol, Tabs } from "@/shared/ui";
+import {
+  Card,
+  DeviationBar,
+  Icon,
+  PanelEmpty,
+  PanelFailed,
+  PanelLoading,
+  StatusSymbol,
+  Tabs,
+} from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { dateTime, degrees, mass, millimetres, number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { DeviationBar } from "./Bars";
 import { RunTable } from "./RunTable";
 import { countedStops, series, widerThanTolerance } from "./statistics";
 import { TargetPlot } from "./TargetPlot";
@@ -185,6 +193,7 @@ function ThisStop({ stop }: { stop: StopRecord }) {
         name="dx"
         value={stop.dx_m * 1000}
         limit={tol.dx_m * 1000}
+        limitText={limitText(tol.dx_m * 1000)}
         text={millimetres(stop.dx_m, { decimals: 2, sign: true })}
         unit="mm"
       />
@@ -192,6 +201,7 @@ function ThisStop({ stop }: { stop: StopRecord }) {
         name="dy"
         value={stop.dy_m * 1000}
         limit={tol.dy_m * 1000}
+        limitText={limitText(tol.dy_m * 1000)}
         text={millimetres(stop.dy_m, { decimals: 2, sign: true })}
         unit="mm"
       />
@@ -199,6 +209,7 @@ function ThisStop({ stop }: { stop: StopRecord }) {
         name="dθ"
         value={deg(stop.dheading_rad)}
         limit={deg(tol.dheading_rad)}
+        limitText={limitText(deg(tol.dheading_rad))}
         text={`${degrees(stop.dheading_rad, { sign: true })}°`}
       />
       <dl>

@@ -4,6 +4,7 @@ export { Card, type CardProps } from "./Card";
 export { CheckRow, sortChecks, type CheckResult } from "./CheckRow";
 export { Chip } from "./Chip";
 export { CommandButton, type CommandButtonProps } from "./CommandButton";
+export { DeviationBar } from "./DeviationBar";
 export { type CommandProgress } from "./command";
 export {
   Icon,

@@ -1,29 +1,20 @@
-import { number } from "@/shared/words/format";
-import { limitDecimals } from "./trendScale";
-
 /** A deviation on its tolerance band: the band takes 5/6 of the width, so that outside can be seen. */
-export function DeviationBar({
-  name,
-  value,
-  limit,
-  text,
-  unit,
-}: {
+export function DeviationBar(props: {
   name: string;
+  text: string;
+  unit?: string;
   /** In the unit of `limit`. */
   value: number;
   limit: number;
-  text: string;
-  unit?: string;
+  limitText: string;
 }) {
-  const x = 50 + Math.max(-1.18, Math.min(1.18, value / limit)) * 41.67;
-  const end = number(limit, { decimals: limitDecimals(limit) });
+  const x = 50 + Math.max(-1.18, Math.min(1.18, props.value / props.limit)) * 41.67;
   return (
     <div className="dv">
-      <div className="dl">{name}</div>
+      <div className="dl">{props.name}</div>
       <div className="val lg">
-        <b>{text}</b>
-        {unit && <u>{unit}</u>}
+        <b>{props.text}</b>
+        {props.unit && <u>{props.unit}</u>}
       </div>
       <div className="gw">
         <svg className="gg" viewBox="0 0 100 28" preserveAspectRatio="none" aria-hidden="true">
@@ -39,9 +30,9 @@ export function DeviationBar({
           <path d={`M${x} 0V28`} stroke="var(--needle)" strokeWidth="4" vectorEffect="non-scaling-stroke" />
         </svg>
         <div className="gt">
-          <span style={{ left: "8.33%" }}>−{end}</span>
+          <span style={{ left: "8.33%" }}>−{props.limitText}</span>
           <span style={{ left: "50%" }}>0</span>
-          <span style={{ left: "91.67%" }}>+{end}</span>
+          <span style={{ left: "91.67%" }}>+{props.limitText}</span>
         </div>
       </div>
     </div>
