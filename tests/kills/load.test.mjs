@@ -40,12 +40,14 @@ function plans() {
 
 test(`the server killed under load, seed ${SEED}`, async (t) => {
   const waiting = plans();
+  const planned = waiting.length;
   const total = { kills: 0 };
   assert.ok(NAMES.length >= 25, "the list of crash points was read");
   await Promise.all(Array.from({ length: HALLS }, async (_, i) => {
     const hall = await LoadHall.begin(`hall${i}`, SEED * 100 + i);
     t.after(() => hall.system.stop());
     for (let plan; (plan = waiting.shift());) {
+      if (waiting.length % 100 === 0 && planned > 100) console.error(`${planned - waiting.length} of ${planned} kills`);
       try {
         await hall.die(plan);
       } catch (error) {
