@@ -13,7 +13,7 @@
 #include <cstring>
 #include <memory>
 #include <opencv2/imgproc.hpp>
-#if __has_include(<opencv2/aruco.hpp>)
+#ifdef PULSELINE_HAS_ARUCO
 #include <opencv2/aruco.hpp>
 #endif
 
@@ -124,7 +124,7 @@ Outcome libapriltag(const cv::Mat& grey, const Camera&) {
     return out;
 }
 
-#if __has_include(<opencv2/aruco.hpp>)
+#ifdef PULSELINE_HAS_ARUCO
 Outcome aruco(const cv::Mat& grey, const Camera&) {
     static const auto dictionary =
         cv::aruco::getPredefinedDictionary(cv::aruco::DICT_APRILTAG_36h11);
@@ -191,7 +191,7 @@ std::vector<Method> methods(MarkerKind kind) {
             return {
                 {"pulseline", pulseline_reader<MarkerKind::kAprilTag>},
                     {"libapriltag decimate 4", libapriltag},
-#if __has_include(<opencv2/aruco.hpp>)
+#ifdef PULSELINE_HAS_ARUCO
                     {"OpenCV ArUco contour", aruco},
 #endif
                 {
