@@ -187,17 +187,15 @@ std::vector<Method> methods(MarkerKind kind) {
                     {"zxing corners", zxing_corners},
                     {"zbar", zbar_corners},
                     {"Tang Canny corners", tang<MarkerKind::kQr>}};
-        case MarkerKind::kAprilTag:
-            return {
-                {"pulseline", pulseline_reader<MarkerKind::kAprilTag>},
-                    {"libapriltag decimate 4", libapriltag},
+        case MarkerKind::kAprilTag: {
+            std::vector<Method> all{{"pulseline", pulseline_reader<MarkerKind::kAprilTag>},
+                                    {"libapriltag decimate 4", libapriltag},
+                                    {"Tang Canny corners", tang<MarkerKind::kAprilTag>}};
 #ifdef PULSELINE_HAS_ARUCO
-                    {"OpenCV ArUco contour", aruco},
+            all.push_back({"OpenCV ArUco contour", aruco});
 #endif
-                {
-                    "Tang Canny corners", tang<MarkerKind::kAprilTag>
-                }
-            };
+            return all;
+        }
         case MarkerKind::kLandmark:
             return {{"pulseline", pulseline_reader<MarkerKind::kLandmark>},
                     {"Li 2020 planar", li},
