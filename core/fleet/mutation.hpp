@@ -26,8 +26,9 @@ enum class Mutation {
     kBusyIsFree,             // a vehicle with an order gets another
     kLastStepSkipped,        // an order ends one step too early
     kLostPoseLosesFloor,     // a vehicle without pose holds no floor after a restart
+    kTurnsOnly,              // one that cannot turn does not try to leave straight on
 };
-constexpr int kMutationCount = 21;
+constexpr int kMutationCount = 22;
 
 #ifdef PULSELINE_FLEET_MUTATIONS
 inline Mutation planted_mutation = Mutation::kNone;

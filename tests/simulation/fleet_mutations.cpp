@@ -46,7 +46,8 @@ constexpr Planted kPlanted[] = {{"none", 1},
                                 {"type ignored", 1},
                                 {"busy is free", 0},
                                 {"last step skipped", 1},
-                                {"lost pose loses floor", 0}};
+                                {"lost pose loses floor", 0},
+                                {"turns only", 0}};
 static_assert(std::size(kPlanted) == fleet::kMutationCount);
 
 class FirstFailure : public testing::EmptyTestEventListener {
