@@ -107,6 +107,53 @@ TEST_P(EveryKind, KnowsItsCameraIsTiltedWhenCalibratedSo) {
     EXPECT_NEAR(wrap(reading->angle_rad - (kPi / 2 - v.camera_from_code.heading_rad)), 0, 3e-5);
 }
 
+// Integrity: what could move the centre without a word is refused with its reason.
+
+TEST_P(EveryKind, ACameraThatHangsAskewIsRefused) {
+    MarkerView v = view();
+    plant::Camera askew = v.camera;
+    askew.tilt_u_rad = radians(2.0);
+    askew.tilt_v_rad = radians(1.5);
+    // Under its foot, as the reader takes it to lie.
+    const auto axis = simulation::FloorProjection(askew, {}).floor_from_image({639.5, 511.5});
+    v.camera = askew;
+    v.camera_from_code = {axis.x_m, axis.y_m, 1.2};
+    const auto reading = read_marker(v.kind, v.image(), plant::Camera{});
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().reason.code, "tilt_off");
+}
+
+TEST_P(EveryKind, AStretchedPrintIsRefused) {
+    const MarkerView v = view();
+    const cv::Mat image = v.image();
+    ASSERT_TRUE(read_marker(v.kind, image, v.camera));
+    // One printer's axis 2 % longer than the other: a homography's centre and a similarity's part.
+    cv::Mat stretched;
+    const cv::Matx23d stretch(1.01, 0, -0.01 * 639.5, 0, 0.99, 0.01 * 511.5);
+    cv::warpAffine(image, stretched, stretch, image.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const auto reading = read_marker(v.kind, stretched, v.camera);
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().reason.code, "fit_poor");
+}
+
+TEST_P(EveryKind, AWavyPrintIsRefused) {
+    const MarkerView v = view();
+    const cv::Mat image = v.image();
+    cv::Mat map_u(image.size(), CV_32F);
+    cv::Mat map_v(image.size(), CV_32F);
+    for (int row = 0; row < image.rows; ++row) {
+        for (int column = 0; column < image.cols; ++column) {
+            map_u.at<float>(row, column) = static_cast<float>(column + 1.5 * std::sin(row / 25.0));
+            map_v.at<float>(row, column) = static_cast<float>(row + 1.5 * std::sin(column / 25.0));
+        }
+    }
+    cv::Mat wavy;
+    cv::remap(image, wavy, map_u, map_v, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+    const auto reading = read_marker(v.kind, wavy, v.camera);
+    ASSERT_FALSE(reading);
+    EXPECT_EQ(reading.error().reason.code, "fit_poor");
+}
+
 TEST_P(EveryKind, ImagesWithoutOneAreRefused) {
     const MarkerView v = view();
     const plant::Camera& c = v.camera;
