@@ -2,8 +2,9 @@
 // decision, orders per simulated hour against two baselines on the same floor with the same orders
 // (one vehicle per resource, and a joint plan after PIBT), vehicles that did not end their orders,
 // memory, time of a rebuild, and what the independent monitor found. Admissions, improvements and
-// rebuilds are measured in CPU time of the thread, release decisions by the wall clock.
-//   bench_fleet [--hours H] [--releases N] [--only halls|plant|warehouse] [--out FILE]
+// rebuilds are measured in CPU time of the thread, release decisions by the wall clock. Last, the
+// whole state machine of a thousand vehicles on a database file: releases as decided and as stored.
+//   bench_fleet [--hours H] [--releases N] [--only halls|plant|warehouse|core] [--out FILE]
 // H simulated hours a setting; with N the last setting goes on until all together made N releases.
 #include <cstdio>
 #include <cstdlib>
@@ -12,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/bench/fleet_core_run.hpp"
 #include "tests/bench/traffic_world.hpp"
 
 namespace pulseline::bench {
@@ -127,6 +129,22 @@ nlohmann::json measure(const World& world, const Options& options, std::uint64_t
     return json;
 }
 
+nlohmann::json measure_core() {
+    constexpr int kVehicles = 1000;
+    constexpr double kSeconds = 120;
+    CoreRun run = run_core(kVehicles, kSeconds);
+    std::printf("core: state machine of %d vehicles, %llu inputs, %llu orders\n", kVehicles,
+                static_cast<unsigned long long>(run.inputs),
+                static_cast<unsigned long long>(run.orders));
+    print_times("release decided", run.decided_us, kReleaseLimit_us);
+    print_times("release stored", run.stored_us, 0);
+    return {{"vehicles", kVehicles},
+            {"inputs", run.inputs},
+            {"orders", run.orders},
+            {"release_decided", quantiles(run.decided_us)},
+            {"release_stored", quantiles(run.stored_us)}};
+}
+
 }  // namespace
 }  // namespace pulseline::bench
 
@@ -151,6 +169,7 @@ int main(int argc, char** argv) {
     if (wanted("warehouse")) {
         json["warehouse"] = measure(warehouse_world(), options, rest(), totals);
     }
+    if (wanted("core")) json["core"] = measure_core();
     std::printf("%llu releases in all; %llu violations, vehicles stuck or states not rebuilt\n",
                 static_cast<unsigned long long>(totals.releases),
                 static_cast<unsigned long long>(totals.failures));

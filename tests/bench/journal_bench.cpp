@@ -1,11 +1,12 @@
 // ./dev bench journal: what a journal and a snapshot weigh and cost, for fleets of some sizes at
-// work. One lane with two stations a vehicle, all of them on an order.
+// work, every vehicle on an order on its own lane.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
 
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/journal/snapshot.hpp"
+#include "tests/bench/lanes.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 namespace pulseline::fleet {
@@ -14,53 +15,6 @@ namespace {
 // Of the processor: what others do on the machine does not count.
 double now_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 double ms_since(double start_ms) { return now_ms() - start_ms; }
-
-plant::Plant lanes(int count) {
-    plant::Plant plant = testing::small_plant();
-    constexpr double kLane_m = 4;
-    constexpr double kLength_m = 24;
-    plant.halls.front().outline =
-        geometry::transformed({kLength_m / 2 + 10, kLane_m * count / 2 + 10, 0},
-                              geometry::rectangle(kLength_m + 40, kLane_m * count + 40));
-    const plant::Station station = plant.stations.front();
-    const plant::Vehicle vehicle = plant.vehicles.front();
-    const plant::RoadmapEdge edge = plant.edges.front();
-    plant.stations.clear();
-    plant.markers.clear();
-    plant.nodes.clear();
-    plant.edges.clear();
-    plant.vehicles.clear();
-    const auto node = [](int number) { return plant::NodeId("n" + std::to_string(number)); };
-    const auto join = [&](int from, int to) {
-        for (const auto& [a, b] : {std::pair{from, to}, std::pair{to, from}}) {
-            plant.edges.push_back(edge);
-            plant.edges.back().from = node(a);
-            plant.edges.back().to = node(b);
-            plant.edges.back().id = plant::EdgeId(node(a).str() + node(b).str());
-        }
-    };
-    for (int i = 0; i < count; ++i) {
-        for (int end = 0; end < 2; ++end) {
-            const int number = 2 * i + end + 1;
-            plant::Station made = station;
-            made.id = plant::StationId("s" + std::to_string(number));
-            made.number = number;
-            made.markers.clear();
-            made.resting_place = true;
-            made.pose = {10 + end * kLength_m, 10 + i * kLane_m, 0};
-            made.node = node(number);
-            plant.stations.push_back(made);
-            plant.nodes.push_back({made.node, made.hall, made.pose.position()});
-        }
-        join(2 * i + 1, 2 * i + 2);
-        plant.vehicles.push_back(vehicle);
-        plant::Vehicle& made = plant.vehicles.back();
-        made.id = plant::VehicleId("V" + std::to_string(i + 1));
-        made.serial_number = made.id.str();
-        made.home = plant.stations[static_cast<std::size_t>(2 * i)].id;
-    }
-    return plant;
-}
 
 /// What a week leaves in memory.
 void add_finished(testing::World& world, int count) {
@@ -89,7 +43,7 @@ void add_finished(testing::World& world, int count) {
 }
 
 void measure(int count, int finished = 0) {
-    testing::World world(lanes(count));
+    testing::World world(bench::lanes(count));
     if (finished > 0) add_finished(world, finished);
     journal::Recorder recorder;
     world.fleet->journal_into(&recorder);
