@@ -56,24 +56,23 @@ Json wheel_json(const plant::Wheel& wheel) {
             {"diameter_m", wheel.diameter_m}};
 }
 
+Json mounting_json(const plant::CameraMounting& mounting) {
+    return {{"body_from_camera", pose_json(mounting.body_from_camera)},
+            {"height_m", mounting.height_m},
+            {"tilt_u_rad", mounting.tilt_u_rad},
+            {"tilt_v_rad", mounting.tilt_v_rad}};
+}
+
 Json camera_json(const plant::Camera& camera) {
-    Json json{{"name", camera.name},
-              {"body_from_camera", pose_json(camera.body_from_camera)},
-              {"height_m", camera.height_m},
-              {"f_px", camera.f_px},
-              {"width_px", camera.width_px},
-              {"height_px", camera.height_px},
-              {"cu_px", camera.cu_px},
-              {"cv_px", camera.cv_px},
-              {"k1", camera.k1},
-              {"tilt_u_rad", camera.tilt_u_rad},
-              {"tilt_v_rad", camera.tilt_v_rad}};
-    if (const auto& loaded = camera.loaded) {
-        json["loaded"] = {{"body_from_camera", pose_json(loaded->body_from_camera)},
-                          {"height_m", loaded->height_m},
-                          {"tilt_u_rad", loaded->tilt_u_rad},
-                          {"tilt_v_rad", loaded->tilt_v_rad}};
-    }
+    Json json = mounting_json(camera);
+    json.update({{"name", camera.name},
+                 {"f_px", camera.f_px},
+                 {"width_px", camera.width_px},
+                 {"height_px", camera.height_px},
+                 {"cu_px", camera.cu_px},
+                 {"cv_px", camera.cv_px},
+                 {"k1", camera.k1}});
+    if (camera.loaded) json["loaded"] = mounting_json(*camera.loaded);
     return json;
 }
 
@@ -91,6 +90,7 @@ Json vehicle_type_json(const plant::VehicleType& type) {
             {"max_accel_mps2", type.max_accel_mps2},
             {"max_turn_rate_radps", type.max_turn_rate_radps},
             {"max_turn_accel_radps2", type.max_turn_accel_radps2},
+            {"max_steering_rate_radps", type.max_steering_rate_radps},
             {"min_turn_radius_m", type.min_turn_radius_m},
             {"max_arc_radius_m", type.max_arc_radius_m},
             {"clearance_m", type.clearance_m},

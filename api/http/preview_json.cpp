@@ -42,6 +42,10 @@ Json segment_json(const kinematics::Segment& segment) {
             json["kind"] = "arc";
             json["centre"] = point_json(segment.centre);
             break;
+        case Kind::kCombined:
+            json["kind"] = "combined";
+            json["direction_rad"] = segment.direction_rad;
+            break;
     }
     return json;
 }

@@ -26,10 +26,6 @@ constexpr CountLimits kRingPoints{0, 1000};
 constexpr CountLimits kMany{0, 100'000};
 constexpr CountLimits kFew{0, 1000};
 
-constexpr std::initializer_list<MotionMode> kModes = {
-    MotionMode::kAuto,    MotionMode::kSelfRotation, MotionMode::kLinear,
-    MotionMode::kLateral, MotionMode::kFree,         MotionMode::kFixedAxisRotation};
-
 Point2 decode_point(ObjectReader in) {
     const Point2 point{in.number("x_m", kMetres), in.number("y_m", kMetres)};
     in.refuse_unknown();
@@ -152,23 +148,22 @@ Wheel decode_wheel(ObjectReader& in) {
     return wheel;
 }
 
+CameraMounting decode_mounting(ObjectReader& in) {
+    return {decode_pose(in.object("body_from_camera")), in.number("height_m", kMetres),
+            in.number_or("tilt_u_rad", 0, kTilt), in.number_or("tilt_v_rad", 0, kTilt)};
+}
+
 Camera decode_camera(ObjectReader& in) {
-    Camera camera;
+    Camera camera{decode_mounting(in), {}};
     camera.name = in.text("name", kId);
-    camera.body_from_camera = decode_pose(in.object("body_from_camera"));
-    camera.height_m = in.number("height_m", kMetres);
     camera.f_px = in.number("f_px", kQuantity);
     camera.width_px = static_cast<int>(in.integer("width_px", kPixels));
     camera.height_px = static_cast<int>(in.integer("height_px", kPixels));
     camera.cu_px = in.number("cu_px", kQuantity);
     camera.cv_px = in.number("cv_px", kQuantity);
     camera.k1 = in.number_or("k1", 0, kQuantity);
-    camera.tilt_u_rad = in.number_or("tilt_u_rad", 0, kTilt);
-    camera.tilt_v_rad = in.number_or("tilt_v_rad", 0, kTilt);
     if (auto loaded = in.object_if_any("loaded")) {
-        camera.loaded = plant::CameraMounting{
-            decode_pose(loaded->object("body_from_camera")), loaded->number("height_m", kMetres),
-            loaded->number_or("tilt_u_rad", 0, kTilt), loaded->number_or("tilt_v_rad", 0, kTilt)};
+        camera.loaded = decode_mounting(*loaded);
         loaded->refuse_unknown();
     }
     return camera;
@@ -186,6 +181,8 @@ void decode_limits(ObjectReader& in, VehicleType& type) {
     type.max_accel_mps2 = in.number("max_accel_mps2", kQuantity);
     type.max_turn_rate_radps = in.number("max_turn_rate_radps", kQuantity);
     type.max_turn_accel_radps2 = in.number("max_turn_accel_radps2", kQuantity);
+    type.max_steering_rate_radps =
+        in.number_or("max_steering_rate_radps", type.max_steering_rate_radps, kQuantity);
     type.min_turn_radius_m = in.number_or("min_turn_radius_m", 0, kQuantity);
     type.max_arc_radius_m = in.number_or("max_arc_radius_m", type.max_arc_radius_m, kQuantity);
     type.clearance_m = in.number("clearance_m", kQuantity);
@@ -218,7 +215,7 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
             type.motion_modes.push_back(*mode);
         } else if (item.is_string()) {
             std::string allowed;
-            for (const MotionMode m : kModes) {
+            for (const MotionMode m : kMotionModes) {
                 allowed += (allowed.empty() ? "" : ", ") + std::string(to_string(m));
             }
             in.errors().add(at, {"not_one_of", {{"allowed", allowed}}},

@@ -78,24 +78,23 @@ Json encode(const Wheel& w) {
             {"diameter_m", w.diameter_m}};
 }
 
+Json encode(const CameraMounting& m) {
+    return {{"body_from_camera", encode(m.body_from_camera)},
+            {"height_m", m.height_m},
+            {"tilt_u_rad", m.tilt_u_rad},
+            {"tilt_v_rad", m.tilt_v_rad}};
+}
+
 Json encode(const Camera& c) {
-    Json json{{"name", c.name},
-              {"body_from_camera", encode(c.body_from_camera)},
-              {"height_m", c.height_m},
-              {"f_px", c.f_px},
-              {"width_px", c.width_px},
-              {"height_px", c.height_px},
-              {"cu_px", c.cu_px},
-              {"cv_px", c.cv_px},
-              {"k1", c.k1},
-              {"tilt_u_rad", c.tilt_u_rad},
-              {"tilt_v_rad", c.tilt_v_rad}};
-    if (c.loaded) {
-        json["loaded"] = {{"body_from_camera", encode(c.loaded->body_from_camera)},
-                          {"height_m", c.loaded->height_m},
-                          {"tilt_u_rad", c.loaded->tilt_u_rad},
-                          {"tilt_v_rad", c.loaded->tilt_v_rad}};
-    }
+    Json json = encode(static_cast<const CameraMounting&>(c));
+    json.update({{"name", c.name},
+                 {"f_px", c.f_px},
+                 {"width_px", c.width_px},
+                 {"height_px", c.height_px},
+                 {"cu_px", c.cu_px},
+                 {"cv_px", c.cv_px},
+                 {"k1", c.k1}});
+    if (c.loaded) json["loaded"] = encode(*c.loaded);
     return json;
 }
 
@@ -125,6 +124,7 @@ Json encode(const VehicleType& t) {
             {"max_accel_mps2", t.max_accel_mps2},
             {"max_turn_rate_radps", t.max_turn_rate_radps},
             {"max_turn_accel_radps2", t.max_turn_accel_radps2},
+            {"max_steering_rate_radps", t.max_steering_rate_radps},
             {"min_turn_radius_m", t.min_turn_radius_m},
             {"max_arc_radius_m", t.max_arc_radius_m},
             {"clearance_m", t.clearance_m},

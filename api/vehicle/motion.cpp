@@ -109,6 +109,19 @@ Segment turn_on_the_spot(json::ObjectReader& edge, const Pose2& from, const Pose
     return turn;
 }
 
+/// Straight there while the heading turns from one node's theta to the other's, the short way.
+Segment combined(const Pose2& from, const Pose2& to) {
+    Segment move;
+    move.kind = Kind::kCombined;
+    move.start = from;
+    move.end = to;
+    const Point2 way = to.position() - from.position();
+    move.length_m = norm(way);
+    move.turn_rad = wrap(to.heading_rad - from.heading_rad);
+    move.direction_rad = wrap(std::atan2(way.y_m, way.x_m) - from.heading_rad);
+    return move;
+}
+
 Segment straight_on(const fleet::OrderNode& from, const fleet::OrderNode& to, double orientation,
                     bool global) {
     Segment straight;
@@ -146,6 +159,12 @@ void encode_motion(Json& edge, const Segment& segment) {
             edge["rotationAllowed"] = false;
             edge["orientation"] = segment.length_m < 0 ? kMaxAngle : 0.0;
             edge["trajectory"] = encode_arc(segment);
+            return;
+        case Kind::kCombined:
+            edge["rotationAllowed"] = true;
+            edge["orientationType"] = "GLOBAL";
+            edge["orientation"] =
+                std::clamp(finite(segment.end.heading_rad), -kMaxAngle, kMaxAngle);
             return;
     }
 }
@@ -188,6 +207,10 @@ Segment decode_motion(json::ObjectReader& edge, const fleet::OrderNode& from,
             return refuse("edgeId", "a turn on the spot needs theta at both nodes");
         }
         return turn_on_the_spot(edge, from.pose, to.pose);
+    }
+    if (type == "GLOBAL" && edge.boolean_or("rotationAllowed", false) && from.has_heading &&
+        to.has_heading && wrap(to.pose.heading_rad - from.pose.heading_rad) != 0) {
+        return combined(from.pose, to.pose);
     }
     return straight_on(from, to, orientation, type == "GLOBAL");
 }

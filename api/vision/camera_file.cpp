@@ -21,8 +21,13 @@ plant::CameraMounting decode_mounting(json::ObjectReader& in) {
     return mounting;
 }
 
-json::Json pose_json(const geometry::Pose2& pose) {
-    return {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}};
+json::Json encode(const plant::CameraMounting& mounting) {
+    const geometry::Pose2& foot = mounting.body_from_camera;
+    return {{"height_m", mounting.height_m},
+            {"tilt_u_rad", mounting.tilt_u_rad},
+            {"tilt_v_rad", mounting.tilt_v_rad},
+            {"body_from_camera",
+             {{"x_m", foot.x_m}, {"y_m", foot.y_m}, {"heading_rad", foot.heading_rad}}}};
 }
 
 }  // namespace
@@ -32,7 +37,7 @@ Result<plant::Camera> decode_camera(std::string_view text) {
     if (!parsed) return fail(parsed.error());
     json::FieldErrors errors;
     json::ObjectReader in(*parsed, "", errors);
-    plant::Camera camera;
+    plant::Camera camera{decode_mounting(in)};
     // Wider than any camera, narrow enough that nothing overflows behind them.
     camera.width_px = static_cast<int>(in.integer("width_px", {64, 20'000}));
     camera.height_px = static_cast<int>(in.integer("height_px", {64, 20'000}));
@@ -40,33 +45,20 @@ Result<plant::Camera> decode_camera(std::string_view text) {
     camera.cu_px = in.number("cu_px", {-1e5, 1e5});
     camera.cv_px = in.number("cv_px", {-1e5, 1e5});
     camera.k1 = in.number_or("k1", 0, {-10, 10});
-    const auto unloaded = decode_mounting(in);
-    camera.body_from_camera = unloaded.body_from_camera;
-    camera.height_m = unloaded.height_m;
-    camera.tilt_u_rad = unloaded.tilt_u_rad;
-    camera.tilt_v_rad = unloaded.tilt_v_rad;
     if (auto loaded = in.object_if_any("loaded")) camera.loaded = decode_mounting(*loaded);
     if (const Status status = errors.status(); !status) return fail(status.error());
     return camera;
 }
 
 std::string encode_camera(const plant::Camera& camera) {
-    json::Json file{{"width_px", camera.width_px},
-                    {"height_px", camera.height_px},
-                    {"f_px", camera.f_px},
-                    {"cu_px", camera.cu_px},
-                    {"cv_px", camera.cv_px},
-                    {"k1", camera.k1},
-                    {"height_m", camera.height_m},
-                    {"tilt_u_rad", camera.tilt_u_rad},
-                    {"tilt_v_rad", camera.tilt_v_rad},
-                    {"body_from_camera", pose_json(camera.body_from_camera)}};
-    if (const auto& loaded = camera.loaded) {
-        file["loaded"] = {{"height_m", loaded->height_m},
-                          {"tilt_u_rad", loaded->tilt_u_rad},
-                          {"tilt_v_rad", loaded->tilt_v_rad},
-                          {"body_from_camera", pose_json(loaded->body_from_camera)}};
-    }
+    json::Json file = encode(static_cast<const plant::CameraMounting&>(camera));
+    file.update({{"width_px", camera.width_px},
+                 {"height_px", camera.height_px},
+                 {"f_px", camera.f_px},
+                 {"cu_px", camera.cu_px},
+                 {"cv_px", camera.cv_px},
+                 {"k1", camera.k1}});
+    if (camera.loaded) file["loaded"] = encode(*camera.loaded);
     return file.dump(2) + "\n";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/kinematics/arc.hpp"
 #include "core/kinematics/primitives.hpp"
@@ -29,12 +30,24 @@ const char* label(MotionMode mode) {
             return "fixed-axis rotation";
         case MotionMode::kLateral:
             return "lateral motion";
+        case MotionMode::kOblique:
+            return "oblique motion";
+        case MotionMode::kCombined:
+            return "combined motion";
         case MotionMode::kFree:
             return "free motion";
         case MotionMode::kAuto:
             break;
     }
     return "automatic choice";
+}
+
+Error not_supported(const plant::VehicleType& type, MotionMode mode) {
+    return {Errc::kUnreachable,
+            {"mode_not_supported",
+             {{"mode", std::string(plant::to_string(mode))}, {"vehicle_type", type.id.str()}}},
+            type.name + " cannot drive " + label(mode) + ". Choose one of its own motion modes.",
+            {}};
 }
 
 MotionPlan finish(const plant::VehicleType& type, MotionMode mode, std::vector<Segment> segments) {
@@ -129,12 +142,68 @@ Result<Variants> lateral(const plant::VehicleType& type, const Pose2& from, cons
     return Variants{finish(type, MotionMode::kLateral, std::move(segments))};
 }
 
-Error not_supported(const plant::VehicleType& type, MotionMode mode) {
-    return {Errc::kUnreachable,
-            {"mode_not_supported",
-             {{"mode", std::string(plant::to_string(mode))}, {"vehicle_type", type.id.str()}}},
-            type.name + " cannot drive " + label(mode) + ". Choose one of its own motion modes.",
-            {}};
+/// Straight there in whatever direction with the heading kept, then the turn.
+Result<Variants> oblique(const plant::VehicleType& type, const Pose2& from, const Pose2& to) {
+    std::vector<Segment> segments;
+    append_straight(segments, from, to.position());
+    append_turn(segments, at(to.position(), from.heading_rad),
+                shortest_turn_rad(from.heading_rad, to.heading_rad));
+    return Variants{finish(type, MotionMode::kOblique, std::move(segments))};
+}
+
+/// Straight there while turning, either way round. Not with steered wheels: they would have to turn
+/// all the way.
+Result<Variants> combined(const plant::VehicleType& type, const Pose2& from, const Pose2& to) {
+    if (type.kinematics != plant::Kinematics::kMecanum)
+        return fail(not_supported(type, MotionMode::kCombined));
+    const double shortest = shortest_turn_rad(from.heading_rad, to.heading_rad);
+    const double other = shortest - std::copysign(2 * kPi, shortest);
+    Variants variants;
+    for (const double turn_rad : {shortest, other}) {
+        std::vector<Segment> segments;
+        append_combined(segments, from, to.position(), turn_rad);
+        variants.push_back(finish(type, MotionMode::kCombined, std::move(segments)));
+        if (std::abs(shortest) < kNothing) break;
+    }
+    return variants;
+}
+
+/// The first of the ways that the type's wheels can follow, or why none can.
+Result<Variants> drivable(const plant::VehicleType& type, Variants variants) {
+    std::optional<Error> refusal;
+    std::erase_if(variants, [&](const MotionPlan& plan) {
+        for (const Segment& segment : plan.segments) {
+            if (const auto wheels = wheels_of(type, twist_along(segment, 0)); !wheels) {
+                if (!refusal) refusal = wheels.error();
+                return true;
+            }
+        }
+        return false;
+    });
+    if (variants.empty()) return fail(std::move(*refusal));
+    return variants;
+}
+
+Result<Variants> ways(const plant::VehicleType& type, const Pose2& from, const Pose2& to,
+                      MotionMode mode) {
+    switch (mode) {
+        case MotionMode::kSelfRotation:
+            return self_rotation(type, from, to);
+        case MotionMode::kLinear:
+            return linear(type, from, to);
+        case MotionMode::kFixedAxisRotation:
+            return fixed_axis_rotation(type, from, to);
+        case MotionMode::kLateral:
+            return lateral(type, from, to);
+        case MotionMode::kOblique:
+            return oblique(type, from, to);
+        case MotionMode::kCombined:
+            return combined(type, from, to);
+        case MotionMode::kAuto:
+        case MotionMode::kFree:
+            break;
+    }
+    return fail(not_supported(type, mode));
 }
 
 }  // namespace
@@ -154,20 +223,9 @@ Result<std::vector<MotionPlan>> motion_variants(const plant::VehicleType& type, 
         return fail(Errc::kUnreachable, "already_there",
                     "The vehicle already stands at the target. Nothing to drive.");
     }
-    switch (mode) {
-        case MotionMode::kSelfRotation:
-            return self_rotation(type, from, to);
-        case MotionMode::kLinear:
-            return linear(type, from, to);
-        case MotionMode::kFixedAxisRotation:
-            return fixed_axis_rotation(type, from, to);
-        case MotionMode::kLateral:
-            return lateral(type, from, to);
-        case MotionMode::kAuto:
-        case MotionMode::kFree:
-            break;
-    }
-    return fail(not_supported(type, mode));
+    return ways(type, from, to, mode).and_then([&](Variants variants) {
+        return drivable(type, std::move(variants));
+    });
 }
 
 Result<MotionPlan> plan_motion(const plant::VehicleType& type, const Pose2& from, const Pose2& to,

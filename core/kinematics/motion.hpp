@@ -15,15 +15,17 @@ using plant::MotionMode;
 /// One primitive move. Rotate turns about the body's own centre; Straight keeps the heading and
 /// moves along `direction_rad` of the body frame (0 forwards, pi backwards, +-pi/2 sideways); Arc
 /// turns the body about `centre` of the hall frame, heading tangential (backwards when
-/// length_m < 0). A straight driven backwards has both direction pi and length_m < 0.
+/// length_m < 0); Combined moves the body centre along a straight line while the heading turns
+/// evenly with the way, `direction_rad` being that of the line in the body frame at its start. A
+/// straight driven backwards has both direction pi and length_m < 0.
 struct Segment {
-    enum class Kind { kRotate, kStraight, kArc };
+    enum class Kind { kRotate, kStraight, kArc, kCombined };
     Kind kind = Kind::kStraight;
     Pose2 start;
     Pose2 end;
     double turn_rad = 0;       // change of heading, counter-clockwise positive; not wrapped
     double length_m = 0;       // path of the body centre; negative: driven backwards
-    double direction_rad = 0;  // Straight only
+    double direction_rad = 0;  // Straight and Combined
     Point2 centre;             // Arc only
     double duration_s = 0;  // share of its run's trapezoidal profile (pieces of one arc, one line)
     bool operator==(const Segment&) const = default;
@@ -48,8 +50,10 @@ double profile_duration_s(double distance, double max_rate, double max_accel);
 /// Errors (Errc::kUnreachable), reason codes: mode_not_supported, target_on_heading_line
 /// {offset_m, radius_m, limit_m} (Tang eq. 7), not_in_place {distance_m} (self rotation needs the
 /// same position), not_beside {along_m} (lateral), turn_radius_too_small {radius_m, limit_m},
-/// already_there. A vehicle type supports the modes it lists; kFree is not planned here.
-/// Self rotation keeps the position, up to the 25 mm by which a measured stop may be off.
+/// already_there, cannot_move_so {wheel, sideways_mps} when its wheels cannot follow. A vehicle
+/// type supports the modes it lists; kFree is
+/// not planned here. Self rotation keeps the position, up to the 25 mm by which a measured stop may
+/// be off.
 Result<MotionPlan> plan_motion(const plant::VehicleType& type, const Pose2& from, const Pose2& to,
                                MotionMode mode);
 /// All ways to drive `mode`, best first (forwards and backwards); the others matter when the best

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pulseline::kinematics {
 namespace {
@@ -17,19 +18,49 @@ Segment segment_of(Segment::Kind kind, const Pose2& start, const Pose2& end) {
     return segment;
 }
 
-double run_duration_s(const plant::VehicleType& type, const Segment& shape, double length_m,
-                      double turn_rad, double max_speed_mps) {
-    if (shape.kind == Segment::Kind::kRotate) {
-        return profile_duration_s(turn_rad, type.max_turn_rate_radps, type.max_turn_accel_radps2);
+// Body directions on a combined move are tried this far apart; between them a wheel's share of the
+// way is at most 1 / cos(half of it) as large.
+constexpr double kDirectionStep_rad = radians(6.0);
+
+double limit_at(const std::vector<double>& limits, std::size_t i) {
+    return i < limits.size() ? limits[i] : 0.0;
+}
+
+double size_of(const Segment& segment) {
+    return segment.kind == Segment::Kind::kRotate ? std::abs(segment.turn_rad)
+                                                  : std::abs(segment.length_m);
+}
+
+/// The steered wheels of a vehicle that stood with them straight: they turn before each run.
+class Steering {
+public:
+    explicit Steering(const plant::VehicleType& type) : type_(type), present_(type.wheels.size()) {}
+
+    /// Time before a run.
+    double before(const Segment& first) {
+        auto wheels = wheels_of(type_, twist_along(first, 0), present_);
+        if (!wheels) return 0;  // such a motion is refused elsewhere
+        const double duration_s = steering_duration_s(type_, present_, *wheels);
+        present_ = std::move(*wheels);
+        return duration_s;
     }
-    const double speed =
-        max_speed_mps > 0 ? std::min(max_speed_mps, type.max_speed_mps) : type.max_speed_mps;
-    if (shape.kind == Segment::Kind::kStraight || turn_rad <= 0) {
-        return profile_duration_s(length_m, speed, type.max_accel_mps2);
-    }
-    const double radius = length_m / turn_rad;  // both limits hold: of the way and of the turn
-    return profile_duration_s(turn_rad, std::min(type.max_turn_rate_radps, speed / radius),
-                              std::min(type.max_turn_accel_radps2, type.max_accel_mps2 / radius));
+
+private:
+    const plant::VehicleType& type_;
+    std::vector<WheelMotion> present_;
+};
+
+/// A piece without its duration.
+Segment cut(const Segment& segment, double s0, double s1) {
+    Segment piece = segment;
+    piece.start = pose_at(segment, s0);
+    piece.end = pose_at(segment, s1);
+    const double share = std::min(1.0, s1) - std::max(0.0, s0);
+    piece.turn_rad *= share;
+    piece.length_m *= share;
+    if (piece.kind == Segment::Kind::kCombined)
+        piece.direction_rad = wrap(segment.direction_rad - std::max(0.0, s0) * segment.turn_rad);
+    return piece;
 }
 
 }  // namespace
@@ -93,6 +124,62 @@ void append_arc(std::vector<Segment>& segments, const Pose2& from, Point2 centre
     }
 }
 
+void append_combined(std::vector<Segment>& segments, const Pose2& from, Point2 target,
+                     double turn_rad) {
+    const Point2 way = target - from.position();
+    if (norm(way) < kNothing) return append_turn(segments, from, turn_rad);
+    if (std::abs(turn_rad) < kNothing) return append_straight(segments, from, target);
+    Segment whole = segment_of(Segment::Kind::kCombined, from,
+                               {target.x_m, target.y_m, wrap(from.heading_rad + turn_rad)});
+    whole.turn_rad = turn_rad;
+    whole.length_m = norm(way);
+    whole.direction_rad = wrap(std::atan2(way.y_m, way.x_m) - from.heading_rad);
+    const int pieces =
+        std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / kArcPiece_rad - 1e-9)));
+    for (int i = 0; i < pieces; ++i) {
+        segments.push_back(
+            cut(whole, static_cast<double>(i) / pieces, static_cast<double>(i + 1) / pieces));
+    }
+}
+
+Twist twist_along(const Segment& segment, double s) {
+    const double direction = segment.direction_rad - s * segment.turn_rad;
+    switch (segment.kind) {
+        case Segment::Kind::kRotate:
+            return {0, 0, segment.turn_rad < 0 ? -1.0 : 1.0};
+        case Segment::Kind::kStraight:
+            return {std::cos(segment.direction_rad), std::sin(segment.direction_rad), 0};
+        case Segment::Kind::kArc:
+            return {segment.length_m < 0 ? -1.0 : 1.0, 0,
+                    segment.turn_rad / std::abs(segment.length_m)};
+        case Segment::Kind::kCombined:
+            return {std::cos(direction), std::sin(direction), segment.turn_rad / segment.length_m};
+    }
+    return {};
+}
+
+double max_rate(const plant::VehicleType& type, const Segment& segment, double max_speed_mps) {
+    double rate = most_times(type, twist_along(segment, 0));
+    if (segment.kind == Segment::Kind::kCombined) {
+        const int steps = std::max(
+            1, static_cast<int>(std::ceil(std::abs(segment.turn_rad) / kDirectionStep_rad)));
+        for (int i = 1; i <= steps; ++i) {
+            const double s = static_cast<double>(i) / steps;
+            rate = std::min(rate, most_times(type, twist_along(segment, s)));
+        }
+        rate *= std::cos(segment.turn_rad / steps / 2);
+    }
+    const bool on_the_spot = segment.kind == Segment::Kind::kRotate;
+    return max_speed_mps > 0 && !on_the_spot ? std::min(rate, max_speed_mps) : rate;
+}
+
+double max_accel(const plant::VehicleType& type, const Segment& segment) {
+    if (segment.kind == Segment::Kind::kRotate) return type.max_turn_accel_radps2;
+    const double turn_per_m = std::abs(twist_along(segment, 0).turn_radps);
+    if (turn_per_m <= 0) return type.max_accel_mps2;
+    return std::min(type.max_accel_mps2, type.max_turn_accel_radps2 / turn_per_m);
+}
+
 bool runs_on(const Segment& before, const Segment& after) {
     if (before.kind != after.kind) return false;
     switch (before.kind) {
@@ -104,32 +191,41 @@ bool runs_on(const Segment& before, const Segment& after) {
         case Segment::Kind::kArc:
             return geometry::distance(before.centre, after.centre) < kNothing &&
                    (before.turn_rad > 0) == (after.turn_rad > 0);
+        case Segment::Kind::kCombined:
+            return std::abs(wrap(before.direction_rad - before.turn_rad - after.direction_rad)) <
+                       kNothing &&
+                   std::abs(before.turn_rad / before.length_m - after.turn_rad / after.length_m) <
+                       kNothing;
     }
     return false;
 }
 
+std::size_t run_end(const std::vector<Segment>& segments, std::size_t begin,
+                    const std::vector<double>& max_speed_mps) {
+    std::size_t end = begin + 1;
+    while (end < segments.size() && runs_on(segments[end - 1], segments[end]) &&
+           limit_at(max_speed_mps, end) == limit_at(max_speed_mps, begin)) {
+        ++end;
+    }
+    return end;
+}
+
 void set_durations(const plant::VehicleType& type, std::vector<Segment>& segments,
                    const std::vector<double>& max_speed_mps) {
-    const auto limit = [&](std::size_t i) {
-        return i < max_speed_mps.size() ? max_speed_mps[i] : 0.0;
-    };
+    Steering steering(type);
     for (std::size_t begin = 0, end = 0; begin < segments.size(); begin = end) {
-        double length = 0;
-        double turn = 0;
-        for (end = begin;
-             end < segments.size() && (end == begin || (runs_on(segments[end - 1], segments[end]) &&
-                                                        limit(end) == limit(begin)));
-             ++end) {
-            length += std::abs(segments[end].length_m);
-            turn += std::abs(segments[end].turn_rad);
-        }
-        const double total = run_duration_s(type, segments[begin], length, turn, limit(begin));
-        const bool by_turn = segments[begin].kind == Segment::Kind::kRotate;
+        end = run_end(segments, begin, max_speed_mps);
+        double size = 0;
+        double rate = std::numeric_limits<double>::infinity();
         for (std::size_t i = begin; i < end; ++i) {
-            const double share = by_turn ? std::abs(segments[i].turn_rad) / turn
-                                         : std::abs(segments[i].length_m) / length;
-            segments[i].duration_s = total > 0 ? total * share : 0;
+            size += size_of(segments[i]);
+            rate = std::min(rate, max_rate(type, segments[i], limit_at(max_speed_mps, begin)));
         }
+        const double total_s = profile_duration_s(size, rate, max_accel(type, segments[begin]));
+        for (std::size_t i = begin; i < end; ++i) {
+            segments[i].duration_s = size > 0 ? total_s * size_of(segments[i]) / size : 0;
+        }
+        segments[begin].duration_s += steering.before(segments[begin]);
     }
 }
 
@@ -154,6 +250,9 @@ Pose2 pose_at(const Segment& segment, double s) {
         case Segment::Kind::kStraight:
             return {a.x_m + s * (segment.end.x_m - a.x_m), a.y_m + s * (segment.end.y_m - a.y_m),
                     a.heading_rad};
+        case Segment::Kind::kCombined:
+            return {a.x_m + s * (segment.end.x_m - a.x_m), a.y_m + s * (segment.end.y_m - a.y_m),
+                    wrap(a.heading_rad + turned)};
         case Segment::Kind::kArc:
             break;
     }
@@ -163,15 +262,10 @@ Pose2 pose_at(const Segment& segment, double s) {
 }
 
 Segment part(const plant::VehicleType& type, const Segment& segment, double s0, double s1) {
-    Segment piece = segment;
-    piece.start = pose_at(segment, s0);
-    piece.end = pose_at(segment, s1);
-    const double share = std::min(1.0, s1) - std::max(0.0, s0);
-    piece.turn_rad *= share;
-    piece.length_m *= share;
-    std::vector<Segment> alone{piece};
-    set_durations(type, alone);
-    return alone.front();
+    Segment piece = cut(segment, s0, s1);
+    piece.duration_s =
+        profile_duration_s(size_of(piece), max_rate(type, piece, 0), max_accel(type, piece));
+    return piece;
 }
 
 }  // namespace pulseline::kinematics

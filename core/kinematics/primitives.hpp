@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/kinematics/motion.hpp"
+#include "core/kinematics/wheels.hpp"
 
 /// Building blocks of motion plans: turns, straights and arcs appended one after the other.
 namespace pulseline::kinematics {
@@ -23,10 +24,27 @@ void append_straight(std::vector<Segment>& segments, const Pose2& from, Point2 t
 void append_arc(std::vector<Segment>& segments, const Pose2& from, Point2 centre, double turn_rad,
                 bool backwards, Point2 target);
 
+/// Straight to `target` while the heading turns evenly by `turn_rad` (not wrapped), in pieces of
+/// at most 90 deg.
+void append_combined(std::vector<Segment>& segments, const Pose2& from, Point2 target,
+                     double turn_rad);
+
+/// Motion of the body frame at share s of the way, per metre of it (Rotate: per radian).
+Twist twist_along(const Segment& segment, double s);
+/// Fastest that a segment may be driven, metres per second (Rotate: radians per second): body,
+/// turning and every wheel stay within the type's limits. `max_speed_mps` 0: no further limit.
+double max_rate(const plant::VehicleType& type, const Segment& segment, double max_speed_mps);
+double max_accel(const plant::VehicleType& type, const Segment& segment);
+
 /// True when the vehicle drives from one segment into the next without a stop.
 bool runs_on(const Segment& before, const Segment& after);
-/// Sets every duration: segments that run on share the time of one trapezoidal profile.
-/// `max_speed_mps` holds one limit per segment; empty: the vehicle's own.
+/// End of the run that begins with segments[begin]: those that the vehicle drives without a stop
+/// under one limit of `max_speed_mps`.
+std::size_t run_end(const std::vector<Segment>& segments, std::size_t begin,
+                    const std::vector<double>& max_speed_mps = {});
+/// Sets every duration: segments that run on share the time of one trapezoidal profile; the first
+/// of a run holds the time in which its steered wheels turn before it, from straight ahead for the
+/// first run. `max_speed_mps` holds one limit per segment; empty: the vehicle's own.
 void set_durations(const plant::VehicleType& type, std::vector<Segment>& segments,
                    const std::vector<double>& max_speed_mps = {});
 /// Sums of a finished list of segments.

@@ -52,6 +52,32 @@ void sweep_turn(const Polygon& piece, const Segment& segment, const SweepDetail&
     }
 }
 
+/// Corners of a body that moves and turns at once: in a step by d about the moving centre the path
+/// of a corner at r leaves the straight line between its ends by at most r d^2 / 8, in any
+/// direction, so that a square of twice that width about every corner holds it.
+void sweep_combined(const Polygon& piece, const Segment& segment, const SweepDetail& detail,
+                    std::vector<Polygon>& swept) {
+    double reach = 0;
+    for (const Point2& p : piece) reach = std::max(reach, norm(p));
+    const int steps = steps_of(segment, reach, detail);
+    const double step = segment.turn_rad / steps;
+    const double out = reach * step * step / 8;
+    Polygon before = geometry::transformed(segment.start, piece);
+    for (int i = 1; i <= steps; ++i) {
+        Polygon after =
+            geometry::transformed(pose_at(segment, static_cast<double>(i) / steps), piece);
+        std::vector<Point2> points;
+        for (const Polygon* corners : {&before, &after}) {
+            for (const Point2& p : *corners) {
+                for (const Point2 side : {Point2{out, out}, {out, -out}, {-out, out}, {-out, -out}})
+                    points.push_back(p + side);
+            }
+        }
+        swept.push_back(geometry::convex_hull(std::move(points)));
+        before = std::move(after);
+    }
+}
+
 }  // namespace
 
 std::vector<Polygon> sweep(const std::vector<Polygon>& body, const std::vector<Segment>& segments,
@@ -61,6 +87,8 @@ std::vector<Polygon> sweep(const std::vector<Polygon>& body, const std::vector<S
         for (const Polygon& piece : body) {
             if (segment.kind == Segment::Kind::kStraight) {
                 sweep_straight(piece, segment, swept);
+            } else if (segment.kind == Segment::Kind::kCombined) {
+                sweep_combined(piece, segment, detail, swept);
             } else {
                 sweep_turn(piece, segment, detail, swept);
             }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace pulseline::kinematics {
 namespace {
@@ -108,10 +109,10 @@ BodyMotion body_of(const plant::VehicleType& type, std::span<const WheelMotion> 
     return body;
 }
 
-Twist within_limits(const plant::VehicleType& type, const Twist& twist) {
-    double share = 1;
+double most_times(const plant::VehicleType& type, const Twist& twist) {
+    double times = std::numeric_limits<double>::infinity();
     const auto limit = [&](double rate, double most) {
-        if (std::abs(rate) > most) share = std::min(share, most / std::abs(rate));
+        if (rate != 0) times = std::min(times, most / std::abs(rate));
     };
     limit(twist.turn_radps, type.max_turn_rate_radps);
     limit(std::hypot(twist.vx_mps, twist.vy_mps), type.max_speed_mps);
@@ -121,7 +122,23 @@ Twist within_limits(const plant::VehicleType& type, const Twist& twist) {
         limit(rollers ? v.x_m + roller_side(wheel) * v.y_m : std::hypot(v.x_m, v.y_m),
               type.max_speed_mps);
     }
-    return {share * twist.vx_mps, share * twist.vy_mps, share * twist.turn_radps};
+    return times;
+}
+
+Twist within_limits(const plant::VehicleType& type, const Twist& twist) {
+    const double times = std::min(1.0, most_times(type, twist));
+    return {times * twist.vx_mps, times * twist.vy_mps, times * twist.turn_radps};
+}
+
+double steering_duration_s(const plant::VehicleType& type, std::span<const WheelMotion> from,
+                           std::span<const WheelMotion> to) {
+    assert(from.size() == type.wheels.size() && to.size() == type.wheels.size());
+    double turn_rad = 0;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        if (type.wheels[i].steered)
+            turn_rad = std::max(turn_rad, std::abs(to[i].angle_rad - from[i].angle_rad));
+    }
+    return turn_rad / type.max_steering_rate_radps;
 }
 
 }  // namespace pulseline::kinematics

@@ -52,8 +52,14 @@ Result<std::vector<WheelMotion>> wheels_of(const plant::VehicleType& type, const
 /// cannot say everything about some twists, then the least twist). REQUIRES: one motion a wheel.
 BodyMotion body_of(const plant::VehicleType& type, std::span<const WheelMotion> wheels);
 
-/// The same motion slowed down until no wheel rolls faster than the type's top speed and the body
-/// turns no faster than its limit.
+/// How many times the twist may be driven: no wheel rolls faster than the type's top speed, nor the
+/// body, which turns no faster than its limit. Infinite for standing still.
+double most_times(const plant::VehicleType& type, const Twist& twist);
+/// The same motion slowed down until that holds for it.
 Twist within_limits(const plant::VehicleType& type, const Twist& twist);
+
+/// Longest time that steered wheels need to turn from one set of angles to another.
+double steering_duration_s(const plant::VehicleType& type, std::span<const WheelMotion> from,
+                           std::span<const WheelMotion> to);
 
 }  // namespace pulseline::kinematics

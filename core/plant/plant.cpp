@@ -60,10 +60,7 @@ std::vector<Camera> cameras_of(const VehicleType& type, bool loaded) {
     std::vector<Camera> cameras = type.cameras;
     for (Camera& camera : cameras) {
         if (!loaded || !camera.loaded) continue;
-        camera.body_from_camera = camera.loaded->body_from_camera;
-        camera.height_m = camera.loaded->height_m;
-        camera.tilt_u_rad = camera.loaded->tilt_u_rad;
-        camera.tilt_v_rad = camera.loaded->tilt_v_rad;
+        static_cast<CameraMounting&>(camera) = *camera.loaded;
     }
     return cameras;
 }
@@ -90,6 +87,10 @@ const char* to_string(MotionMode mode) {
             return "fixed_axis_rotation";
         case MotionMode::kLateral:
             return "lateral";
+        case MotionMode::kOblique:
+            return "oblique";
+        case MotionMode::kCombined:
+            return "combined";
         case MotionMode::kFree:
             return "free";
     }
@@ -97,9 +98,7 @@ const char* to_string(MotionMode mode) {
 }
 
 std::optional<MotionMode> parse_motion_mode(const std::string& text) {
-    for (const MotionMode mode :
-         {MotionMode::kAuto, MotionMode::kSelfRotation, MotionMode::kLinear,
-          MotionMode::kFixedAxisRotation, MotionMode::kLateral, MotionMode::kFree}) {
+    for (const MotionMode mode : kMotionModes) {
         if (text == to_string(mode)) return mode;
     }
     return std::nullopt;

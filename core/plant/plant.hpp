@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -27,8 +28,24 @@ using AreaId = Key<struct AreaTag>;
 using VehicleTypeId = Key<struct VehicleTypeTag>;
 using VehicleId = Key<struct VehicleTag>;
 
-/// How a vehicle travels one leg (design.md section 3). kAuto asks the planner to choose.
-enum class MotionMode { kAuto, kSelfRotation, kLinear, kFixedAxisRotation, kLateral, kFree };
+/// How a vehicle travels one leg (design.md section 3). kAuto asks the planner to choose. kOblique
+/// keeps the heading on the way and turns at its end, kCombined turns on the way (Wang's oblique
+/// and combined moves); both are for vehicles that can move in any direction.
+enum class MotionMode {
+    kAuto,
+    kSelfRotation,
+    kLinear,
+    kFixedAxisRotation,
+    kLateral,
+    kOblique,
+    kCombined,
+    kFree
+};
+/// All of them in the order people see them in, kAuto first.
+inline constexpr std::array kMotionModes{
+    MotionMode::kAuto,         MotionMode::kLinear,  MotionMode::kFixedAxisRotation,
+    MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kOblique,
+    MotionMode::kCombined,     MotionMode::kFree};
 enum class Kinematics { kSteeredPlatform, kMecanum, kDifferential };
 enum class MarkerKind { kQr, kAprilTag, kLandmark };
 enum class AreaKind { kZone, kLane, kNoGo, kObstacle };
@@ -93,30 +110,25 @@ struct Wheel {
     double diameter_m = 0;
 };
 
-/// How a camera hangs over the floor, from calibration; fields as in Camera.
+/// How a camera hangs over the floor, from calibration: where the foot of its optical centre,
+/// straight below it, lies in the body frame, and how the image's +u axis is turned against body x.
 struct CameraMounting {
     Pose2 body_from_camera;
-    double height_m = 0;
+    double height_m = 0.455;
+    /// Of the optical axis against the plumb line: turned first towards +u, then towards +v.
     double tilt_u_rad = 0;
     double tilt_v_rad = 0;
 };
 
-/// Downward camera (design.md section 10). The mounting says where the foot of its optical axis
-/// lies in the body frame and how the image's +u axis is turned against body x.
-struct Camera {
+/// Downward camera (design.md section 10).
+struct Camera : CameraMounting {
     std::string name;  // "front", "back"
-    Pose2 body_from_camera;
-    double height_m = 0.455;
     double f_px = 3317.78;
     int width_px = 1280;
     int height_px = 1024;
     double cu_px = 639.5;
     double cv_px = 511.5;
     double k1 = 0;
-    /// Of the optical axis against the plumb line, from calibration: turned first towards +u, then
-    /// towards +v. The foot is that of the optical centre, straight below it.
-    double tilt_u_rad = 0;
-    double tilt_v_rad = 0;
     /// When the vehicle carries its load, under which the body gives; none: as without.
     std::optional<CameraMounting> loaded = {};
 };
@@ -143,9 +155,10 @@ struct VehicleType {
     double max_accel_mps2 = 0.2;
     double max_turn_rate_radps = 0.1;
     double max_turn_accel_radps2 = 0.05;
-    double min_turn_radius_m = 0;   // of arcs; 0: none
-    double max_arc_radius_m = 200;  // above it an arc is a straight line with a hidden drift
-    double clearance_m = 0.5;       // distance kept from walls and other vehicles
+    double max_steering_rate_radps = 0.8;  // of steered wheels, about their vertical axis
+    double min_turn_radius_m = 0;          // of arcs; 0: none
+    double max_arc_radius_m = 200;         // above it an arc is a straight line with a hidden drift
+    double clearance_m = 0.5;              // distance kept from walls and other vehicles
     double length_m() const;
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;

@@ -143,6 +143,20 @@ void check_vehicle_names(const Plant& plant, const Index& index, Faults& faults)
     }
 }
 
+/// Sideways motion needs wheels that can all point or roll that way, turning on a straight way ones
+/// that need not be steered for it.
+bool wheels_allow(const VehicleType& type, MotionMode mode) {
+    switch (mode) {
+        case MotionMode::kLateral:
+        case MotionMode::kOblique:
+            return type.kinematics != Kinematics::kDifferential;
+        case MotionMode::kCombined:
+            return type.kinematics == Kinematics::kMecanum;
+        default:
+            return true;
+    }
+}
+
 void check_type_names(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         const VehicleType& type = plant.vehicle_types[i];
@@ -158,6 +172,12 @@ void check_type_names(const Plant& plant, Faults& faults) {
             faults.add(at("vehicle_types", i, "/motion_modes"), "no_motion_mode",
                        "The type allows no motion mode, so it can never move.",
                        "Allow at least \"linear\".");
+        }
+        for (const MotionMode mode : type.motion_modes) {
+            if (wheels_allow(type, mode)) continue;
+            faults.add(at("vehicle_types", i, "/motion_modes"), "mode_not_for_wheels",
+                       std::string("The type's wheels cannot drive ") + to_string(mode) + ".",
+                       "Take it out of the list, or correct \"kinematics\".");
         }
     }
 }

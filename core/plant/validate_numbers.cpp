@@ -63,6 +63,7 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     n.positive("/max_accel_mps2", t.max_accel_mps2);
     n.positive("/max_turn_rate_radps", t.max_turn_rate_radps);
     n.positive("/max_turn_accel_radps2", t.max_turn_accel_radps2);
+    n.positive("/max_steering_rate_radps", t.max_steering_rate_radps);
     n.not_negative("/min_turn_radius_m", t.min_turn_radius_m);
     n.positive("/max_arc_radius_m", t.max_arc_radius_m);
     n.not_negative("/clearance_m", t.clearance_m);

@@ -238,10 +238,7 @@ int calibrate_mounting(const MountingInput& input, std::ostream& out) {
         mounting->sigma_height_m, degrees(c.tilt_u_rad), degrees(c.tilt_v_rad),
         degrees(mounting->sigma_tilt_rad), mounting->rms_px, mounting->residuals.size());
     plant::Camera found = input.loaded ? *file : c;
-    if (input.loaded) {
-        found.loaded =
-            plant::CameraMounting{c.body_from_camera, c.height_m, c.tilt_u_rad, c.tilt_v_rad};
-    }
+    if (input.loaded) found.loaded = c;
     return keep(found, c, mounting->residuals, input, out);
 }
 

@@ -58,7 +58,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "footprint": rect(10.5, 2.5), "load_footprint": FIGHTER,
     "max_speed_mps": 1.67, "max_accel_mps2": 0.2, "max_turn_rate_radps": 0.12, "max_turn_accel_radps2": 0.04,
     "min_turn_radius_m": 5, "max_arc_radius_m": 200, "clearance_m": 0.5,
-    "motion_modes": ["auto", "self_rotation", "linear", "fixed_axis_rotation"],
+    "motion_modes": ["auto", "self_rotation", "linear", "fixed_axis_rotation", "free"],
     "wheels": [wheel("FL", 4.97, 0.925, False, True, 0.3), wheel("FR", 4.97, -0.925, False, True, 0.3),
                wheel("BL", -4.97, 0.925, False, True, 0.3), wheel("BR", -4.97, -0.925, False, True, 0.3),
                wheel("front drive", 4.815, 0, True, True, 0.41), wheel("back drive", -4.815, 0, True, True, 0.41)],
@@ -73,7 +73,7 @@ def mecanum(kind, name, length, width, camera_x, speed, mass, load):
     return {"id": kind, "name": name, "kinematics": "mecanum", "footprint": rect(length, width), "load_footprint": [],
             "max_speed_mps": speed, "max_accel_mps2": 0.4, "max_turn_rate_radps": 0.6, "max_turn_accel_radps2": 0.4,
             "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2,
-            "motion_modes": ["auto", "self_rotation", "linear", "lateral"],
+            "motion_modes": ["auto", "self_rotation", "linear", "lateral", "oblique", "combined", "free"],
             "wheels": [wheel(n, sx * (length / 2 - 0.35), sy * (width / 2 - 0.15), True, False, 0.3)
                        for n, sx, sy in [("FL", 1, 1), ("FR", 1, -1), ("BL", -1, 1), ("BR", -1, -1)]],
             "cameras": [camera("front", camera_x)], "brackets": [], "mass_kg": mass, "max_load_kg": load}
@@ -86,7 +86,7 @@ DELIVERY = {
     "footprint": ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)]),
     "load_footprint": [], "max_speed_mps": 1.5, "max_accel_mps2": 0.6, "max_turn_rate_radps": 0.9,
     "max_turn_accel_radps2": 0.8, "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2,
-    "motion_modes": ["auto", "self_rotation", "linear"],
+    "motion_modes": ["auto", "self_rotation", "linear", "free"],
     "wheels": [wheel("left", 0, 0.42, True, False, 0.2), wheel("right", 0, -0.42, True, False, 0.2)],
     "cameras": [camera("front", 0.5)], "brackets": [], "mass_kg": 180, "max_load_kg": 250}
 

@@ -48,6 +48,15 @@ inline Segment arc(const Pose2& from, double radius_m, double turn_rad, bool bac
     return s;
 }
 
+/// Straight with an even turn on the way.
+inline Segment combined(const Pose2& from, double length_m, double direction_rad, double turn_rad) {
+    Segment s = straight(from, length_m, direction_rad);
+    s.kind = Segment::Kind::kCombined;
+    s.end.heading_rad = wrap(s.end.heading_rad + turn_rad);
+    s.turn_rad = turn_rad;
+    return s;
+}
+
 inline fleet::StopTarget stop_target() {
     fleet::StopTarget target{"st02", 2, {17, 12.3, 0.01}, 0.025, 0.025, 0.0035, {}};
     target.markers = {{"ST02-F", "qr", 0.06, {20, 12, 0.1}, 0.0001},
@@ -55,7 +64,8 @@ inline fleet::StopTarget stop_target() {
     return target;
 }
 
-/// A straight, a turn, a sideways move, a long arc and a backward arc; the last edge is horizon.
+/// A straight, a turn, a sideways move, arcs and a move that turns on its way; the last edge is
+/// horizon.
 inline fleet::OrderMessage order() {
     fleet::OrderMessage message;
     message.order_id = "leg-1";
@@ -91,6 +101,7 @@ inline fleet::OrderMessage order() {
     add(arc(at, 12, 2.5, false), true);
     add(arc(at, 9, -0.4, false), true);
     add(arc(at, 30, 0.8, true), true);
+    add(combined(at, 3, 1.2, -0.8), true);
     add(arc(at, 30, -1.9, true), false);
     fleet::Action adjust;
     adjust.type = "adjustToMarker";

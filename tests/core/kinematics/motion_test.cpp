@@ -6,7 +6,7 @@
 #include <random>
 
 #include "core/kinematics/primitives.hpp"
-#include "tests/core/kinematics/tang_platform.hpp"
+#include "tests/core/kinematics/vehicle_types.hpp"
 
 namespace pulseline::kinematics {
 namespace {
@@ -26,6 +26,7 @@ double number(const Error& error, const std::string& name) {
 VehicleType all_modes() {
     VehicleType type = tang_platform();
     type.motion_modes.push_back(MotionMode::kLateral);
+    type.motion_modes.push_back(MotionMode::kOblique);
     return type;
 }
 
@@ -45,6 +46,11 @@ Pose2 drive(const Pose2& start, const std::vector<Segment>& segments) {
             EXPECT_LT(geometry::distance(centre, s.centre), 1e-6);
             pose.x_m = centre.x_m + rho * std::sin(pose.heading_rad + s.turn_rad);
             pose.y_m = centre.y_m - rho * std::cos(pose.heading_rad + s.turn_rad);
+            pose.heading_rad += s.turn_rad;
+        } else if (s.kind == Segment::Kind::kCombined) {
+            const double travel = pose.heading_rad + s.direction_rad;
+            pose.x_m += s.length_m * std::cos(travel);
+            pose.y_m += s.length_m * std::sin(travel);
             pose.heading_rad += s.turn_rad;
         } else {
             pose.heading_rad += s.turn_rad;
@@ -72,7 +78,7 @@ void expect_sound(const MotionPlan& plan, const Pose2& from) {
 class RandomPairs : public testing::TestWithParam<MotionMode> {};
 
 TEST_P(RandomPairs, EndAtTheTargetOrNameAReason) {
-    const VehicleType type = all_modes();
+    const VehicleType type = GetParam() == MotionMode::kCombined ? mecanum_platform() : all_modes();
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> place(-60, 60);
     std::uniform_real_distribution<double> turn(-kPi, kPi);
@@ -107,7 +113,8 @@ TEST_P(RandomPairs, EndAtTheTargetOrNameAReason) {
 
 INSTANTIATE_TEST_SUITE_P(Motion, RandomPairs,
                          testing::Values(MotionMode::kLinear, MotionMode::kFixedAxisRotation,
-                                         MotionMode::kSelfRotation, MotionMode::kLateral),
+                                         MotionMode::kSelfRotation, MotionMode::kLateral,
+                                         MotionMode::kOblique, MotionMode::kCombined),
                          [](const auto& mode) {
                              return std::string(plant::to_string(mode.param));
                          });
@@ -202,6 +209,36 @@ TEST(LateralMotion, RefusesATargetAhead) {
     EXPECT_NEAR(number(plan.error(), "along_m"), 4, 1e-12);
 }
 
+TEST(ObliqueMotion, KeepsTheHeadingOnTheWay) {
+    const auto plan = plan_motion(mecanum_platform(), {0, 0, 0.3}, {4, 3, 1}, MotionMode::kOblique);
+    ASSERT_TRUE(plan);
+    ASSERT_EQ(plan->segments.size(), 2u);
+    EXPECT_EQ(plan->segments[0].end, (Pose2{4, 3, 0.3}));
+    EXPECT_NEAR(plan->segments[1].turn_rad, 0.7, 1e-12);
+}
+
+TEST(CombinedMotion, OffersBothWaysRoundAndNoneToSteeredWheels) {
+    const auto ways =
+        motion_variants(mecanum_platform(), {0, 0, 0}, {5, 0, 2}, MotionMode::kCombined);
+    ASSERT_TRUE(ways);
+    ASSERT_EQ(ways->size(), 2u);
+    EXPECT_NEAR((*ways)[0].turn_rad, 2, 1e-12);
+    EXPECT_NEAR((*ways)[1].turn_rad, 2 * kPi - 2, 1e-12);
+    VehicleType steered = tang_platform();
+    steered.motion_modes.push_back(MotionMode::kCombined);
+    const auto refused = plan_motion(steered, {0, 0, 0}, {5, 0, 2}, MotionMode::kCombined);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().reason.code, "mode_not_supported");
+}
+
+TEST(PlanMotion, RefusesWhatTheWheelsCannotFollow) {
+    VehicleType type = differential_vehicle();
+    type.motion_modes = {MotionMode::kLateral};
+    const auto refused = plan_motion(type, {0, 0, 0}, {0, 3, 0}, MotionMode::kLateral);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().reason.code, "cannot_move_so");
+}
+
 TEST(PlanMotion, KnowsWhenItIsThereAndWhichModesATypeHas) {
     const VehicleType type = tang_platform();
     const auto there =
@@ -226,15 +263,30 @@ TEST(Duration, PiecesOfOneArcShareOneProfile) {
                                   MotionMode::kFixedAxisRotation);
     ASSERT_TRUE(plan);
     ASSERT_EQ(plan->segments.size(), 2u);
-    // radius 10 m: 0.1 rad/s and 1 m/s, 0.05 rad/s^2 but only 0.2 m/s^2 = 0.02 rad/s^2
-    EXPECT_NEAR(plan->duration_s, profile_duration_s(kPi, 0.1, 0.02), 1e-9);
+    // Radius 10 m: the front left wheel, on the outside, runs at 1 m/s; 0.2 m/s^2 of the centre.
+    const double outside_m = std::hypot(10 + 0.925, 4.97);
+    const double steering_s = std::atan(4.97 / (10 - 0.925)) / 0.8;
+    EXPECT_NEAR(plan->duration_s, profile_duration_s(kPi, 1 / outside_m, 0.02) + steering_s, 1e-9);
+}
+
+TEST(Duration, HoldsTheTurningOfSteeredWheelsBeforeEachRun) {
+    // A quarter turn, straight on, a quarter turn back: wheels across, straight, across.
+    const auto plan = plan_motion(tang_platform(), {0, 0, 0}, {0, 20, 0}, MotionMode::kLinear);
+    ASSERT_TRUE(plan);
+    ASSERT_EQ(plan->segments.size(), 3u);
+    const double turning_s = profile_duration_s(kPi / 2, 0.1, 0.05);
+    const double across_s = kPi / 2 / 0.8;
+    EXPECT_NEAR(plan->segments[0].duration_s, turning_s + across_s, 1e-9);
+    EXPECT_NEAR(plan->segments[1].duration_s, profile_duration_s(20, 1, 0.2) + across_s, 1e-9);
 }
 
 TEST(Part, PiecesMeetAndAddUp) {
     const auto plan =
         plan_motion(tang_platform(), {30, 20, -1.2}, {50, 25, 0.4}, MotionMode::kFixedAxisRotation);
     ASSERT_TRUE(plan);
-    for (const Segment& whole : plan->segments) {
+    std::vector<Segment> segments = plan->segments;
+    append_combined(segments, {1, 2, 0.5}, {7, -3}, 1.4);
+    for (const Segment& whole : segments) {
         const Segment a = part(tang_platform(), whole, 0, 0.3);
         const Segment b = part(tang_platform(), whole, 0.3, 1);
         EXPECT_EQ(a.start, whole.start);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <random>
 
-#include "core/kinematics/motion.hpp"
-#include "tests/core/kinematics/tang_platform.hpp"
+#include "core/kinematics/primitives.hpp"
+#include "tests/core/kinematics/vehicle_types.hpp"
 
 namespace pulseline::kinematics {
 namespace {
@@ -29,11 +29,16 @@ TEST(Sweep, HoldsTheBodyAtEveryMoment) {
     for (int i = 0; i < 40; ++i) {
         const Pose2 from{place(random), place(random), turn(random)};
         const Pose2 to{place(random), place(random), turn(random)};
-        for (const MotionMode mode : {MotionMode::kLinear, MotionMode::kFixedAxisRotation}) {
-            const auto plan = plan_motion(type, from, to, mode);
-            if (!plan) continue;
-            const auto swept = sweep(body, plan->segments);
-            for (const Segment& segment : plan->segments) {
+        for (const MotionMode mode :
+             {MotionMode::kLinear, MotionMode::kFixedAxisRotation, MotionMode::kCombined}) {
+            std::vector<Segment> segments;
+            if (mode == MotionMode::kCombined) {
+                append_combined(segments, from, to.position(), to.heading_rad);
+            } else if (const auto plan = plan_motion(type, from, to, mode)) {
+                segments = plan->segments;
+            }
+            const auto swept = sweep(body, segments);
+            for (const Segment& segment : segments) {
                 for (int k = 0; k <= 101; ++k) {
                     const Pose2 pose = pose_at(segment, k / 101.0);
                     for (const Polygon& piece : body) {
@@ -63,6 +68,32 @@ TEST(Sweep, IsHardlyLargerThanTheTrueArea) {
     const double disc = kPi * (5.25 * 5.25 + 1.25 * 1.25);
     EXPECT_NEAR(area_of(sweep(body, turn->segments)), disc, 0.005 * disc);
     EXPECT_NEAR(area_of(sweep(body, straight->segments)), 40.5 * 2.5, 1e-3);
+}
+
+/// Against a fine grid of points: what lies in the sweep and in no sampled body.
+TEST(Sweep, OfACombinedMoveIsHardlyLargerThanItsBodies) {
+    const std::vector<Polygon> body{geometry::rectangle(3.2, 2.1)};
+    std::vector<Segment> segments;
+    append_combined(segments, {0, 0, 0}, {6, 0}, 2);
+    const auto swept = sweep(body, segments);
+    std::vector<Polygon> bodies;
+    for (const Segment& segment : segments)
+        for (int k = 0; k <= 200; ++k)
+            bodies.push_back(geometry::transformed(pose_at(segment, k / 200.0), body.front()));
+    const auto holds = [](const std::vector<Polygon>& pieces, Point2 point) {
+        return std::any_of(pieces.begin(), pieces.end(),
+                           [&](const Polygon& p) { return geometry::contains(p, point); });
+    };
+    int in_bodies = 0;
+    int in_sweep = 0;
+    for (double x = -3; x < 9; x += 0.05) {
+        for (double y = -3; y < 3; y += 0.05) {
+            in_bodies += holds(bodies, {x, y});
+            in_sweep += holds(swept, {x, y});
+        }
+    }
+    EXPECT_GE(in_sweep, in_bodies);
+    EXPECT_LT(in_sweep, 1.01 * in_bodies);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/kinematics/arc.hpp"
 #include "core/kinematics/motion.hpp"
-#include "tests/core/kinematics/tang_platform.hpp"
+#include "tests/core/kinematics/vehicle_types.hpp"
 
 namespace pulseline::kinematics {
 namespace {
@@ -20,19 +20,6 @@ plant::VehicleType type_of(const char* name, plant::Kinematics kinematics,
     type.kinematics = kinematics;
     type.wheels = std::move(wheels);
     return type;
-}
-/// Wang's test vector: L1 500 mm, L2 400 mm, R 150 mm.
-plant::VehicleType mecanum_platform() {
-    return type_of("mecanum", plant::Kinematics::kMecanum,
-                   {{"FL", {0.5, 0.4}, true, false, 0.3},
-                    {"FR", {0.5, -0.4}, true, false, 0.3},
-                    {"RL", {-0.5, 0.4}, true, false, 0.3},
-                    {"RR", {-0.5, -0.4}, true, false, 0.3}});
-}
-plant::VehicleType differential_vehicle() {
-    return type_of(
-        "differential", plant::Kinematics::kDifferential,
-        {{"left", {0, 0.42}, true, false, 0.2}, {"right", {0, -0.42}, true, false, 0.2}});
 }
 plant::VehicleType three_modules() {
     return type_of("modules", plant::Kinematics::kSteeredPlatform,

@@ -150,8 +150,20 @@ const Case kCases[] = {
     {"CameraWithoutFocus", [](Plant& p) { p.vehicle_types[0].cameras[0].f_px = 0; },
      "/vehicle_types/0/cameras/0/f_px", "not_positive"},
     {"LoadedCameraInTheFloor",
-     [](Plant& p) { p.vehicle_types[0].cameras[0].loaded = CameraMounting{}; },
+     [](Plant& p) { p.vehicle_types[0].cameras[0].loaded = CameraMounting{{}, 0, 0, 0}; },
      "/vehicle_types/0/cameras/0/loaded/height_m", "not_positive"},
+    {"DifferentialGoesSideways",
+     [](Plant& p) {
+         p.vehicle_types[0].kinematics = Kinematics::kDifferential;
+         p.vehicle_types[0].motion_modes = {MotionMode::kLinear, MotionMode::kOblique};
+     },
+     "/vehicle_types/0/motion_modes", "mode_not_for_wheels"},
+    {"SteeredWheelsTurnOnTheWay",
+     [](Plant& p) {
+         p.vehicle_types[0].kinematics = Kinematics::kSteeredPlatform;
+         p.vehicle_types[0].motion_modes = {MotionMode::kCombined};
+     },
+     "/vehicle_types/0/motion_modes", "mode_not_for_wheels"},
     {"WheelWithoutDiameter", [](Plant& p) { p.vehicle_types[0].wheels[0].diameter_m = 0; },
      "/vehicle_types/0/wheels/0/diameter_m", "not_positive"},
     {"MarkerWithoutSize", [](Plant& p) { p.markers[0].size_m = 0; }, "/markers/0/size_m",
