@@ -51,14 +51,10 @@ fleet::StepAction read_action(const Json& item, const std::string& pointer, Fiel
 }
 
 fleet::NewStep read_step(const Json& item, const std::string& pointer, FieldErrors& errors) {
-    using plant::MotionMode;
     ObjectReader in(item, pointer, errors);
     fleet::NewStep step;
     step.station_number = static_cast<int>(in.integer("station", {0, kMaxStation}));
-    step.mode =
-        in.one_of_or("motion_mode", MotionMode::kAuto,
-                     {MotionMode::kAuto, MotionMode::kSelfRotation, MotionMode::kLinear,
-                      MotionMode::kFixedAxisRotation, MotionMode::kLateral, MotionMode::kFree});
+    step.mode = in.one_of_or("motion_mode", plant::MotionMode::kAuto, plant::kMotionModes);
     for (const auto& [name, actions] :
          {std::pair{"before", &step.before}, std::pair{"after", &step.after}}) {
         in.items_if_any(name, {0, kMaxActions},

@@ -66,6 +66,8 @@ Json option_json(const planning::ModeOption& option) {
     json["turns"] = plan.turns;
     json["cost"] = plan.cost;
     json["duration_s"] = plan.duration_s;
+    json["expected_deviation"] = {{"position_m", plan.expected.position_m},
+                                  {"heading_rad", plan.expected.heading_rad}};
     if (!plan.closures.empty()) {
         json["closures"] = list_json(plan.closures, [](const std::string& id) { return Json(id); });
     }

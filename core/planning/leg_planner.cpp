@@ -1,7 +1,6 @@
 #include "core/planning/leg_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -17,8 +16,11 @@ using geometry::Polygon;
 using kinematics::Segment;
 using plant::MotionMode;
 
-constexpr std::array kOrder{MotionMode::kLinear, MotionMode::kFixedAxisRotation,
-                            MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kFree};
+// Adjusting takes a pass more for every few millimetres: creep, settle, look.
+constexpr double kAdjust_sPerM = 500;
+// Beside something the fields of a vehicle slow it down, the more the nearer.
+constexpr double kCaution_s = 5;
+constexpr double kCaution_m = 1;  // beyond the clearance that must be kept
 
 double clearance_to(const StandingBody& body, const std::vector<Polygon>& pieces, double stop_m) {
     double least = stop_m;
@@ -69,6 +71,11 @@ LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion)
     return draft;
 }
 
+kinematics::ExpectedDeviation expected_of(const plant::VehicleType& type,
+                                          const std::vector<Segment>& segments) {
+    return kinematics::expected_deviation(segments, kinematics::usual_noise(type.kinematics));
+}
+
 /// The finished plan of a draft whose swept area keeps clear, or what blocks it.
 Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
     const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
@@ -84,6 +91,7 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
     plan.turns = draft.turns;
     plan.cost = draft.cost;
     plan.duration_s = sums.duration_s;
+    plan.expected = expected_of(*task.request.type, plan.segments);
     if (plan.route.empty()) draft.closures = driven_over(task.closures, task.request.hall, pieces);
     for (const std::size_t closure : draft.closures) {
         const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
@@ -94,7 +102,7 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
 }
 
 /// One way after another. A route begins where the vehicle first comes to the roadmap.
-LegPlan joined(const LegPlan& first, const LegPlan& rest) {
+LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPlan& rest) {
     LegPlan plan = rest;
     auto segments = first.segments;
     segments.insert(segments.end(), rest.segments.begin(), rest.segments.end());
@@ -102,6 +110,7 @@ LegPlan joined(const LegPlan& first, const LegPlan& rest) {
     plan.segments = sums.segments;
     plan.length_m = sums.length_m;
     plan.duration_s = sums.duration_s;
+    plan.expected = expected_of(type, plan.segments);
     plan.turns += first.turns;
     plan.cost += first.cost;
     for (const std::string& id : first.closures) {
@@ -150,18 +159,45 @@ Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
     return fail(std::move(*refusal));
 }
 
-void suggest_fastest(std::vector<ModeOption>& options) {
-    ModeOption* best = nullptr;
+/// Time until the vehicle stands as it should, but for caution.
+double ready_s(const LegTask& task, const LegPlan& plan) {
+    const double arm_m = task.request.type->length_m() / 2;
+    return plan.duration_s +
+           kAdjust_sPerM * (plan.expected.position_m + arm_m * plan.expected.heading_rad);
+}
+
+double caution_s(const LegTask& task, const LegPlan& plan) {
+    const auto pieces = kinematics::sweep(task.passage.body.pieces, plan.segments);
+    const double spare_m =
+        task.obstacles.nearest(pieces).distance_m - task.passage.body.clearance_m;
+    return kCaution_s * std::clamp(1 - spare_m / kCaution_m, 0.0, 1.0);
+}
+
+void suggest(const LegTask& task, std::vector<ModeOption>& options) {
+    std::vector<ModeOption*> feasible;
     for (ModeOption& option : options) {
-        if (!option.plan) continue;
-        const auto rank = [](const LegPlan& plan) {
-            return std::pair(!plan.closures.empty(), plan.duration_s);
-        };
-        if (!best || rank(*option.plan) < rank(*best->plan)) {
-            best = &option;
-        }
+        if (option.plan) feasible.push_back(&option);
     }
-    if (best) best->suggested = true;
+    const auto over_closed_floor = [](const ModeOption* option) {
+        return !option->plan->closures.empty();
+    };
+    if (!std::ranges::all_of(feasible, over_closed_floor)) {
+        std::erase_if(feasible, over_closed_floor);
+    }
+    const auto soonest = std::ranges::min_element(
+        feasible, {}, [&](const ModeOption* option) { return ready_s(task, *option->plan); });
+    if (soonest == feasible.end()) return;
+    // How near a way comes to things costs more to know than all the rest: only where it counts.
+    const double limit_s = ready_s(task, *(*soonest)->plan) + kCaution_s;
+    std::erase_if(feasible,
+                  [&](const ModeOption* option) { return ready_s(task, *option->plan) > limit_s; });
+    ModeOption* best = feasible.front();
+    if (feasible.size() > 1) {
+        best = *std::ranges::min_element(feasible, {}, [&](const ModeOption* option) {
+            return ready_s(task, *option->plan) + caution_s(task, *option->plan);
+        });
+    }
+    best->suggested = true;
 }
 
 /// A direct motion may go along lanes without knowing it.
@@ -172,7 +208,7 @@ bool same_way(const LegPlan& a, const LegPlan& b) {
 
 std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
     std::vector<MotionMode> modes;
-    for (const MotionMode mode : kOrder) {
+    for (const MotionMode mode : plant::kMotionModes) {
         const auto& own = type.motion_modes;
         if (std::find(own.begin(), own.end(), mode) != own.end()) modes.push_back(mode);
     }
@@ -293,7 +329,7 @@ struct LegPlanner::Tables {
                 {mode, task.and_then([&](const LegTask& t) { return assess_mode(t, mode); }),
                  false});
         }
-        suggest_fastest(options);
+        if (task) suggest(*task, options);
         return options;
     }
 
@@ -367,7 +403,8 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
     if (!first) return first;
     request.start = first->segments.back().end;
     request.from_station = {};
-    return plan_leg(request).map([&](const LegPlan& rest) { return joined(*first, rest); });
+    return plan_leg(request).map(
+        [&](const LegPlan& rest) { return joined(*request.type, *first, rest); });
 }
 
 std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "core/kinematics/dead_reckoning.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/planning/leg_roads.hpp"
 #include "core/planning/motion_graph.hpp"
@@ -40,6 +41,7 @@ struct LegPlan {
     int turns = 0;    // changes of direction up to arrival; an arc is one
     double cost = 0;  // in units of k, roadmap routes and direct motions alike
     double duration_s = 0;
+    kinematics::ExpectedDeviation expected;  // at its end, on odometry alone, nothing adjusted yet
     /// Closed floor it leads over because there is no other way: ids of a smallest set that has to
     /// be reopened.
     std::vector<std::string> closures;
@@ -50,10 +52,13 @@ struct LegPlan {
     std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
 };
 
+/// Of the feasible modes kAuto takes the one that is ready soonest, counting the drive, the
+/// adjusting of its expected deviation, and caution beside what it comes near to; over closed floor
+/// only where no mode leads round it.
 struct ModeOption {
     plant::MotionMode mode = plant::MotionMode::kLinear;
     Result<LegPlan> plan;
-    bool suggested = false;  // what kAuto takes: the feasible one with the least time
+    bool suggested = false;  // what kAuto takes
 };
 
 /// Another way to drive a leg, and why it was not taken.
@@ -82,15 +87,14 @@ public:
     LegPlanner& operator=(LegPlanner&&) noexcept;
 
     /// Every motion mode of the vehicle type with its plan or the reason against it, in the order
-    /// linear, fixed axis rotation, self rotation, lateral, free. A mode other than kAuto that is
-    /// refused stays refused; `linear` drives straight when that is free, else along the roadmap
-    /// route (turning at its nodes, forwards or backwards) found by the direction-penalised A*.
-    /// Standing bodies only lower `clearance_m` and set `nearest`; they make nothing infeasible,
-    /// since they may have left by the time the leg starts (traffic waits for them).
-    /// Reason codes besides those of plan_motion: blocked {by, at_x_m, at_y_m, clearance_m,
-    /// limit_m} (wall or obstacle), no_route {from, to, blocked_by?}, footprint_too_large {edge,
-    /// by, clearance_m, limit_m}, station_not_for_type {station, vehicle_type}, unknown_station,
-    /// other_hall {from, to}.
+    /// of plant::kMotionModes. A mode other than kAuto that is refused stays refused; `linear`
+    /// drives straight when that is free, else along the roadmap route (turning at its nodes,
+    /// forwards or backwards) found by the direction-penalised A*. Standing bodies only lower
+    /// `clearance_m` and set `nearest`; they make nothing infeasible, since they may have left by
+    /// the time the leg starts (traffic waits for them). Reason codes besides those of plan_motion:
+    /// blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or obstacle), no_route {from, to,
+    /// blocked_by?}, footprint_too_large {edge, by, clearance_m, limit_m}, station_not_for_type
+    /// {station, vehicle_type}, unknown_station, other_hall {from, to}.
     std::vector<ModeOption> assess_modes(const LegRequest& request,
                                          const std::vector<StandingBody>& standing) const;
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <initializer_list>
 #include <map>
 #include <optional>
 #include <string>
@@ -42,7 +42,7 @@ enum class MotionMode {
     kFree
 };
 /// All of them in the order people see them in, kAuto first.
-inline constexpr std::array kMotionModes{
+inline constexpr std::initializer_list<MotionMode> kMotionModes{
     MotionMode::kAuto,         MotionMode::kLinear,  MotionMode::kFixedAxisRotation,
     MotionMode::kSelfRotation, MotionMode::kLateral, MotionMode::kOblique,
     MotionMode::kCombined,     MotionMode::kFree};
