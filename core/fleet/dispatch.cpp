@@ -51,7 +51,7 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     if (run.record.paused) return because("vehicle_paused");
     if (!run.reconciled) return because("vehicle_not_reported");
     if (!run.record.pose_known) return because("pose_unknown");
-    if (run.state.operating_mode != "AUTOMATIC") {
+    if (!is_automatic(run)) {
         return because("not_automatic", {{"operating_mode", run.state.operating_mode}});
     }
     if (run.state.e_stop != "NONE" && !run.state.e_stop.empty()) {
@@ -93,8 +93,7 @@ std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run
     if (order && order->pause_requested) return because("paused_by_person");
     if (!run.reconciled) return because("vehicle_not_reported");
     if (!run.record.pose_known) return because("pose_unknown");
-    const bool by_hand = run.state.operating_mode != "AUTOMATIC";
-    if (by_hand && !mutated(Mutation::kManualIsDriven)) return because("not_automatic");
+    if (!is_automatic(run) && !mutated(Mutation::kManualIsDriven)) return because("not_automatic");
     const bool stopped = run.state.e_stop != "NONE" && !run.state.e_stop.empty();
     if (stopped && !mutated(Mutation::kSafetyStopIgnored)) {
         return because("vehicle_safety_stop");

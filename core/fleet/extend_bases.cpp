@@ -24,9 +24,7 @@ bool may_extend_base(const VehicleRun& run, Time now) {
     if (!run.state_at || (!linked && !mutated(Mutation::kSilentIsExtended))) return false;
     const bool old = run.state.driving && now - *run.state_at > kPoseTooOld;
     if (old && !mutated(Mutation::kSilentIsExtended)) return false;
-    if (run.state.operating_mode != "AUTOMATIC" && !mutated(Mutation::kManualIsDriven)) {
-        return false;
-    }
+    if (!is_automatic(run) && !mutated(Mutation::kManualIsDriven)) return false;
     return run.link == Link::kLive || mutated(Mutation::kSilentIsExtended);
 }
 

@@ -217,6 +217,8 @@ void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, T
 /// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
 /// forgotten.
 bool is_on_its_way(const VehicleRun& run);
+/// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
+bool is_automatic(const VehicleRun& run);
 /// It carries out an order that this server has not given, or has forgotten.
 bool has_foreign_order(const VehicleRun& run);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.

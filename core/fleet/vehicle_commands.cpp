@@ -128,6 +128,12 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
                         "There is no vehicle " + vehicles[i].str() + ".", field,
                         {{"vehicle", vehicles[i].str()}});
         }
+        if (run->record.needs_resume && !is_automatic(*run)) {
+            return fail(Errc::kConflict, "not_automatic",
+                        "Vehicle " + vehicles[i].str() +
+                            " is driven by hand. Give it back at the vehicle first.",
+                        field, {{"operating_mode", run->state.operating_mode}});
+        }
         const bool allowed_back = run->connection_refused;
         if (run->record.needs_resume && !allowed_back && (!run->connected || !run->reconciled)) {
             return fail(Errc::kConflict, "vehicle_silent",

@@ -276,7 +276,22 @@ void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleEr
     }
 }
 
+/// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing
+/// moves it but they, and after the second nothing does until a person says so here.
+void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, Time now) {
+    const std::string& mode = run.state.operating_mode;
+    if (mode != before) {
+        add_event(fleet, now, "vehicle.operating_mode", {}, run.record.leg, run.record.id, {},
+                  {{"from", before}, {"to", mode}});
+    }
+    if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
+    if (mutated(Mutation::kManualIsDriven)) return;
+    require_person(fleet, run, {"driven_by_hand", {{"operating_mode", mode}}}, now);
+}
+
 }  // namespace
+
+bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }
 
 void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
     run.leg_seen = false;
@@ -336,12 +351,14 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     if (is_overtaken(run, state)) return;
     run.newest_header = state.header_id;
     const std::vector<VehicleError> errors_before = std::move(run.state.errors);
+    const std::string mode_before = run.state.operating_mode;
     run.state = state;
     run.state_at = now;
     run.reconciled = true;
     fleet.changed_vehicles.insert(run.record.id);
     note_errors(fleet, run, errors_before, now);
     take_pose(fleet, run, now);
+    watch_mode(fleet, run, mode_before, now);
     take_action_states(fleet, run, now);
     if (run.has_leg()) take_leg_progress(fleet, run, now);
     watch_foreign_order(fleet, run, now);

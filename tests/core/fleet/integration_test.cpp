@@ -193,7 +193,7 @@ TEST_F(IntegrationLevels, AnOrderWithoutAVehicleIsNotResumedByHand) {
     EXPECT_EQ(stored(order).state, JobState::kAborted);
 }
 
-TEST(ManualMode, NoBaseIsExtendedAndALostOrderWaitsForAPerson) {
+TEST(ManualMode, TakesTheVehicleOutOfTheServersHands) {
     World world(resting_plant());
     world.connect_all();
     const auto order = world.order("V1", {3});
@@ -205,8 +205,11 @@ TEST(ManualMode, NoBaseIsExtendedAndALostOrderWaitsForAPerson) {
     const int before = v1.orders_received;
     world.run(20);
     EXPECT_EQ(v1.orders_received, before) << "no base is extended";
-    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->reason.value().code, "not_automatic");
-    EXPECT_EQ(world.stored(order->order.id).state, JobState::kRunning);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kInterrupted);
+    EXPECT_EQ(world.stored(order->order.id).reason.code, "driven_by_hand");
+    const auto refused = world.fleet->resume_fleet({kV1}, "op", world.now);
+    ASSERT_FALSE(refused) << "not while it is in somebody's hands";
+    EXPECT_EQ(refused.error().reason.code, "not_automatic");
 
     v1.restart();  // the hand terminal took its order away
     v1.state.position_initialized = true;
@@ -217,6 +220,28 @@ TEST(ManualMode, NoBaseIsExtendedAndALostOrderWaitsForAPerson) {
     world.run(10);
     EXPECT_EQ(world.stored(order->order.id).state, JobState::kInterrupted)
         << "nothing moves by itself";
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.settle();
+    world.run(60);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kEnded);
+}
+
+TEST(ManualMode, GivenBackNothingMovesUntilAPersonSaysSo) {
+    World world(resting_plant());
+    world.connect_all();
+    FakeVehicle& v1 = world.vehicle("V1");
+    v1.state.operating_mode = "MANUAL";
+    world.run(1);
+    v1.state.operating_mode = "AUTOMATIC";
+    world.run(1);
+    const auto order = world.order("V1", {3});
+    ASSERT_TRUE(order);
+    world.run(20);
+    EXPECT_EQ(v1.orders_received, 0);
+    const auto view = world.fleet->vehicle(kV1, world.now);
+    EXPECT_TRUE(view->needs_resume);
+    EXPECT_EQ(view->needs_resume_reason.code, "driven_by_hand");
+
     ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
     world.settle();
     world.run(60);
