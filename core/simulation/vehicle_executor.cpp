@@ -16,7 +16,7 @@ constexpr double kAskForBase_s = 1.0;
 
 }  // namespace
 
-VehicleExecutor::VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id,
+VehicleExecutor::VehicleExecutor(Drive& motion, StopSensing& sensing, std::string map_id,
                                  VehicleEquipment* equipment)
     : motion_(motion),
       procedure_(motion, sensing),

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/fleet/vehicle_messages.hpp"
+#include "core/simulation/drive.hpp"
 #include "core/simulation/vehicle_acceptance.hpp"
 #include "core/simulation/vehicle_equipment.hpp"
-#include "core/simulation/vehicle_motion.hpp"
 #include "core/simulation/vehicle_stop.hpp"
 
 namespace pulseline::simulation {
@@ -19,7 +19,7 @@ namespace pulseline::simulation {
 class VehicleExecutor {
 public:
     /// `equipment` may be null: it measures and drives only.
-    VehicleExecutor(VehicleMotion& motion, StopSensing& sensing, std::string map_id,
+    VehicleExecutor(Drive& motion, StopSensing& sensing, std::string map_id,
                     VehicleEquipment* equipment = nullptr);
 
     void handle(const fleet::OrderMessage& order);
@@ -71,7 +71,7 @@ private:
     void set_action(const std::string& id, fleet::ActionStatus status, std::string result = {});
     void forget_old_instant_actions();
 
-    VehicleMotion& motion_;
+    Drive& motion_;
     StopProcedure procedure_;
     VehicleEquipment* equipment_;
     std::string map_id_;

@@ -2,15 +2,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
+#include <optional>
 #include <random>
+#include <span>
+#include <vector>
 
-#include "core/kinematics/motion.hpp"
-#include "core/plant/plant.hpp"
+#include "core/simulation/drive.hpp"
+#include "core/simulation/path_reference.hpp"
 
 namespace pulseline::simulation {
-
-using geometry::Pose2;
 
 /// What separates the true motion of a platform from what its odometry believes: standard
 /// deviations of seeded errors. The defaults end a 20 m drive typically 3 to 8 mm and some
@@ -29,66 +29,48 @@ struct MotionErrors {
     double fine_rad = 0.005 * kPi / 180;
 };
 
-/// A simulated platform: the true pose and the pose its odometry believes. It drives a queue of
-/// segments with trapezoidal speed profile, passing from one to the next without a stop where the
-/// motion continues in the same kind and direction, and always able to stop at the queue's end.
+/// The statistical drive: a pose that follows the reference with seeded errors, without wheels or
+/// motors. It is cheap, so that thousands of hours of large fleets can be simulated.
 /// Deterministic: the same seed and steps give the same poses.
-class VehicleMotion {
+class VehicleMotion final : public Drive {
 public:
     /// Speeds are multiplied by `time_factor`, accelerations by its square.
     VehicleMotion(plant::VehicleType type, const Pose2& true_pose, std::uint64_t seed,
                   double time_factor = 1, const MotionErrors& errors = {});
 
-    /// Adds a segment at the end of the queue. max_speed_mps 0: the vehicle's own limit.
-    void append(const kinematics::Segment& segment, double max_speed_mps = 0);
-    /// Small corrective move of all wheels in parallel, then a turn on the spot; `body_from_goal`
-    /// is the wanted pose seen from the present one. REQUIRES: idle().
-    void correct(const Pose2& body_from_goal);
-    /// Brakes and stays; release() drives on.
-    void hold() { held_ = true; }
-    void release() { held_ = false; }
-    /// Drops the queue. REQUIRES: standing().
-    void clear();
-    void step(double dt_s);
+    void append(const kinematics::Segment& segment, double max_speed_mps = 0) override;
+    void correct(std::span<const kinematics::Segment> moves) override;
+    void hold() override { reference_.hold(); }
+    void release() override { reference_.release(); }
+    void clear() override { reference_.clear(); }
+    void step(double dt_s) override;
 
-    bool standing() const { return speed_ == 0; }
-    bool idle() const { return standing() && queue_.empty(); }
-    /// Appended segments driven to their end since construction.
-    std::size_t segments_done() const { return segments_done_; }
-    /// Way of the body left in the queue, and the share of it needed to brake now.
-    double remaining_m() const;
-    double braking_m() const;
-    /// Way since the current segment began.
-    double distance_on_segment_m() const;
-    /// The segment being driven or next to drive; nullptr when there is none.
-    const kinematics::Segment* current() const;
+    bool standing() const override { return reference_.standing(); }
+    bool idle() const override { return reference_.standing() && reference_.empty(); }
+    std::size_t segments_done() const override { return reference_.segments_done(); }
+    double remaining_m() const override { return reference_.remaining_m(); }
+    double braking_m() const override { return reference_.braking_m(); }
+    double distance_on_segment_m() const override { return reference_.distance_on_segment_m(); }
+    const kinematics::Segment* current() const override { return reference_.current(); }
 
-    const Pose2& true_pose() const { return true_; }
-    const Pose2& believed_pose() const { return believed_; }
-    void set_believed(const Pose2& pose) { believed_ = pose; }
-    const plant::VehicleType& type() const { return type_; }
-    double time_factor() const { return time_factor_; }
-    /// Along the motion, negative backwards; 0 in a turn on the spot.
-    double velocity_mps() const;
-    double turn_rate_radps() const;
+    const Pose2& true_pose() const override { return true_; }
+    const Pose2& believed_pose() const override { return believed_; }
+    void set_believed(const Pose2& pose) override { believed_ = pose; }
+    const plant::VehicleType& type() const override { return type_; }
+    double time_factor() const override { return time_factor_; }
+    double velocity_mps() const override { return reference_.velocity_mps(); }
+    double turn_rate_radps() const override { return reference_.turn_rate_radps(); }
+    kinematics::Twist twist() const override { return reference_.twist(); }
+    /// Empty: it has none.
+    std::vector<kinematics::WheelMotion> wheels() const override { return {}; }
+    /// Never: its errors are too small.
+    std::optional<Reason> stop_cause() const override { return std::nullopt; }
+    void acknowledge() override {}
 
 private:
-    struct Move {
-        kinematics::Segment segment;
-        double size = 0;      // metres of way, radians for a turn on the spot
-        double max_rate = 0;  // of size per second
-        double max_accel = 0;
-        double done = 0;  // of size
-        bool corrective = false;
-    };
-
-    Move make_move(const kinematics::Segment& segment, double max_speed_mps) const;
-    void substep(double h_s);
-    double allowed_rate(double h_s) const;
-    void advance(double way);
-    void displace(Move& move, double way);
-    void finish_front();
-    void settle();
+    void take(const PathReference::Passed& passed);
+    void displace(const PathReference::Passed& passed);
+    void settle(double peak_rate);
     double normal(double sigma) { return sigma * unit_normal_(random_); }
 
     plant::VehicleType type_;
@@ -103,15 +85,7 @@ private:
 
     Pose2 true_;
     Pose2 believed_;
-    std::deque<Move> queue_;
-    double speed_ = 0;  // rate of the front move's size
-    double peak_speed_ = 0;
-    bool held_ = false;
-    std::size_t segments_done_ = 0;
+    PathReference reference_;
 };
-
-/// True when a platform passes from `a` to `b` without stopping: straight on, the same arc, or the
-/// same turn on the spot.
-bool continues(const kinematics::Segment& a, const kinematics::Segment& b);
 
 }  // namespace pulseline::simulation

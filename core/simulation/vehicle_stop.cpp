@@ -1,5 +1,6 @@
 #include "core/simulation/vehicle_stop.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -41,6 +42,23 @@ std::string describe(const Pose2& off) {
     std::snprintf(text, sizeof text, "%.1f mm and %.3f deg left at best",
                   1e3 * norm(off.position()), degrees(std::abs(off.heading_rad)));
     return text;
+}
+
+/// First all wheels in parallel, then a turn on the spot.
+std::array<kinematics::Segment, 2> shift_then_turn(const Pose2& from, const Pose2& off) {
+    using Kind = kinematics::Segment::Kind;
+    kinematics::Segment shift;
+    shift.kind = Kind::kStraight;
+    shift.start = from;
+    shift.end = from * Pose2{off.x_m, off.y_m, 0};
+    shift.length_m = norm(off.position());
+    shift.direction_rad = std::atan2(off.y_m, off.x_m);
+    kinematics::Segment turn;
+    turn.kind = Kind::kRotate;
+    turn.start = shift.end;
+    turn.end = from * off;
+    turn.turn_rad = wrap(off.heading_rad);
+    return {shift, turn};
 }
 
 }  // namespace
@@ -110,7 +128,7 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
 void StopProcedure::begin_correction(const Pose2& off) {
     ++corrections_;
     settling_s_ = kSettle_s / motion_.time_factor();
-    motion_.correct(off);
+    motion_.correct(shift_then_turn(motion_.believed_pose(), off));
 }
 
 StopProcedure::Outcome StopProcedure::finish(bool succeeded, std::string why_not) {

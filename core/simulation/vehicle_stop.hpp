@@ -5,7 +5,7 @@
 
 #include "core/base/result.hpp"
 #include "core/fleet/vehicle_messages.hpp"
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/drive.hpp"
 
 namespace pulseline::simulation {
 
@@ -28,8 +28,7 @@ public:
         std::string why_not;
     };
 
-    StopProcedure(VehicleMotion& motion, StopSensing& sensing)
-        : motion_(motion), sensing_(sensing) {}
+    StopProcedure(Drive& motion, StopSensing& sensing) : motion_(motion), sensing_(sensing) {}
 
     /// REQUIRES: the motion is idle.
     void start(const fleet::StopTarget& target, bool correct);
@@ -44,7 +43,7 @@ private:
     void begin_correction(const Pose2& off);
     Outcome finish(bool succeeded, std::string why_not);
 
-    VehicleMotion& motion_;
+    Drive& motion_;
     StopSensing& sensing_;
     fleet::StopTarget target_;
     bool correct_ = false;

@@ -6,8 +6,6 @@
 namespace pulseline::agent {
 namespace {
 
-using Kind = kinematics::Segment::Kind;
-
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kUneven = 0.03;  // how unevenly the load lies on the brackets
 constexpr double kForceNoise = 0.002;
@@ -15,37 +13,9 @@ constexpr double kAmbient_c = 22;
 constexpr double kHeat_c = 18;  // above ambient at full speed for long
 constexpr double kHeatTime_s = 600;
 
-struct Twist {
-    double vx_mps = 0;
-    double vy_mps = 0;
-    double turn_radps = 0;
-};
-
-Twist twist_of(const simulation::VehicleMotion& motion) {
-    Twist twist;
-    const auto* segment = motion.current();
-    if (segment == nullptr) return twist;
-    twist.turn_radps = motion.turn_rate_radps();
-    const double speed = std::abs(motion.velocity_mps());
-    if (segment->kind == Kind::kStraight) {
-        twist.vx_mps = speed * std::cos(segment->direction_rad);
-        twist.vy_mps = speed * std::sin(segment->direction_rad);
-    } else if (segment->kind == Kind::kArc) {
-        twist.vx_mps = motion.velocity_mps();
-    }
-    return twist;
-}
-
-/// Wheels roll both ways: a steering angle within a quarter turn.
-double folded(double angle_rad) {
-    if (angle_rad > kPi / 2 + 1e-9) return angle_rad - kPi;
-    if (angle_rad < -kPi / 2 - 1e-9) return angle_rad + kPi;
-    return angle_rad;
-}
-
 }  // namespace
 
-BodyStatus::BodyStatus(const plant::Vehicle& vehicle, const simulation::VehicleMotion& motion,
+BodyStatus::BodyStatus(const plant::Vehicle& vehicle, const simulation::Drive& motion,
                        std::uint64_t seed)
     : motion_(motion), load_kg_(vehicle.load_kg), random_(seed) {
     std::uniform_real_distribution<double> uneven(1 - kUneven, 1 + kUneven);
@@ -60,15 +30,20 @@ BodyStatus::BodyStatus(const plant::Vehicle& vehicle, const simulation::VehicleM
     }
 }
 
+/// As the drive tells; one without a model of its wheels has those of its twist.
+std::vector<kinematics::WheelMotion> BodyStatus::wheel_motions() const {
+    auto told = motion_.wheels();
+    if (!told.empty()) return told;
+    const auto wheels = kinematics::wheels_of(motion_.type(), motion_.twist(), rolling_);
+    return wheels ? *wheels : std::vector<kinematics::WheelMotion>(wheels_.size());
+}
+
 void BodyStatus::step(double dt_s) {
-    const Twist twist = twist_of(motion_);
-    const auto& wheels = motion_.type().wheels;
     const double full_mps = motion_.type().max_speed_mps * motion_.time_factor();
+    rolling_ = wheel_motions();
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
-        const double vx = twist.vx_mps - twist.turn_radps * wheels[i].position.y_m;
-        const double vy = twist.vy_mps + twist.turn_radps * wheels[i].position.x_m;
-        const double speed = std::hypot(vx, vy);
-        if (wheels[i].steered && speed > 1e-6) wheels_[i].steering_rad = folded(std::atan2(vy, vx));
+        const double speed = std::abs(rolling_[i].speed_mps);
+        wheels_[i].steering_rad = rolling_[i].angle_rad;
         wheels_[i].speed_mps = speed;
         const double target_c = kAmbient_c + kHeat_c * std::min(1.0, speed / full_mps);
         const double share = std::min(1.0, dt_s * motion_.time_factor() / kHeatTime_s);

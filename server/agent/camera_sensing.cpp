@@ -24,8 +24,7 @@ localisation::CodeObservation observation(const fleet::CameraReading& reading) {
 }  // namespace
 
 CameraSensing::CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                             const simulation::VehicleMotion& motion, bool rendered,
-                             std::uint64_t seed)
+                             const simulation::Drive& motion, bool rendered, std::uint64_t seed)
     : world_(world), hall_(hall), motion_(motion), random_(seed), actual_(motion.type().cameras) {
     options_.mode = rendered ? simulation::Sensing::kRendered : simulation::Sensing::kAnalytic;
     std::normal_distribution<double> normal;

@@ -26,7 +26,7 @@ public:
 
     /// `motion` is asked for the true pose at every look.
     CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                  const simulation::VehicleMotion& motion, bool rendered, std::uint64_t seed);
+                  const simulation::Drive& motion, bool rendered, std::uint64_t seed);
 
     Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override;
     /// Takes new images and reads them.
@@ -50,7 +50,7 @@ private:
 
     const simulation::World& world_;
     plant::HallId hall_;
-    const simulation::VehicleMotion& motion_;
+    const simulation::Drive& motion_;
     simulation::SensingOptions options_;
     std::mt19937_64 random_;
     std::vector<plant::Camera> actual_;

@@ -9,6 +9,7 @@
 
 #include "api/vehicle/header.hpp"
 #include "core/simulation/vehicle_executor.hpp"
+#include "core/simulation/vehicle_motion.hpp"
 #include "core/simulation/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"

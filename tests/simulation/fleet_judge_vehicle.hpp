@@ -5,6 +5,7 @@
 
 #include "core/fleet/ports.hpp"
 #include "core/simulation/vehicle_executor.hpp"
+#include "core/simulation/vehicle_motion.hpp"
 
 /// A vehicle in the judge's hall: the real executor on a simulated platform, with what people and
 /// faults do to it.

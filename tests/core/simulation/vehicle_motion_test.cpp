@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -153,7 +154,9 @@ TEST(VehicleMotion, SteersOutASmallStartDeviation) {
 TEST(VehicleMotion, CorrectionEndsWithinItsErrors) {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         VehicleMotion motion(platform_type(), {}, seed);
-        motion.correct({0.02, -0.01, radians(0.3)});
+        const Pose2 shifted{0.02, -0.01, 0};
+        motion.correct(std::array{straight({}, norm(shifted.position()), std::atan2(-0.01, 0.02)),
+                                  turn(shifted, radians(0.3))});
         drive_to_end(motion);
         const Pose2 off = inverse(motion.believed_pose()) * motion.true_pose();
         EXPECT_LT(norm(off.position()), 0.0045);

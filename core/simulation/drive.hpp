@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/kinematics/motion.hpp"
+#include "core/kinematics/wheels.hpp"
+#include "core/plant/plant.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// Port: a vehicle's motion as its executor, its stops and its reports need it. It drives a queue
+/// of segments and never past the queue's end; there is a true pose, which nobody on the vehicle
+/// knows, and the pose that its odometry believes.
+/// Thread safety: none. No clock: time passes by step().
+class Drive {
+public:
+    virtual ~Drive() = default;
+
+    /// Adds a segment at the end of the queue. max_speed_mps 0: the vehicle's own limit.
+    virtual void append(const kinematics::Segment& segment, double max_speed_mps = 0) = 0;
+    /// Small moves from the believed pose, driven one after the other at creeping speed; they do
+    /// not count as segments done. REQUIRES: idle().
+    virtual void correct(std::span<const kinematics::Segment> moves) = 0;
+    /// Brakes and stays; release() drives on.
+    virtual void hold() = 0;
+    virtual void release() = 0;
+    /// Drops the queue. REQUIRES: standing().
+    virtual void clear() = 0;
+    virtual void step(double dt_s) = 0;
+
+    virtual bool standing() const = 0;
+    /// Standing with nothing left in the queue.
+    virtual bool idle() const = 0;
+    /// Appended segments driven to their end since construction.
+    virtual std::size_t segments_done() const = 0;
+    /// Way of the body left in the queue, and the share of it needed to brake now.
+    virtual double remaining_m() const = 0;
+    virtual double braking_m() const = 0;
+    /// Way since the current segment began.
+    virtual double distance_on_segment_m() const = 0;
+    /// The segment being driven or next to drive; nullptr when there is none.
+    virtual const kinematics::Segment* current() const = 0;
+
+    virtual const Pose2& true_pose() const = 0;
+    virtual const Pose2& believed_pose() const = 0;
+    virtual void set_believed(const Pose2& pose) = 0;
+    virtual const plant::VehicleType& type() const = 0;
+    virtual double time_factor() const = 0;
+
+    /// Along the motion, negative backwards; 0 in a turn on the spot.
+    virtual double velocity_mps() const = 0;
+    virtual double turn_rate_radps() const = 0;
+    /// Body frame, as the vehicle takes it to be.
+    virtual kinematics::Twist twist() const = 0;
+    /// One a wheel of the type, in its order; empty when the model has no wheels.
+    virtual std::vector<kinematics::WheelMotion> wheels() const = 0;
+
+    /// Why it has stopped of itself and stays: wheel_fault {wheel}, slip {share}, off_path
+    /// {distance_m}. nullopt: it has not.
+    virtual std::optional<Reason> stop_cause() const = 0;
+    /// Somebody has looked: it drives on, unless what stopped it is still there.
+    virtual void acknowledge() = 0;
+};
+
+}  // namespace pulseline::simulation

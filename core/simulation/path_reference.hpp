@@ -1,0 +1,101 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "core/kinematics/motion.hpp"
+#include "core/kinematics/wheels.hpp"
+#include "core/plant/plant.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// Where a vehicle should be: a point that drives a queue of segments with trapezoidal speed
+/// profile, passing from one to the next without a stop where the motion continues in the same kind
+/// and direction, and always able to stop at the queue's end. Deterministic, without any error.
+class PathReference {
+public:
+    /// What one step covered of one segment.
+    struct Passed {
+        Pose2 from;
+        Pose2 to;
+        double way = 0;  // metres; radians of a turn on the spot
+        bool on_the_spot = false;
+        bool fine = false;       // of append_fine()
+        bool finished = false;   // its end is reached
+        bool fine_over = false;  // and it was the last of the fine ones
+        bool rests = false;      // the profile comes to rest here
+        double peak_rate = 0;    // of way per second, the highest since it last rested
+    };
+
+    /// Speeds of `type` are multiplied by `time_factor`, accelerations by its square.
+    PathReference(plant::VehicleType type, double time_factor);
+
+    /// Adds a segment at the end of the queue. max_speed_mps 0: the vehicle's own limit.
+    /// `rate_share` slows it further, turns on the spot too.
+    void append(const kinematics::Segment& segment, double max_speed_mps = 0,
+                double rate_share = 1);
+    /// The same at creeping speed; it does not count among the segments done.
+    void append_fine(const kinematics::Segment& segment, double rate_share = 1);
+    void hold() { held_ = true; }
+    void release() { held_ = false; }
+    bool held() const { return held_; }
+    /// Drops the queue. REQUIRES: standing().
+    void clear();
+    /// The pieces covered, in their order; valid until the next call.
+    std::span<const Passed> step(double h_s);
+
+    bool standing() const { return rate_ == 0; }
+    bool empty() const { return queue_.empty(); }
+    std::size_t segments_done() const { return segments_done_; }
+    double remaining_m() const;
+    double braking_m() const;
+    double distance_on_segment_m() const;
+    const kinematics::Segment* current() const;
+    /// Where it is now on the current segment. REQUIRES: not empty().
+    Pose2 pose() const;
+    /// Body frame; derivative of the current segment's poses. Zero when empty or standing.
+    kinematics::Twist twist() const { return twist_at(rate_); }
+    /// The twist it would have here at `share` of the current segment's highest rate.
+    kinematics::Twist twist_at_share(double share) const;
+
+    double velocity_mps() const;
+    double turn_rate_radps() const;
+
+private:
+    struct Move {
+        kinematics::Segment segment;
+        double size = 0;      // metres of way, radians for a turn on the spot
+        double max_rate = 0;  // of size per second
+        double max_accel = 0;
+        double done = 0;  // of size
+        bool fine = false;
+    };
+
+    Move make_move(const kinematics::Segment& segment, double max_speed_mps,
+                   double rate_share) const;
+    kinematics::Twist twist_at(double rate) const;
+    double allowed_rate(double h_s) const;
+    void advance(double way);
+    void finish_front(Passed passed);
+
+    plant::VehicleType type_;
+    double time_factor_;
+    std::deque<Move> queue_;
+    std::vector<Passed> passed_;
+    double rate_ = 0;  // of the front move's size
+    double peak_rate_ = 0;
+    bool held_ = false;
+    std::size_t segments_done_ = 0;
+};
+
+/// True when a platform passes from `a` to `b` without stopping: straight on, the same arc, or the
+/// same turn on the spot.
+bool continues(const kinematics::Segment& a, const kinematics::Segment& b);
+/// No way of the body's centre: the segment is measured in radians.
+bool turns_on_the_spot(const kinematics::Segment& segment);
+
+}  // namespace pulseline::simulation

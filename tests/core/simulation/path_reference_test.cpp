@@ -1,0 +1,90 @@
+#include "core/simulation/path_reference.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+using testing::arc;
+using testing::platform_type;
+using testing::straight;
+using testing::turn;
+
+constexpr double kStep_s = 0.01;
+
+TEST(PathReference, TwistIsTheDerivativeOfItsPoses) {
+    for (const auto& segment :
+         {straight({1, 2, 0.7}, 4, 1.1), arc({0, 0, 0.3}, {-3, 9}, 0.8), turn({2, 1, 3.0}, 1.2)}) {
+        PathReference reference(platform_type(), 1);
+        reference.append(segment);
+        for (int i = 0; i < 300 && !reference.empty(); ++i) {
+            const Pose2 before = reference.pose();
+            reference.step(kStep_s);
+            if (reference.empty()) break;
+            const Pose2 moved = inverse(before) * reference.pose();
+            const auto twist = reference.twist();
+
+            EXPECT_NEAR(moved.x_m / kStep_s, twist.vx_mps, 5e-4);
+            EXPECT_NEAR(moved.y_m / kStep_s, twist.vy_mps, 5e-4);
+            EXPECT_NEAR(moved.heading_rad / kStep_s, twist.turn_radps, 1e-6);
+        }
+    }
+}
+
+TEST(PathReference, KeepsToSpeedAndAccelerationAndSlowsEvenTurns) {
+    const auto type = platform_type();
+    PathReference reference(type, 1);
+    reference.append(turn({}, 2.0), 0, 0.5);
+    double before = 0;
+    double peak = 0;
+    while (!reference.empty()) {
+        reference.step(kStep_s);
+        const double rate = reference.turn_rate_radps();
+        if (!reference.empty()) {
+            EXPECT_LE(std::abs(rate - before), type.max_turn_accel_radps2 * kStep_s * 1.01);
+        }
+        before = rate;
+        peak = std::max(peak, rate);
+    }
+    EXPECT_NEAR(peak, 0.5 * type.max_turn_rate_radps, 1e-9);
+}
+
+TEST(PathReference, TellsWhatItPassedAndWhereItRested) {
+    PathReference reference(platform_type(), 1);
+    reference.append(straight({}, 0.3));
+    reference.append(straight({0.3, 0, 0}, 0.2));
+    reference.append_fine(turn({0.5, 0, 0}, 0.01));
+    double way = 0;
+    int rests = 0;
+    int fine_over = 0;
+    while (!reference.empty()) {
+        for (const auto& passed : reference.step(kStep_s)) {
+            if (!passed.fine) way += passed.way;
+            rests += passed.rests;
+            fine_over += passed.fine_over;
+        }
+    }
+
+    EXPECT_NEAR(way, 0.5, 1e-5);
+    EXPECT_EQ(rests, 2);
+    EXPECT_EQ(fine_over, 1);
+    EXPECT_EQ(reference.segments_done(), 2u);
+}
+
+TEST(PathReference, CreepsOverFineMoves) {
+    PathReference reference(platform_type(), 1);
+    reference.append_fine(straight({}, 0.2));
+    double peak = 0;
+    while (!reference.empty()) {
+        reference.step(kStep_s);
+        peak = std::max(peak, reference.velocity_mps());
+    }
+    EXPECT_NEAR(peak, 0.05, 1e-9);
+}
+
+}  // namespace
+}  // namespace pulseline::simulation
