@@ -57,6 +57,7 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     if (run.state.e_stop != "NONE" && !run.state.e_stop.empty()) {
         return because("vehicle_safety_stop", {{"e_stop", run.state.e_stop}});
     }
+    if (run.state.field_violation) return because("field_violation");
     for (const auto& error : run.state.errors) {
         if (error.fatal) return because("vehicle_error", {{"type", error.type}});
     }

@@ -92,7 +92,8 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
         const std::string& code = reason->code;
         const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
-                             code == "vehicle_safety_stop" || code == "not_automatic";
+                             code == "vehicle_safety_stop" || code == "not_automatic" ||
+                             code == "field_violation";
         Activity activity = blocked ? Activity::kBlocked : Activity::kWaiting;
         if (code == "vehicle_paused") activity = Activity::kPaused;
         if (code == "pose_unknown" || code == "vehicle_silent") activity = Activity::kUnknown;

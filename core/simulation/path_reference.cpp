@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kinematics/primitives.hpp"
+
 namespace pulseline::simulation {
 namespace {
 
@@ -24,12 +26,6 @@ double size_of(const Segment& segment) {
 }
 
 bool same_sign(double a, double b) { return (a >= 0) == (b >= 0); }
-
-/// Way of the centre per radian; a turn on the spot and a straight have none.
-double radius_m(const Segment& segment) {
-    return segment.kind == Kind::kArc ? distance(segment.start.position(), segment.centre)
-                                      : std::abs(segment.length_m / segment.turn_rad);
-}
 
 }  // namespace
 
@@ -63,21 +59,13 @@ PathReference::Move PathReference::make_move(const Segment& segment, double max_
     Move move;
     move.segment = segment;
     move.size = size_of(segment);
-    const double turn_rate = type_.max_turn_rate_radps * time_factor_;
-    const double turn_accel = type_.max_turn_accel_radps2 * time_factor_ * time_factor_;
-    if (turns_on_the_spot(segment)) {
-        move.max_rate = turn_rate * rate_share;
-        move.max_accel = turn_accel;
-        return move;
+    Segment shape = segment;
+    if (turns_on_the_spot(segment)) shape.kind = Kind::kRotate;
+    move.max_rate = kinematics::max_rate(type_, shape, 0) * time_factor_ * rate_share;
+    if (max_speed_mps > 0 && shape.kind != Kind::kRotate) {
+        move.max_rate = std::min(move.max_rate, max_speed_mps);
     }
-    move.max_rate = type_.max_speed_mps * time_factor_ * rate_share;
-    if (max_speed_mps > 0) move.max_rate = std::min(move.max_rate, max_speed_mps);
-    move.max_accel = type_.max_accel_mps2 * time_factor_ * time_factor_;
-    if (segment.turn_rad != 0) {
-        const double radius = radius_m(segment);
-        move.max_rate = std::min(move.max_rate, turn_rate * radius);
-        move.max_accel = std::min(move.max_accel, turn_accel * radius);
-    }
+    move.max_accel = kinematics::max_accel(type_, shape) * time_factor_ * time_factor_;
     return move;
 }
 

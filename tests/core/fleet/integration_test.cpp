@@ -193,6 +193,25 @@ TEST_F(IntegrationLevels, AnOrderWithoutAVehicleIsNotResumedByHand) {
     EXPECT_EQ(stored(order).state, JobState::kAborted);
 }
 
+TEST(ProtectiveField, SomethingInItBarsAStartAndIsSaid) {
+    World world(resting_plant());
+    world.connect_all();
+    FakeVehicle& v1 = world.vehicle("V1");
+    v1.state.field_violation = true;
+    world.run(1);
+    const auto order = world.order("V1", {3});
+    ASSERT_TRUE(order);
+    world.run(20);
+    EXPECT_EQ(v1.orders_received, 0);
+    const auto view = world.fleet->vehicle(kV1, world.now);
+    EXPECT_EQ(view->activity, Activity::kBlocked);
+    EXPECT_EQ(view->reason.value().code, "field_violation");
+
+    v1.state.field_violation = false;
+    world.run(60);
+    EXPECT_EQ(world.stored(order->order.id).state, JobState::kEnded) << "it goes on by itself";
+}
+
 TEST(ManualMode, TakesTheVehicleOutOfTheServersHands) {
     World world(resting_plant());
     world.connect_all();
