@@ -57,6 +57,16 @@ VehicleMotion::VehicleMotion(plant::VehicleType type, const Pose2& true_pose, st
     distance_scale_ = normal(errors_.distance_scale);
     turn_scale_ = normal(errors_.turn_scale);
     steering_bias_rad_ = normal(errors_.steering_bias_rad);
+    for (std::size_t k = 0; k < fine_.size(); ++k) {
+        fine_[k].scale = 1 + normal(errors_.fine_scale);
+        fine_[k].offset = normal(k == 2 ? errors_.fine_offset_rad : errors_.fine_offset_m);
+    }
+}
+
+/// No move comes to less than nothing.
+double VehicleMotion::FineError::share_of(double size) const {
+    if (std::abs(size) <= kDone) return 1;
+    return std::max(0.0, scale + offset / std::abs(size));
 }
 
 VehicleMotion::Move VehicleMotion::make_move(const Segment& segment, double max_speed_mps) const {
@@ -85,23 +95,15 @@ void VehicleMotion::append(const Segment& segment, double max_speed_mps) {
     queue_.push_back(make_move(segment, max_speed_mps));
 }
 
-void VehicleMotion::correct(const Pose2& body_from_goal) {
+void VehicleMotion::correct(std::span<const Segment> moves) {
     assert(idle());
-    fine_gain_ = 1 + normal(errors_.fine_scale);
-    Segment shift;
-    shift.kind = Kind::kStraight;
-    shift.start = believed_;
-    shift.end = believed_ * Pose2{body_from_goal.x_m, body_from_goal.y_m, 0};
-    shift.length_m = norm(body_from_goal.position());
-    shift.direction_rad = std::atan2(body_from_goal.y_m, body_from_goal.x_m);
-    Segment turn;
-    turn.kind = Kind::kRotate;
-    turn.start = shift.end;
-    turn.end = believed_ * body_from_goal;
-    turn.turn_rad = wrap(body_from_goal.heading_rad);
-    for (const Segment& segment : {shift, turn}) {
+    for (const Segment& segment : moves) {
         Move move = make_move(segment, kCorrectiveSpeed_mps * time_factor_);
         move.corrective = true;
+        const double length_m = std::abs(segment.length_m);
+        move.true_share = {fine_[0].share_of(length_m * std::cos(segment.direction_rad)),
+                           fine_[1].share_of(length_m * std::sin(segment.direction_rad)),
+                           fine_[2].share_of(segment.turn_rad)};
         queue_.push_back(std::move(move));
     }
 }
@@ -222,8 +224,9 @@ void VehicleMotion::displace(Move& move, double way) {
     Pose2 motion = inverse(believed_) * next;
     believed_ = next;
     if (move.corrective) {
-        true_ = true_ * Pose2{fine_gain_ * motion.x_m, fine_gain_ * motion.y_m,
-                              fine_gain_ * motion.heading_rad};
+        const auto [ahead, sideways, turned] = move.true_share;
+        true_ =
+            true_ * Pose2{ahead * motion.x_m, sideways * motion.y_m, turned * motion.heading_rad};
         return;
     }
     const double way_m = norm(motion.position());
@@ -244,10 +247,9 @@ void VehicleMotion::finish_front() {
     const Move done = std::move(queue_.front());
     queue_.pop_front();
     if (done.corrective) {
-        if (done.segment.kind == Kind::kRotate) {
-            true_ = true_ *
-                    Pose2{normal(errors_.fine_m), normal(errors_.fine_m), normal(errors_.fine_rad)};
-        }
+        true_ = true_ * (done.segment.kind == Kind::kRotate
+                             ? Pose2{0, 0, normal(errors_.fine_rad)}
+                             : Pose2{normal(errors_.fine_m), normal(errors_.fine_m), 0});
     } else {
         ++segments_done_;
     }

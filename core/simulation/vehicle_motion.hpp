@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <random>
+#include <span>
 
 #include "core/kinematics/motion.hpp"
 #include "core/plant/plant.hpp"
@@ -24,8 +26,12 @@ struct MotionErrors {
     double heading_rad_per_sqrt_rad = 2e-4;
     double settle_m = 1e-3;  // sag of the chassis when it brakes from full speed
     double settle_rad = 1.1e-3;
-    double fine_scale = 0.03;  // of a corrective motion
-    double fine_m = 3e-4;
+    // Corrective moves: scale and offset along the move are constant per vehicle and kind of move
+    // (ahead, sideways, turn), which can be learned; the rest is new in each move.
+    double fine_scale = 0.03;
+    double fine_offset_m = 3e-4;
+    double fine_offset_rad = 0.01 * kPi / 180;
+    double fine_m = 2e-4;  // along and across
     double fine_rad = 0.005 * kPi / 180;
 };
 
@@ -41,9 +47,9 @@ public:
 
     /// Adds a segment at the end of the queue. max_speed_mps 0: the vehicle's own limit.
     void append(const kinematics::Segment& segment, double max_speed_mps = 0);
-    /// Small corrective move of all wheels in parallel, then a turn on the spot; `body_from_goal`
-    /// is the wanted pose seen from the present one. REQUIRES: idle().
-    void correct(const Pose2& body_from_goal);
+    /// Small corrective moves one after the other at creeping speed; they do not count as segments
+    /// done. REQUIRES: idle(); the first segment begins at believed_pose().
+    void correct(std::span<const kinematics::Segment> moves);
     /// Brakes and stays; release() drives on.
     void hold() { held_ = true; }
     void release() { held_ = false; }
@@ -80,6 +86,14 @@ private:
         double max_accel = 0;
         double done = 0;  // of size
         bool corrective = false;
+        // What a corrective move truly comes to, of the motion believed: ahead, sideways, turned.
+        std::array<double, 3> true_share{1, 1, 1};
+    };
+    /// How a vehicle's corrective moves of one kind differ from what is commanded.
+    struct FineError {
+        double scale = 1;
+        double offset = 0;  // along the move
+        double share_of(double size) const;
     };
 
     Move make_move(const kinematics::Segment& segment, double max_speed_mps) const;
@@ -99,7 +113,7 @@ private:
     double distance_scale_ = 0;
     double turn_scale_ = 0;
     double steering_bias_rad_ = 0;
-    double fine_gain_ = 1;
+    std::array<FineError, 3> fine_;  // ahead, sideways, turn
 
     Pose2 true_;
     Pose2 believed_;
