@@ -17,9 +17,10 @@ constexpr double kAskForBase_s = 1.0;
 }  // namespace
 
 VehicleExecutor::VehicleExecutor(Drive& motion, StopSensing& sensing, std::string map_id,
-                                 VehicleEquipment* equipment)
+                                 VehicleEquipment* equipment,
+                                 control::MotionCompensation compensation)
     : motion_(motion),
-      procedure_(motion, sensing),
+      procedure_(motion, sensing, {}, std::move(compensation)),
       equipment_(equipment),
       map_id_(std::move(map_id)) {
     segments_seen_ = motion.segments_done();

@@ -20,7 +20,8 @@ class VehicleExecutor {
 public:
     /// `equipment` may be null: it measures and drives only.
     VehicleExecutor(Drive& motion, StopSensing& sensing, std::string map_id,
-                    VehicleEquipment* equipment = nullptr);
+                    VehicleEquipment* equipment = nullptr,
+                    control::MotionCompensation compensation = {});
 
     void handle(const fleet::OrderMessage& order);
     void handle(const fleet::InstantActionsMessage& message);
@@ -40,6 +41,8 @@ public:
     std::int64_t last_node_sequence_id() const { return last_node_sequence_id_; }
     /// sequenceId of the last released node: the vehicle never drives past it.
     std::int64_t base_end_sequence_id() const { return base_end_.sequence_id; }
+    /// What the vehicle has learned of its small moves, to be kept for its next start.
+    const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
 
 private:

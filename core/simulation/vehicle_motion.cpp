@@ -10,6 +10,7 @@ namespace {
 
 using geometry::Point2;
 
+constexpr double kDone = 1e-6;       // metres or radians that count as none
 constexpr double kSubstep_s = 0.02;  // of the vehicle's own, not accelerated, time
 constexpr double kConverge_m = 1.0;  // way over which a path deviation falls to 1/e
 constexpr double kConverge_rad = 0.1;
@@ -28,6 +29,16 @@ VehicleMotion::VehicleMotion(plant::VehicleType type, const Pose2& true_pose, st
     distance_scale_ = normal(errors_.distance_scale);
     turn_scale_ = normal(errors_.turn_scale);
     steering_bias_rad_ = normal(errors_.steering_bias_rad);
+    for (std::size_t k = 0; k < fine_.size(); ++k) {
+        fine_[k].scale = 1 + normal(errors_.fine_scale);
+        fine_[k].offset = normal(k == 2 ? errors_.fine_offset_rad : errors_.fine_offset_m);
+    }
+}
+
+/// No move comes to less than nothing.
+double VehicleMotion::FineError::share_of(double size) const {
+    if (std::abs(size) <= kDone) return 1;
+    return std::max(0.0, scale + offset / std::abs(size));
 }
 
 void VehicleMotion::append(const kinematics::Segment& segment, double max_speed_mps) {
@@ -36,8 +47,14 @@ void VehicleMotion::append(const kinematics::Segment& segment, double max_speed_
 
 void VehicleMotion::correct(std::span<const kinematics::Segment> moves) {
     assert(idle());
-    fine_gain_ = 1 + normal(errors_.fine_scale);
-    for (const auto& move : moves) reference_.append_fine(move);
+    fine_shares_.clear();
+    for (const auto& move : moves) {
+        reference_.append_fine(move);
+        const double length_m = std::abs(move.length_m);
+        fine_shares_.push_back({fine_[0].share_of(length_m * std::cos(move.direction_rad)),
+                                fine_[1].share_of(length_m * std::sin(move.direction_rad)),
+                                fine_[2].share_of(move.turn_rad)});
+    }
 }
 
 void VehicleMotion::step(double dt_s) {
@@ -50,9 +67,11 @@ void VehicleMotion::step(double dt_s) {
 
 void VehicleMotion::take(const PathReference::Passed& passed) {
     if (passed.way > 0) displace(passed);
-    if (passed.fine_over) {
+    if (passed.fine && passed.finished) {
+        fine_shares_.pop_front();
         true_ =
-            true_ * Pose2{normal(errors_.fine_m), normal(errors_.fine_m), normal(errors_.fine_rad)};
+            true_ * (passed.on_the_spot ? Pose2{0, 0, normal(errors_.fine_rad)}
+                                        : Pose2{normal(errors_.fine_m), normal(errors_.fine_m), 0});
     }
     const bool gentle = passed.finished && (passed.fine || passed.on_the_spot);
     if (passed.rests && !gentle) settle(passed.peak_rate);
@@ -77,8 +96,9 @@ void VehicleMotion::displace(const PathReference::Passed& passed) {
     Pose2 motion = inverse(believed_) * next;
     believed_ = next;
     if (passed.fine) {
-        true_ = true_ * Pose2{fine_gain_ * motion.x_m, fine_gain_ * motion.y_m,
-                              fine_gain_ * motion.heading_rad};
+        const auto [ahead, sideways, turned] = fine_shares_.front();
+        true_ =
+            true_ * Pose2{ahead * motion.x_m, sideways * motion.y_m, turned * motion.heading_rad};
         return;
     }
     const double way_m = norm(motion.position());

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <random>
 #include <span>
@@ -24,8 +26,12 @@ struct MotionErrors {
     double heading_rad_per_sqrt_rad = 2e-4;
     double settle_m = 1e-3;  // sag of the chassis when it brakes from full speed
     double settle_rad = 1.1e-3;
-    double fine_scale = 0.03;  // of a corrective motion
-    double fine_m = 3e-4;
+    // Corrective moves: scale and offset along the move are constant per vehicle and kind of move
+    // (ahead, sideways, turn), which can be learned; the rest is new in each move.
+    double fine_scale = 0.03;
+    double fine_offset_m = 3e-4;
+    double fine_offset_rad = 0.01 * kPi / 180;
+    double fine_m = 2e-4;  // along and across
     double fine_rad = 0.005 * kPi / 180;
 };
 
@@ -68,6 +74,15 @@ public:
     void acknowledge() override {}
 
 private:
+    /// What a corrective move truly comes to, of the motion believed: ahead, sideways, turned.
+    using TrueShare = std::array<double, 3>;
+    /// How a vehicle's corrective moves of one kind differ from what is commanded.
+    struct FineError {
+        double scale = 1;
+        double offset = 0;  // along the move
+        double share_of(double size) const;
+    };
+
     void take(const PathReference::Passed& passed);
     void displace(const PathReference::Passed& passed);
     void settle(double peak_rate);
@@ -81,7 +96,8 @@ private:
     double distance_scale_ = 0;
     double turn_scale_ = 0;
     double steering_bias_rad_ = 0;
-    double fine_gain_ = 1;
+    std::array<FineError, 3> fine_;      // ahead, sideways, turn
+    std::deque<TrueShare> fine_shares_;  // of the corrective moves not yet driven
 
     Pose2 true_;
     Pose2 believed_;

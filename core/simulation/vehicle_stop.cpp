@@ -1,34 +1,13 @@
 #include "core/simulation/vehicle_stop.hpp"
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace pulseline::simulation {
 namespace {
 
-constexpr int kCorrections = 4;
-constexpr double kGoodPosition_m = 0.002;
-constexpr double kGoodHeading_rad = 0.03 * kPi / 180;
-// A correction leaves the released floor by no more than this; beyond it the server must send a
-// leg.
-constexpr double kReach_m = 0.1;
-constexpr double kReach_rad = 1.0 * kPi / 180;
+constexpr int kBlindPasses = 4;
 constexpr double kSettle_s = 0.4;  // until the chassis no longer swings in the image
-
-/// Where the target is, seen from the measured body.
-Pose2 body_from_target(const fleet::StopMeasurement& measured, const fleet::StopTarget& target) {
-    return inverse(measured.pose) * target.target;
-}
-
-bool is_good(const Pose2& off) {
-    return norm(off.position()) <= kGoodPosition_m && std::abs(off.heading_rad) <= kGoodHeading_rad;
-}
-
-bool is_in_reach(const Pose2& off) {
-    return norm(off.position()) <= kReach_m && std::abs(off.heading_rad) <= kReach_rad;
-}
 
 bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& target) {
     return std::abs(measured.pose.x_m - target.target.x_m) <= target.tolerance_x_m &&
@@ -37,39 +16,26 @@ bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& tar
                target.tolerance_heading_rad;
 }
 
-std::string describe(const Pose2& off) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%.1f mm and %.3f deg left at best",
-                  1e3 * norm(off.position()), degrees(std::abs(off.heading_rad)));
-    return text;
-}
-
-/// First all wheels in parallel, then a turn on the spot.
-std::array<kinematics::Segment, 2> shift_then_turn(const Pose2& from, const Pose2& off) {
-    using Kind = kinematics::Segment::Kind;
-    kinematics::Segment shift;
-    shift.kind = Kind::kStraight;
-    shift.start = from;
-    shift.end = from * Pose2{off.x_m, off.y_m, 0};
-    shift.length_m = norm(off.position());
-    shift.direction_rad = std::atan2(off.y_m, off.x_m);
-    kinematics::Segment turn;
-    turn.kind = Kind::kRotate;
-    turn.start = shift.end;
-    turn.end = from * off;
-    turn.turn_rad = wrap(off.heading_rad);
-    return {shift, turn};
-}
-
 }  // namespace
+
+StopProcedure::StopProcedure(Drive& motion, StopSensing& sensing,
+                             const control::AdjustmentLimits& limits,
+                             control::MotionCompensation compensation)
+    : motion_(motion),
+      sensing_(sensing),
+      limits_(limits),
+      compensation_(std::move(compensation)),
+      adjustment_(motion.type(), limits) {}
 
 void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
     target_ = target;
     correct_ = correct;
     running_ = true;
     aborting_ = false;
-    corrections_ = 0;
+    adjustment_ = control::Adjustment(motion_.type(), limits_);
+    blind_passes_ = 0;
     last_.reset();
+    driven_.clear();
     settling_s_ = kSettle_s / motion_.time_factor();
 }
 
@@ -97,38 +63,48 @@ std::optional<StopProcedure::Outcome> StopProcedure::step(double dt_s) {
 
 std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     const auto measured = sensing_.measure(target_);
-    if (!measured && correct_ && !last_ && corrections_ < kCorrections) {
-        // It may know better where it is than when it drove here: a person has said so since.
-        const Pose2 off = inverse(motion_.believed_pose()) * target_.target;
-        if (!is_good(off) && is_in_reach(off)) {
-            begin_correction(off);
-            return std::nullopt;
-        }
-    }
     if (!measured) {
+        if (correct_ && !last_ && look_where_it_should_be()) return std::nullopt;
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
+    learn(*measured);
     last_ = *measured;
     motion_.set_believed(measured->pose);
     if (!correct_) return finish(true, {});
-    const Pose2 off = body_from_target(*measured, target_);
-    if (is_good(off)) return finish(true, {});
-    if (!is_in_reach(off)) {
-        return finish(false, "too_far_from_target: " + describe(off));
-    }
-    if (corrections_ == kCorrections) {
-        const bool good_enough = inside(*measured, target_);
-        return finish(good_enough,
-                      good_enough ? std::string{} : "out_of_tolerance: " + describe(off));
-    }
-    begin_correction(off);
-    return std::nullopt;
+    const Pose2 off = inverse(measured->pose) * target_.target;
+    if (adjustment_.is_good(off)) return finish(true, {});
+    const Status begun = begin_pass(adjustment_, off);
+    if (begun) return std::nullopt;
+    if (adjustment_.is_in_reach(off) && inside(*measured, target_)) return finish(true, {});
+    return finish(false, begun.error().reason.code + ": " + begun.error().what);
 }
 
-void StopProcedure::begin_correction(const Pose2& off) {
-    ++corrections_;
+/// It may know better where it is than when it drove here: a person has said so since.
+bool StopProcedure::look_where_it_should_be() {
+    const Pose2 off = inverse(motion_.believed_pose()) * target_.target;
+    if (blind_passes_ == kBlindPasses || adjustment_.is_good(off)) return false;
+    ++blind_passes_;
+    control::Adjustment blind(motion_.type(), limits_);
+    return begin_pass(blind, off).has_value();
+}
+
+Status StopProcedure::begin_pass(control::Adjustment& loop, const Pose2& body_from_target) {
+    const auto moves = loop.next(body_from_target, compensation_);
+    if (!moves) return fail(moves.error());
     settling_s_ = kSettle_s / motion_.time_factor();
-    motion_.correct(shift_then_turn(motion_.believed_pose(), off));
+    driven_ = control::moves_of(*moves);
+    motion_.correct(control::placed(motion_.believed_pose(), *moves));
+    return {};
+}
+
+/// A pass that began from a measured pose shows how the vehicle moves.
+void StopProcedure::learn(const fleet::StopMeasurement& after) {
+    const auto driven = std::exchange(driven_, {});
+    if (!last_ || driven.empty()) return;
+    // Refused is only what is no number; then there is nothing to learn.
+    (void)compensation_.learn({driven, inverse(last_->pose) * after.pose,
+                               std::hypot(last_->sigma_xy_m, after.sigma_xy_m),
+                               std::hypot(last_->sigma_heading_rad, after.sigma_heading_rad)});
 }
 
 StopProcedure::Outcome StopProcedure::finish(bool succeeded, std::string why_not) {

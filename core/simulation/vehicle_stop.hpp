@@ -2,8 +2,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/base/result.hpp"
+#include "core/control/adjustment.hpp"
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
 
@@ -18,8 +20,9 @@ public:
     virtual Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) = 0;
 };
 
-/// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker). The believed
-/// pose becomes each measured one.
+/// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker): the loop of
+/// control::Adjustment, whose motion compensation learns from every pass. The believed pose becomes
+/// each measured one.
 class StopProcedure {
 public:
     struct Outcome {
@@ -28,30 +31,41 @@ public:
         std::string why_not;
     };
 
-    StopProcedure(Drive& motion, StopSensing& sensing) : motion_(motion), sensing_(sensing) {}
+    /// `limits`: how far the vehicle may move without being asked where it is released to go;
+    /// `compensation`: what was learned of it before.
+    StopProcedure(Drive& motion, StopSensing& sensing, const control::AdjustmentLimits& limits = {},
+                  control::MotionCompensation compensation = {});
 
     /// REQUIRES: the motion is idle.
     void start(const fleet::StopTarget& target, bool correct);
     /// The outcome once it is over.
     std::optional<Outcome> step(double dt_s);
     bool running() const { return running_; }
+    const control::MotionCompensation& compensation() const { return compensation_; }
     /// Gives up; a correction under way is braked first: running() until it stands.
     void abort();
 
 private:
     std::optional<Outcome> take_measurement();
-    void begin_correction(const Pose2& off);
+    /// The next pass of `loop`.
+    Status begin_pass(control::Adjustment& loop, const Pose2& body_from_target);
+    bool look_where_it_should_be();
+    void learn(const fleet::StopMeasurement& after);
     Outcome finish(bool succeeded, std::string why_not);
 
     Drive& motion_;
     StopSensing& sensing_;
+    control::AdjustmentLimits limits_;
+    control::MotionCompensation compensation_;
+    control::Adjustment adjustment_;
     fleet::StopTarget target_;
     bool correct_ = false;
     bool running_ = false;
     bool aborting_ = false;
     double settling_s_ = 0;
-    int corrections_ = 0;
+    int blind_passes_ = 0;
     std::optional<fleet::StopMeasurement> last_;
+    std::vector<control::Move> driven_;  // since last_, as commanded
 };
 
 }  // namespace pulseline::simulation

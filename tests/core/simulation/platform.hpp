@@ -32,6 +32,8 @@ inline MotionErrors exact() {
             .settle_m = 0,
             .settle_rad = 0,
             .fine_scale = 0,
+            .fine_offset_m = 0,
+            .fine_offset_rad = 0,
             .fine_m = 0,
             .fine_rad = 0};
     return none;

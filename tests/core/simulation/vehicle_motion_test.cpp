@@ -154,13 +154,14 @@ TEST(VehicleMotion, SteersOutASmallStartDeviation) {
 TEST(VehicleMotion, CorrectionEndsWithinItsErrors) {
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         VehicleMotion motion(platform_type(), {}, seed);
-        const Pose2 shifted{0.02, -0.01, 0};
-        motion.correct(std::array{straight({}, norm(shifted.position()), std::atan2(-0.01, 0.02)),
-                                  turn(shifted, radians(0.3))});
+        const Pose2 goal{0.02, -0.01, radians(0.3)};
+        motion.correct(std::vector{straight({}, 0.02), straight({0.02, 0, 0}, 0.01, -kPi / 2),
+                                   turn({0.02, -0.01, 0}, goal.heading_rad)});
         drive_to_end(motion);
         const Pose2 off = inverse(motion.believed_pose()) * motion.true_pose();
         EXPECT_LT(norm(off.position()), 0.0045);
         EXPECT_LT(std::abs(off.heading_rad), radians(0.06));
+        EXPECT_LT(distance(motion.believed_pose().position(), goal.position()), 1e-5);
         EXPECT_EQ(motion.segments_done(), 0u);
     }
 }
