@@ -34,6 +34,21 @@ std::vector<T> list_from_json(const std::string& text, Decode decode_item) {
     }
 }
 
+Json mounting_to_json(const plant::CameraMounting& m) {
+    return {{"x_m", number(m.body_from_camera.x_m)},
+            {"y_m", number(m.body_from_camera.y_m)},
+            {"heading_rad", number(m.body_from_camera.heading_rad)},
+            {"height_m", number(m.height_m)},
+            {"tilt_u_rad", number(m.tilt_u_rad)},
+            {"tilt_v_rad", number(m.tilt_v_rad)}};
+}
+plant::CameraMounting mounting_from_json(const Json& j) {
+    return {{j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+            j.at("height_m"),
+            j.value("tilt_u_rad", 0.0),
+            j.value("tilt_v_rad", 0.0)};
+}
+
 }  // namespace
 
 std::string polygon_to_json(const plant::Polygon& polygon) {
@@ -69,50 +84,23 @@ std::vector<plant::Wheel> wheels_from_json(const std::string& text) {
 
 std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
     return list_to_json(cameras, [](const plant::Camera& c) {
-        Json json{{"name", c.name},
-                  {"x_m", number(c.body_from_camera.x_m)},
-                  {"y_m", number(c.body_from_camera.y_m)},
-                  {"heading_rad", number(c.body_from_camera.heading_rad)},
-                  {"height_m", number(c.height_m)},
-                  {"f_px", number(c.f_px)},
-                  {"width_px", c.width_px},
-                  {"height_px", c.height_px},
-                  {"cu_px", number(c.cu_px)},
-                  {"cv_px", number(c.cv_px)},
-                  {"k1", number(c.k1)},
-                  {"tilt_u_rad", number(c.tilt_u_rad)},
-                  {"tilt_v_rad", number(c.tilt_v_rad)}};
-        if (const auto& m = c.loaded) {
-            json["loaded"] = {{"x_m", number(m->body_from_camera.x_m)},
-                              {"y_m", number(m->body_from_camera.y_m)},
-                              {"heading_rad", number(m->body_from_camera.heading_rad)},
-                              {"height_m", number(m->height_m)},
-                              {"tilt_u_rad", number(m->tilt_u_rad)},
-                              {"tilt_v_rad", number(m->tilt_v_rad)}};
-        }
+        Json json = mounting_to_json(c);
+        json.update({{"name", c.name},
+                     {"f_px", number(c.f_px)},
+                     {"width_px", c.width_px},
+                     {"height_px", c.height_px},
+                     {"cu_px", number(c.cu_px)},
+                     {"cv_px", number(c.cv_px)},
+                     {"k1", number(c.k1)}});
+        if (c.loaded) json["loaded"] = mounting_to_json(*c.loaded);
         return json;
     });
 }
 std::vector<plant::Camera> cameras_from_json(const std::string& text) {
     return list_from_json<plant::Camera>(text, [](const Json& j) {
-        plant::Camera camera{j.at("name"),
-                             {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
-                             j.at("height_m"),
-                             j.at("f_px"),
-                             j.at("width_px"),
-                             j.at("height_px"),
-                             j.at("cu_px"),
-                             j.at("cv_px"),
-                             j.at("k1"),
-                             j.value("tilt_u_rad", 0.0),
-                             j.value("tilt_v_rad", 0.0)};
-        if (j.contains("loaded")) {
-            const Json& m = j.at("loaded");
-            camera.loaded = plant::CameraMounting{{m.at("x_m"), m.at("y_m"), m.at("heading_rad")},
-                                                  m.at("height_m"),
-                                                  m.at("tilt_u_rad"),
-                                                  m.at("tilt_v_rad")};
-        }
+        plant::Camera camera{mounting_from_json(j), j.at("name"),  j.at("f_px"),  j.at("width_px"),
+                             j.at("height_px"),     j.at("cu_px"), j.at("cv_px"), j.at("k1")};
+        if (j.contains("loaded")) camera.loaded = mounting_from_json(j.at("loaded"));
         return camera;
     });
 }

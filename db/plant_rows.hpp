@@ -77,7 +77,8 @@ struct VehicleTypeRow {
         "position, id, name, kinematics, footprint, load_footprint, max_speed_mps, max_accel_mps2, "
         "max_turn_rate_radps, max_turn_accel_radps2, min_turn_radius_m, max_arc_radius_m, "
         "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg, "
-        "battery_critical_percent, battery_low_percent, battery_enough_percent";
+        "battery_critical_percent, battery_low_percent, battery_enough_percent, "
+        "max_steering_rate_radps";
     std::int64_t position = 0;
     std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets;
     plant::VehicleType element;
@@ -89,7 +90,7 @@ struct VehicleTypeRow {
                         t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
                         t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
                         t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
-                        t.battery.enough_percent);
+                        t.battery.enough_percent, t.max_steering_rate_radps);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;

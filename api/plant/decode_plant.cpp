@@ -154,7 +154,8 @@ CameraMounting decode_mounting(ObjectReader& in) {
 }
 
 Camera decode_camera(ObjectReader& in) {
-    Camera camera{decode_mounting(in), {}};
+    Camera camera;
+    static_cast<CameraMounting&>(camera) = decode_mounting(in);
     camera.name = in.text("name", kId);
     camera.f_px = in.number("f_px", kQuantity);
     camera.width_px = static_cast<int>(in.integer("width_px", kPixels));

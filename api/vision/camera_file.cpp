@@ -37,7 +37,8 @@ Result<plant::Camera> decode_camera(std::string_view text) {
     if (!parsed) return fail(parsed.error());
     json::FieldErrors errors;
     json::ObjectReader in(*parsed, "", errors);
-    plant::Camera camera{decode_mounting(in)};
+    plant::Camera camera;
+    static_cast<plant::CameraMounting&>(camera) = decode_mounting(in);
     // Wider than any camera, narrow enough that nothing overflows behind them.
     camera.width_px = static_cast<int>(in.integer("width_px", {64, 20'000}));
     camera.height_px = static_cast<int>(in.integer("height_px", {64, 20'000}));

@@ -158,6 +158,9 @@ fleet::VehicleError order_error(std::string type, std::string description,
 
 OrderDecision decide_order(const OrderMessage& order, const OrderContext& context) {
     if (auto error = malformed(order)) return rejected(std::move(*error));
+    if (context.in_hand) {
+        return rejected(order_error("orderError", "the vehicle is driven by hand", order));
+    }
     const bool same = !context.order_id.empty() && order.order_id == context.order_id;
     const OrderDecision decision =
         same ? decide_update(order, context) : decide_new(order, context);

@@ -22,7 +22,8 @@ VehicleExecutor::VehicleExecutor(Drive& motion, StopSensing& sensing, std::strin
     : motion_(motion),
       procedure_(motion, sensing, {}, std::move(compensation)),
       equipment_(equipment),
-      map_id_(std::move(map_id)) {
+      map_id_(std::move(map_id)),
+      hand_(motion) {
     segments_seen_ = motion.segments_done();
 }
 
@@ -35,6 +36,7 @@ OrderContext VehicleExecutor::context() const {
     context.cancelling = !cancel_id_.empty();
     context.stitch_node_id = base_end_.node_id;
     context.stitch_sequence_id = base_end_.sequence_id;
+    context.in_hand = in_hand_;
     if (position_initialized_) context.pose = motion_.believed_pose();
     context.map_id = map_id_;
     if (equipment_ != nullptr) context.node_actions = equipment_->action_types();
@@ -117,6 +119,7 @@ void VehicleExecutor::traverse(const fleet::OrderNode& node) {
 }
 
 void VehicleExecutor::step(double dt_s) {
+    if (in_hand_) return step_in_hand(dt_s);
     if (paused_ || !cancel_id_.empty()) {
         motion_.hold();
     } else {
@@ -199,14 +202,18 @@ void VehicleExecutor::finish_stop(const StopProcedure::Outcome& outcome) {
 
 void VehicleExecutor::finish_cancel() {
     if (cancel_id_.empty() || !motion_.standing() || procedure_.running()) return;
-    motion_.clear();
     motion_.release();
+    drop_order();
+    set_action(cancel_id_, ActionStatus::kFinished);
+    cancel_id_.clear();
+}
+
+void VehicleExecutor::drop_order() {
+    motion_.clear();
     nodes_.clear();
     edges_.clear();
     waiting_.clear();  // of nodes passed while braking
     queued_edges_ = 0;
-    set_action(cancel_id_, ActionStatus::kFinished);
-    cancel_id_.clear();
 }
 
 void VehicleExecutor::finish_pause() {
@@ -224,6 +231,58 @@ void VehicleExecutor::note_motion() {
     changed_ |= driving != driving_ || ask != new_base_request_;
     driving_ = driving;
     new_base_request_ = ask;
+}
+
+void VehicleExecutor::take_by_hand() {
+    if (in_hand_) return;
+    in_hand_ = true;
+    changed_ = true;
+    abort_actions("taken by hand");
+    hand_.take();
+}
+
+/// Nodes it brakes past still count as passed; then its order is gone.
+void VehicleExecutor::step_in_hand(double dt_s) {
+    if (!nodes_.empty() || procedure_.running()) {
+        motion_.hold();
+        motion_.step(dt_s);
+        take_traversals();
+        waiting_.clear();
+        if (procedure_.running()) static_cast<void>(procedure_.step(dt_s));
+        if (motion_.standing() && !procedure_.running()) drop_order();
+    } else {
+        hand_.step(dt_s);
+        motion_.step(dt_s);
+    }
+    finish_cancel();
+    finish_pause();
+    note_motion();
+}
+
+Status VehicleExecutor::drive_by_hand(const kinematics::Twist& wanted) {
+    if (!in_hand_) {
+        return fail(Errc::kConflict, "not_in_hand", "Take the vehicle by hand first.");
+    }
+    if (equipment_ != nullptr && equipment_->holds_vehicle()) {
+        return fail(Errc::kConflict, "held",
+                    "The vehicle stands on its feet or is plugged in. Raise the feet, stop "
+                    "charging.");
+    }
+    return hand_.command(wanted);
+}
+
+Status VehicleExecutor::give_back() {
+    if (!in_hand_) {
+        return fail(Errc::kConflict, "not_in_hand", "Nobody has taken the vehicle by hand.");
+    }
+    if (!motion_.standing() || !nodes_.empty()) {
+        return fail(Errc::kConflict, "still_moving", "The vehicle still moves. Let go first.");
+    }
+    hand_.give_back();
+    segments_seen_ = motion_.segments_done();
+    in_hand_ = false;
+    changed_ = true;
+    return {};
 }
 
 bool VehicleExecutor::take_changed() { return std::exchange(changed_, false); }
@@ -245,6 +304,7 @@ void VehicleExecutor::write_state(fleet::StateMessage& state) const {
     for (const auto& edge : edges_) {
         state.edge_states.push_back({edge.edge_id, edge.sequence_id, edge.released});
     }
+    state.operating_mode = in_hand_ ? "MANUAL" : "AUTOMATIC";
     state.driving = driving_;
     state.paused = paused_;
     state.new_base_request = new_base_request_;

@@ -7,6 +7,7 @@
 
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
+#include "core/simulation/hand_drive.hpp"
 #include "core/simulation/vehicle_acceptance.hpp"
 #include "core/simulation/vehicle_equipment.hpp"
 #include "core/simulation/vehicle_stop.hpp"
@@ -29,6 +30,15 @@ public:
     /// accepted order.
     void report(fleet::VehicleError error);
     void step(double dt_s);
+
+    /// Somebody drives the vehicle with a hand-held control from now on: it brakes, gives up its
+    /// order and takes none (operatingMode MANUAL). Where it stands it still tells, and may be told.
+    void take_by_hand();
+    /// Fails with conflict not_in_hand {}, or cannot_move_so as HandDrive says.
+    Status drive_by_hand(const kinematics::Twist& wanted);
+    /// Gives it back; it waits for an order. Fails with not_in_hand {} and still_moving {}.
+    Status give_back();
+    bool in_hand() const { return in_hand_; }
 
     /// Order, action, drive and pose fields of the state.
     void write_state(fleet::StateMessage& state) const;
@@ -59,9 +69,13 @@ private:
     void finish_cancel();
     void finish_pause();
     void note_motion();
+    void drop_order();
+    void step_in_hand(double dt_s);
 
     void handle_instant(const fleet::Action& action);
     void cancel_order(const fleet::Action& action);
+    /// What an order still has to do fails for this reason.
+    void abort_actions(const char* why);
     void init_position(const fleet::Action& action);
     void instant_stop(const fleet::Action& action);
     void instant_equipment(const fleet::Action& action);
@@ -97,6 +111,8 @@ private:
     bool cancelled_ = false;
     std::string pause_id_;
     bool paused_ = false;
+    HandDrive hand_;
+    bool in_hand_ = false;
 
     std::vector<fleet::ActionState> order_actions_;
     std::vector<fleet::ActionState> instant_actions_;

@@ -112,18 +112,22 @@ void VehicleExecutor::cancel_order(const Action& action) {
     }
     cancel_id_ = action.id;
     cancelled_ = true;
+    abort_actions("cancelled");
+    add_action(action, ActionStatus::kRunning);
+}
+
+void VehicleExecutor::abort_actions(const char* why) {
     for (auto& state : order_actions_) {
         if (state.status != ActionStatus::kWaiting) continue;
         state.status = ActionStatus::kFailed;
-        state.result_description = "cancelled";
+        state.result_description = why;
     }
     waiting_.clear();
     procedure_.abort();
     if (equipment_ != nullptr && equipment_->busy()) {
         equipment_->abort();
-        set_action(running_equipment_, ActionStatus::kFailed, "cancelled");
+        set_action(running_equipment_, ActionStatus::kFailed, why);
     }
-    add_action(action, ActionStatus::kRunning);
 }
 
 void VehicleExecutor::init_position(const Action& action) {
@@ -148,7 +152,8 @@ void VehicleExecutor::instant_stop(const Action& action) {
         return add_action(action, ActionStatus::kFailed, "target is missing");
     }
     const bool corrects = action.type == "adjustToMarker";
-    if (!motion_.idle() || procedure_.running() || paused_ || (corrects && !order_done())) {
+    const bool barred = paused_ || (in_hand_ && corrects);
+    if (!motion_.idle() || procedure_.running() || barred || (corrects && !order_done())) {
         return add_action(action, ActionStatus::kFailed, "the vehicle is at work");
     }
     add_action(action, ActionStatus::kRunning);
