@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::map<std::string, int> kCoreRank = {
-    {"base", 0},    {"access", 1},   {"geometry", 1},    {"plant", 2},    {"kinematics", 3},
-    {"vision", 3},  {"printing", 3}, {"calibration", 4}, {"planning", 4}, {"localisation", 4},
-    {"traffic", 4}, {"fleet", 5},    {"simulation", 6}};
+    {"base", 0},    {"access", 1},   {"geometry", 1},    {"plant", 2},     {"kinematics", 3},
+    {"vision", 3},  {"printing", 3}, {"calibration", 4}, {"planning", 4},  {"localisation", 4},
+    {"traffic", 4}, {"control", 5},  {"fleet", 5},       {"simulation", 6}};
 
 struct Include {
     std::string from;  // "core/plant/plant.cpp"
