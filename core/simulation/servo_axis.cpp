@@ -31,10 +31,10 @@ double ServoAxis::read_encoder() {
 }
 
 void ServoAxis::cycle(double position, double velocity) {
-    commanded_ = position;
     on_the_way_.push_back({position, velocity});
     const Command command = on_the_way_.front();
     on_the_way_.pop_front();
+    commanded_ = command.position;
     const double wanted =
         std::clamp(parameters_.feedforward * command.velocity +
                        parameters_.position_gain_per_s * (command.position - measured_),

@@ -63,7 +63,7 @@ public:
     double measured_position() const { return measured_; }
     double current_a() const { return current_a_; }
     double force() const { return parameters_.force_per_ampere * current_a_; }
-    /// Commanded minus measured, with the dead time in it.
+    /// Commanded minus measured, as the drive sees it: behind the dead time.
     double following_error() const { return commanded_ - measured_; }
     bool at_current_limit() const { return at_limit_; }
 
