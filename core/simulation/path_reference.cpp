@@ -51,6 +51,18 @@ bool continues(const Segment& a, const Segment& b) {
                kSameTurn_radpm * std::abs(a.length_m * b.length_m);
 }
 
+kinematics::Twist derivative(const Segment& segment, double s) {
+    const double before = std::max(0.0, s - kDerivative);
+    const double after = std::min(1.0, s + kDerivative);
+    const Pose2 body{0, 0, kinematics::pose_at(segment, s).heading_rad};
+    const Pose2 from = kinematics::pose_at(segment, before);
+    const Pose2 to = kinematics::pose_at(segment, after);
+    const auto way = inverse(body) * (to.position() - from.position());
+    const double per_share = 1 / (after - before);
+    return {way.x_m * per_share, way.y_m * per_share,
+            wrap(to.heading_rad - from.heading_rad) * per_share};
+}
+
 PathReference::PathReference(plant::VehicleType type, double time_factor)
     : type_(std::move(type)), time_factor_(time_factor) {}
 
@@ -119,15 +131,9 @@ kinematics::Twist PathReference::twist_at_share(double share) const {
 kinematics::Twist PathReference::twist_at(double rate) const {
     if (queue_.empty() || rate == 0 || queue_.front().size <= kDone) return {};
     const Move& move = queue_.front();
-    const double s = move.done / move.size;
-    const double before = std::max(0.0, s - kDerivative);
-    const double after = std::min(1.0, s + kDerivative);
-    const Pose2 body = {0, 0, kinematics::pose_at(move.segment, s).heading_rad};
-    const Pose2 from = kinematics::pose_at(move.segment, before);
-    const Pose2 to = kinematics::pose_at(move.segment, after);
-    const auto way = inverse(body) * (to.position() - from.position());
-    const double per_s = rate / (move.size * (after - before));
-    return {way.x_m * per_s, way.y_m * per_s, wrap(to.heading_rad - from.heading_rad) * per_s};
+    const kinematics::Twist whole = derivative(move.segment, move.done / move.size);
+    const double share_per_s = rate / move.size;
+    return {whole.vx_mps * share_per_s, whole.vy_mps * share_per_s, whole.turn_radps * share_per_s};
 }
 
 double PathReference::velocity_mps() const {

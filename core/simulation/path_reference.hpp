@@ -95,6 +95,8 @@ private:
 /// True when a platform passes from `a` to `b` without stopping: straight on, the same arc, or the
 /// same turn on the spot.
 bool continues(const kinematics::Segment& a, const kinematics::Segment& b);
+/// Body twist of the pose at share `s` of a segment that is driven in one second.
+kinematics::Twist derivative(const kinematics::Segment& segment, double s);
 /// No way of the body's centre: the segment is measured in radians.
 bool turns_on_the_spot(const kinematics::Segment& segment);
 

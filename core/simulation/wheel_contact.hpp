@@ -1,0 +1,76 @@
+#pragma once
+
+#include <optional>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/geometry/pose2.hpp"
+#include "core/kinematics/wheels.hpp"
+#include "core/simulation/drive_budget.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// The wheels that say how the body moves, as a type of its own: the driven ones, or all when one
+/// driven wheel alone leaves something open.
+struct RollingWheels {
+    plant::VehicleType type;
+    std::vector<std::size_t> index;  // of each among the vehicle's wheels
+
+    explicit RollingWheels(const plant::VehicleType& vehicle);
+    /// Twist and contradiction of the vehicle's wheel motions (kinematics::body_of).
+    kinematics::BodyMotion body_of(std::span<const kinematics::WheelMotion> all) const;
+};
+
+/// How fast a wheel standing at `angle_rad` rolls when the body moves with `twist`.
+double rolling_speed(const plant::VehicleType& type, const plant::Wheel& wheel, double angle_rad,
+                     const kinematics::Twist& twist);
+
+/// Pose after moving with a steady twist for `h_s` (to third order in the angle turned).
+Pose2 moved(const Pose2& pose, const kinematics::Twist& twist, double h_s);
+
+/// Between the wheels and the floor: creep, slip, slope and chance turn what the wheels roll into
+/// how the body truly moves.
+class WheelContact {
+public:
+    WheelContact(const plant::VehicleType& type, double load_kg, const DriveBudget& budget,
+                 std::mt19937_64& random);
+
+    /// Twist of the body over a cycle of `h_s` at `true_pose`. `accel_mps2`: of each wheel's rim.
+    kinematics::Twist body_twist(std::span<const kinematics::WheelMotion> rolled,
+                                 std::span<const double> accel_mps2, const Pose2& true_pose,
+                                 double h_s, std::mt19937_64& random);
+    /// Slope along each wheel's rolling direction, as a force on it.
+    void grade_forces(std::span<const kinematics::WheelMotion> wheels, const Pose2& true_pose,
+                      std::vector<double>& force_n) const;
+
+    /// Rise per metre along x and y of the hall.
+    void set_grade(geometry::Point2 grade) { grade_ = grade; }
+    /// Share of a wheel's rim speed that is lost; false: no such wheel.
+    bool set_slip(const std::string& wheel, double share);
+    /// What measuring wheels beside the driven ones show: the largest share between the speed of a
+    /// wheel's rim and that of the floor below it. nullopt: too slow to say.
+    std::optional<double> slip_share(std::span<const kinematics::WheelMotion> measured,
+                                     const kinematics::Twist& true_twist) const;
+
+private:
+    void maybe_enter_patch(double way_m, std::mt19937_64& random);
+
+    DriveBudget budget_;
+    const plant::VehicleType type_;
+    RollingWheels nominal_;
+    RollingWheels actual_;  // wheels where they truly are
+    std::vector<double> slip_;
+    std::vector<double> driven_kg_;  // mass that each wheel pushes; 0: not driven
+    std::vector<kinematics::WheelMotion> contact_;
+    geometry::Point2 grade_;
+    double roller_loss_ = 0;
+    double patch_left_m_ = 0;
+    std::size_t patch_wheel_ = 0;
+    std::normal_distribution<double> normal_;
+};
+
+}  // namespace pulseline::simulation

@@ -1,0 +1,258 @@
+#include "core/simulation/servo_drive.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <vector>
+
+#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
+using pulseline::testing::platform;
+using simulation::testing::arc;
+using simulation::testing::straight;
+using simulation::testing::turn;
+
+constexpr double kStep_s = 0.05;
+
+std::vector<plant::VehicleType> families() { return {platform(), mecanum(), differential()}; }
+
+bool sideways(const plant::VehicleType& type) {
+    return type.kinematics != plant::Kinematics::kDifferential;
+}
+
+void drive_to_end(ServoDrive& drive, double limit_s = 400) {
+    for (double t = 0; t < limit_s && !drive.idle(); t += kStep_s) drive.step(kStep_s);
+}
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+Pose2 lost(const ServoDrive& drive) { return inverse(drive.believed_pose()) * drive.true_pose(); }
+
+TEST(ServoDrive, TwentyMetresEndMillimetresAndHundredthsOfADegreeOff) {
+    for (const auto& type : families()) {
+        std::vector<double> off_mm;
+        std::vector<double> off_deg;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            ServoDrive drive(type, {}, seed, 1, 0.5 * type.max_load_kg);
+            drive.append(straight({}, 20));
+            drive_to_end(drive);
+            off_mm.push_back(1e3 * norm(lost(drive).position()));
+            off_deg.push_back(degrees(std::abs(lost(drive).heading_rad)));
+            EXPECT_LT(off_mm.back(), 30) << type.name;
+        }
+        EXPECT_GT(median(off_mm), 3) << type.name;
+        EXPECT_LT(median(off_mm), 8) << type.name;
+        EXPECT_GT(median(off_deg), 0.02) << type.name;
+        EXPECT_LT(median(off_deg), 0.10) << type.name;
+        std::printf("[ budget   ] %s: 20 m end %.1f mm and %.3f deg off (median)\n",
+                    type.name.c_str(), median(off_mm), median(off_deg));
+    }
+}
+
+TEST(ServoDrive, FineMovesRepeatWithinTenthsOfAMillimetre) {
+    for (const auto& type : families()) {
+        const Pose2 shifted = sideways(type) ? Pose2{0.006, -0.004, 0} : Pose2{0.007, 0, 0};
+        const Pose2 goal = shifted * Pose2{0, 0, radians(0.1)};
+        std::vector<double> off_mm;
+        std::vector<double> off_deg;
+        for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+            ServoDrive drive(type, {}, seed);
+            const double direction_rad = std::atan2(shifted.y_m, shifted.x_m);
+            drive.correct(std::array{straight({}, norm(shifted.position()), direction_rad),
+                                     turn(shifted, radians(0.1))});
+            drive_to_end(drive);
+            const Pose2 off = inverse(goal) * drive.true_pose();
+            off_mm.push_back(1e3 * norm(off.position()));
+            off_deg.push_back(degrees(std::abs(off.heading_rad)));
+            EXPECT_EQ(drive.segments_done(), 0u);
+            EXPECT_LT(off_mm.back(), 0.8) << type.name;
+            EXPECT_LT(off_deg.back(), 0.03) << type.name;
+        }
+        EXPECT_LT(median(off_mm), 0.3) << type.name;
+        std::printf("[ budget   ] %s: fine moves end %.2f mm and %.4f deg off (median)\n",
+                    type.name.c_str(), median(off_mm), median(off_deg));
+    }
+}
+
+TEST(ServoDrive, EndsWhereTheSegmentsEndAsItBelieves) {
+    for (const auto& type : families()) {
+        for (const auto& way : {straight({}, 8), straight({}, 8, kPi), turn({}, 1.2),
+                                arc({}, {0, 12}, 0.7), arc({}, {0, -12}, 0.7, true)}) {
+            ServoDrive drive(type, {}, 3, 1, type.max_load_kg);
+            drive.append(way);
+            drive_to_end(drive);
+            ASSERT_TRUE(drive.idle());
+            EXPECT_EQ(drive.segments_done(), 1u);
+            const Pose2 off = inverse(way.end) * drive.believed_pose();
+            EXPECT_LT(norm(off.position()), 1e-3) << type.name;
+            EXPECT_LT(std::abs(off.heading_rad), 5e-4) << type.name;
+        }
+    }
+}
+
+TEST(ServoDrive, DrivesSidewaysAndDiagonallyWhereTheWheelsAllowIt) {
+    for (const auto& type : {platform(), mecanum()}) {
+        for (const double direction_rad : {kPi / 2, -kPi / 2, kPi / 4, -3 * kPi / 4}) {
+            ServoDrive drive(type, {}, 3);
+            drive.append(straight({}, 6, direction_rad));
+            drive_to_end(drive);
+            ASSERT_FALSE(drive.stop_cause()) << drive.stop_cause()->code;
+            EXPECT_NEAR(drive.believed_pose().x_m, 6 * std::cos(direction_rad), 2e-3);
+            EXPECT_NEAR(drive.believed_pose().y_m, 6 * std::sin(direction_rad), 2e-3);
+        }
+    }
+}
+
+TEST(ServoDrive, SteersStandingBeforeItMovesInANewDirectionAndNotTooFast) {
+    const DriveBudget budget;
+    ServoDrive drive(platform(), {}, 3);
+    drive.append(straight({}, 2, kPi / 2));
+    double before_rad = 0;
+    double steered_s = 0;
+    while (drive.standing() && steered_s < 20) {
+        drive.step(kStep_s);
+        const double angle_rad = drive.wheels()[0].angle_rad;
+        EXPECT_LE(std::abs(angle_rad - before_rad), 1.3 * budget.steering_rate_radps * kStep_s);
+        before_rad = angle_rad;
+        steered_s += kStep_s;
+    }
+    EXPECT_NEAR(steered_s, kPi / 2 / budget.steering_rate_radps, 0.5);
+    EXPECT_LT(norm(drive.true_pose().position()), 2e-3);
+    for (const auto& wheel : drive.wheels()) {
+        EXPECT_NEAR(std::abs(wheel.angle_rad), kPi / 2, radians(1));
+    }
+}
+
+TEST(ServoDrive, ReturnsToItsPathFromAStartBesideIt) {
+    for (const auto& type : families()) {
+        ServoDrive drive(type, {0, 0.04, 0.015}, 3);
+        drive.append(straight({}, 12));
+        drive_to_end(drive);
+        EXPECT_NEAR(drive.believed_pose().y_m, 0, 1e-3) << type.name;
+        EXPECT_NEAR(drive.believed_pose().heading_rad, 0, 1e-3) << type.name;
+    }
+}
+
+TEST(ServoDrive, TheTimeFactorChangesNothingButTheTime) {
+    for (const auto& type : families()) {
+        ServoDrive one(type, {}, 5, 1);
+        ServoDrive ten(type, {}, 5, 10);
+        for (ServoDrive* drive : {&one, &ten}) {
+            drive->append(straight({}, 5));
+            drive->append(turn({5, 0, 0}, 0.4));
+        }
+        double peak = 0;
+        for (int i = 0; i < 2000; ++i) one.step(0.05);
+        for (int i = 0; i < 500; ++i) {
+            ten.step(0.02);
+            peak = std::max(peak, ten.velocity_mps());
+        }
+        EXPECT_TRUE(one.idle() && ten.idle());
+        EXPECT_EQ(one.true_pose(), ten.true_pose());
+        EXPECT_EQ(one.believed_pose(), ten.believed_pose());
+        EXPECT_GT(peak, 2 * type.max_speed_mps);
+    }
+}
+
+TEST(ServoDrive, OtherSeedsAreOtherVehicles) {
+    const auto run = [](std::uint64_t seed) {
+        ServoDrive drive(mecanum(), {}, seed);
+        drive.append(straight({}, 3));
+        drive_to_end(drive);
+        return drive.true_pose();
+    };
+    EXPECT_EQ(run(1), run(1));
+    EXPECT_NE(run(1), run(2));
+}
+
+TEST(ServoDrive, HoldBrakesOnThePathStandsStillAndReleaseGoesOn) {
+    for (const auto& type : families()) {
+        ServoDrive drive(type, {}, 3);
+        drive.append(straight({}, 12));
+        while (drive.velocity_mps() < 0.8 * type.max_speed_mps) drive.step(kStep_s);
+        const double stop_m = drive.believed_pose().x_m + drive.braking_m();
+        drive.hold();
+        for (int i = 0; i < 400; ++i) drive.step(kStep_s);
+        ASSERT_TRUE(drive.standing());
+        EXPECT_FALSE(drive.idle());
+        EXPECT_NEAR(drive.believed_pose().x_m, stop_m, 0.1);
+        const Pose2 here = drive.true_pose();
+        for (int i = 0; i < 100; ++i) drive.step(kStep_s);
+        EXPECT_EQ(drive.true_pose(), here);
+        drive.release();
+        drive_to_end(drive);
+        EXPECT_NEAR(drive.believed_pose().x_m, 12, 1e-3);
+    }
+}
+
+TEST(ServoDrive, PassesCollinearJointsWithoutStopping) {
+    ServoDrive drive(platform(), {}, 3);
+    drive.append(straight({}, 4));
+    drive.append(straight({4, 0, 0}, 4));
+    bool stopped = false;
+    while (!drive.idle()) {
+        drive.step(kStep_s);
+        const double x_m = drive.believed_pose().x_m;
+        stopped |= drive.standing() && x_m > 1 && x_m < 7;
+    }
+    EXPECT_FALSE(stopped);
+    EXPECT_EQ(drive.segments_done(), 2u);
+}
+
+TEST(ServoDrive, AFullLoadOnASlopeIsStillDriven) {
+    for (const auto& type : families()) {
+        ServoDrive drive(type, {}, 3, 1, type.max_load_kg);
+        drive.set_grade({0.01, 0});
+        drive.append(straight({}, 6));
+        drive_to_end(drive);
+        EXPECT_FALSE(drive.stop_cause());
+        EXPECT_NEAR(drive.believed_pose().x_m, 6, 2e-3);
+    }
+}
+
+TEST(ServoDrive, ASlopeAcrossThePathDrawsTheTrueVehicleDownhillUnnoticed) {
+    const DriveBudget budget;
+    for (const auto& type : families()) {
+        ServoDrive level(type, {}, 3);
+        ServoDrive tilted(type, {}, 3);
+        level.set_grade({});
+        tilted.set_grade({0, 0.02});
+        for (ServoDrive* drive : {&level, &tilted}) {
+            drive->append(straight({}, 20));
+            drive_to_end(*drive);
+        }
+        EXPECT_NEAR(tilted.true_pose().y_m - level.true_pose().y_m,
+                    -20 * 0.02 / budget.side_stiffness, 4e-3);
+        EXPECT_NEAR(tilted.believed_pose().y_m, 0, 2e-3);
+    }
+}
+
+TEST(ServoDrive, CostsLittle) {
+    for (const auto& type : families()) {
+        ServoDrive drive(type, {}, 1);
+        drive.append(straight({}, 400));
+        constexpr int kSeconds = 40;
+        const std::clock_t begin = std::clock();
+        for (int i = 0; i < 10 * kSeconds; ++i) drive.step(0.1);
+        const double spent_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+        EXPECT_FALSE(drive.standing());  // it was driving all the time
+        std::printf("[ cost     ] %s: %.0f us a second; 12 vehicles at factor 10: %.1f %%\n",
+                    type.name.c_str(), 1e6 * spent_s / kSeconds, 100 * spent_s / kSeconds * 120);
+    }
+}
+
+}  // namespace
+}  // namespace pulseline::simulation

@@ -1,0 +1,144 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <variant>
+
+#include "core/simulation/servo_drive.hpp"
+#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
+using pulseline::testing::platform;
+using simulation::testing::straight;
+
+constexpr double kStep_s = 0.05;
+
+struct Case {
+    plant::VehicleType type;
+    std::string wheel;
+};
+
+std::vector<Case> cases() {
+    return {{platform(), "front drive"}, {mecanum(), "FL"}, {differential(), "left"}};
+}
+
+/// A vehicle at full speed on a way of 40 m, far from its end.
+ServoDrive driving(const plant::VehicleType& type) {
+    ServoDrive drive(type, {}, 3);
+    drive.append(straight({}, 40));
+    while (drive.velocity_mps() < 0.95 * type.max_speed_mps) drive.step(kStep_s);
+    return drive;
+}
+
+/// Runs on until it stands; where it should have come to rest at the latest comes back.
+double brake(ServoDrive& drive) {
+    const double v = drive.velocity_mps();
+    const double latest_m = drive.true_pose().x_m + v * v / (2 * drive.type().max_accel_mps2) +
+                            v * 0.6;  // noticing takes a moment
+    for (int i = 0; i < 600; ++i) drive.step(kStep_s);
+    return latest_m;
+}
+
+double number(const Reason& reason) { return std::get<double>(reason.params.at(0).value); }
+
+TEST(ServoFaults, ABrokenWheelStopsTheDriveOnItsPathUntilItIsMended) {
+    for (const auto& [type, wheel] : cases()) {
+        ServoDrive drive = driving(type);
+        ASSERT_TRUE(drive.break_wheel(wheel));
+        const double latest_m = brake(drive);
+        ASSERT_TRUE(drive.stop_cause());
+        EXPECT_EQ(drive.stop_cause()->code, "wheel_fault");
+        EXPECT_EQ(std::get<std::string>(drive.stop_cause()->params.at(0).value), wheel);
+        EXPECT_TRUE(drive.standing());
+        EXPECT_LT(drive.true_pose().x_m, latest_m);
+        EXPECT_LT(std::abs(drive.true_pose().y_m), 0.1);
+        const Pose2 here = drive.true_pose();
+        drive.release();
+        drive.acknowledge();
+        for (int i = 0; i < 100; ++i) drive.step(kStep_s);
+        EXPECT_EQ(drive.true_pose(), here);
+        EXPECT_TRUE(drive.stop_cause());
+    }
+}
+
+TEST(ServoFaults, ABrokenSteeringDriveKeepsAStandingVehicleFromMoving) {
+    ServoDrive drive(platform(), {}, 3);
+    ASSERT_TRUE(drive.break_wheel("FL"));
+    drive.append(straight({}, 5));
+    for (int i = 0; i < 100; ++i) drive.step(kStep_s);
+    EXPECT_EQ(drive.stop_cause()->code, "wheel_fault");
+    EXPECT_EQ(drive.true_pose(), Pose2{});
+}
+
+TEST(ServoFaults, ADeadEncoderIsNoticedByWhatDoesNotFollow) {
+    for (const auto& [type, wheel] : cases()) {
+        ServoDrive drive = driving(type);
+        ASSERT_TRUE(drive.kill_encoder(wheel));
+        const double latest_m = brake(drive);
+        ASSERT_TRUE(drive.stop_cause()) << type.name;
+        EXPECT_EQ(drive.stop_cause()->code, "wheel_fault");
+        EXPECT_TRUE(drive.standing());
+        EXPECT_LT(drive.true_pose().x_m, latest_m);
+        EXPECT_LT(std::abs(drive.true_pose().y_m), 0.2);
+    }
+}
+
+TEST(ServoFaults, AWheelThatSlipsStopsTheDriveWithItsShareAndItGoesOnWhenAcknowledged) {
+    for (const auto& [type, wheel] : cases()) {
+        ServoDrive drive = driving(type);
+        ASSERT_TRUE(drive.set_slip(wheel, 0.2));
+        const double latest_m = brake(drive);
+        ASSERT_TRUE(drive.stop_cause()) << type.name;
+        EXPECT_EQ(drive.stop_cause()->code, "slip");
+        EXPECT_GT(number(*drive.stop_cause()), 0.07);
+        EXPECT_LT(number(*drive.stop_cause()), 0.3);
+        EXPECT_TRUE(drive.standing());
+        EXPECT_LT(drive.true_pose().x_m, latest_m);
+
+        drive.set_slip(wheel, 0);
+        drive.set_believed(drive.true_pose());
+        const Pose2 from = drive.true_pose();
+        drive.clear();
+        drive.acknowledge();
+        drive.append(straight(from, 3));
+        for (int i = 0; i < 600; ++i) drive.step(kStep_s);
+        EXPECT_FALSE(drive.stop_cause());
+        EXPECT_LT(distance((from * Pose2{3, 0, 0}).position(), drive.true_pose().position()), 0.01);
+    }
+}
+
+TEST(ServoFaults, ASlightSlipIsNotNoticedButFound) {
+    ServoDrive drive = driving(mecanum());
+    for (const char* wheel : {"FL", "FR", "BL", "BR"}) drive.set_slip(wheel, 0.03);
+    for (int i = 0; i < 1200; ++i) drive.step(kStep_s);
+    EXPECT_FALSE(drive.stop_cause());
+    EXPECT_TRUE(drive.idle());
+    EXPECT_NEAR(drive.believed_pose().x_m, 40, 0.01);
+    EXPECT_LT(drive.true_pose().x_m, 39.1);
+}
+
+TEST(ServoFaults, AVehicleFarFromItsPathDoesNotDrive) {
+    ServoDrive drive(mecanum(), {0, 0.3, 0}, 3);
+    drive.append(straight({}, 5));
+    for (int i = 0; i < 100; ++i) drive.step(kStep_s);
+    ASSERT_TRUE(drive.stop_cause());
+    EXPECT_EQ(drive.stop_cause()->code, "off_path");
+    EXPECT_NEAR(number(*drive.stop_cause()), 0.3, 0.01);
+    EXPECT_TRUE(drive.standing());
+    EXPECT_EQ(drive.true_pose().x_m, 0);
+}
+
+TEST(ServoFaults, OnlyWheelsThatThereAreCanFail) {
+    ServoDrive drive(platform(), {}, 3);
+    EXPECT_FALSE(drive.break_wheel("fifth"));
+    EXPECT_FALSE(drive.set_slip("fifth", 0.2));
+    EXPECT_FALSE(drive.kill_encoder("fifth"));
+    EXPECT_FALSE(drive.kill_encoder("FL"));  // it has no motor that rolls it
+}
+
+}  // namespace
+}  // namespace pulseline::simulation
