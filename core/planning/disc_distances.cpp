@@ -19,8 +19,7 @@ constexpr double kMostCells = 250'000;
 
 }  // namespace
 
-DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Point2 goal,
-                             Point2 start) {
+DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Point2 goal) {
     const geometry::Box box = field.box();
     const double width = box.max.x_m - box.min.x_m;
     const double height = box.max.y_m - box.min.y_m;
@@ -32,14 +31,13 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
     length_m_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                      kInfinite);
     const int goal_cell = cell(goal);
-    const int start_cell = cell(start);
-    if (goal_cell < 0 || start_cell < 0) return;
+    if (goal_cell < 0) return;
     const double diagonal = std::numbers::sqrt2;
     const double room_m = disc_radius_m - cell_m_ * diagonal / 2;
     const auto passable = [&](int index) {
         const Point2 middle =
             origin_ + cell_m_ * Point2{index % width_ + 0.5, index / width_ + 0.5};
-        return field.distance_m(middle) >= room_m || index == goal_cell || index == start_cell;
+        return field.distance_m(middle) >= room_m;
     };
 
     using Entry = std::pair<double, int>;

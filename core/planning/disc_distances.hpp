@@ -11,9 +11,7 @@ namespace pulseline::planning {
 /// some place in the cell is free for the disc).
 class DiscDistances {
 public:
-    /// The cells of `goal` and `start` count as free.
-    DiscDistances(const FloorField& field, double disc_radius_m, geometry::Point2 goal,
-                  geometry::Point2 start);
+    DiscDistances(const FloorField& field, double disc_radius_m, geometry::Point2 goal);
     /// Infinite: no way from there.
     double from(geometry::Point2 at) const;
 

@@ -16,37 +16,51 @@ constexpr double kSpacing_m = 0.1;  // 5 mm off at half a metre
 constexpr double kMostNodes = 4e6;  // a hall of 400 m x 100 m; larger ones get a coarser lattice
 constexpr int kBorder = 2;          // cells of the lattice outside the hall
 
-double to_segment(Point2 p, Point2 a, Point2 b) {
-    const Point2 ab = b - a;
-    const double length2 = dot(ab, ab);
-    const double s = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    const Point2 off = p - (a + s * ab);
-    return std::sqrt(dot(off, off));
-}
-
 double to_box(Point2 p, const Box& box) {
     const double dx = std::max({0.0, box.min.x_m - p.x_m, p.x_m - box.max.x_m});
     const double dy = std::max({0.0, box.min.y_m - p.y_m, p.y_m - box.max.y_m});
     return std::sqrt(dx * dx + dy * dy);
 }
 
-struct RingDistance {
-    double distance_m = 0;
-    bool inside = false;
-};
-
-RingDistance ring_distance(const Polygon& ring, Point2 p) {
-    RingDistance result{std::numeric_limits<double>::infinity(), false};
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        const Point2 a = ring[i];
-        const Point2 b = ring[i + 1 == ring.size() ? 0 : i + 1];
-        result.distance_m = std::min(result.distance_m, to_segment(p, a, b));
-        if ((a.y_m > p.y_m) == (b.y_m > p.y_m)) continue;
-        const double x_m = a.x_m + (p.y_m - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m);
-        if (p.x_m < x_m) result.inside = !result.inside;
+/// Distances to the edges of a simple polygon, edges prepared.
+class Ring {
+public:
+    explicit Ring(const Polygon& ring) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            const Point2 along = ring[(i + 1) % ring.size()] - ring[i];
+            const double length2 = dot(along, along);
+            if (length2 > 0) edges_.push_back({ring[i], along, 1 / length2});
+        }
     }
-    return result;
-}
+
+    struct Distance {
+        double m = 0;
+        bool inside = false;
+    };
+    Distance from(Point2 p) const {
+        double least2 = std::numeric_limits<double>::infinity();
+        bool inside = false;
+        for (const Edge& edge : edges_) {
+            const Point2 off = p - edge.from;
+            const double s = std::clamp(dot(off, edge.along) * edge.per_length2, 0.0, 1.0);
+            const Point2 gap = off - s * edge.along;
+            least2 = std::min(least2, dot(gap, gap));
+            const bool above = off.y_m < 0;
+            if (above == (off.y_m < edge.along.y_m)) continue;
+            // The edge crosses the point's height; on its right when the cross product says so.
+            if ((cross(edge.along, off) > 0) == (edge.along.y_m > 0)) inside = !inside;
+        }
+        return {std::sqrt(least2), inside};
+    }
+
+private:
+    struct Edge {
+        Point2 from;
+        Point2 along;
+        double per_length2;
+    };
+    std::vector<Edge> edges_;
+};
 
 }  // namespace
 
@@ -68,9 +82,10 @@ FloorField::FloorField(const plant::Plant& plant, const plant::Hall& hall, doubl
     far->fill(static_cast<float>(reach_m));
     tiles_.assign(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_), far);
 
+    const Ring walls(hall.outline);
     lower({origin_, node_at(tiles_x_, tiles_y_, 0, 0)}, [&](Point2 p) {
-        const RingDistance walls = ring_distance(hall.outline, p);
-        return walls.inside ? walls.distance_m : 0;
+        const auto distance = walls.from(p);
+        return distance.inside ? distance.m : 0;
     });
     std::vector<Polygon> solid;
     for (const plant::Area& area : plant.areas) {
@@ -137,9 +152,10 @@ void FloorField::lower(const Box& box, const DistanceTo& distance_to) {
 void FloorField::add(const std::vector<Polygon>& outlines) {
     for (const Polygon& outline : outlines) {
         if (outline.empty()) continue;
+        const Ring ring(outline);
         lower(geometry::bounding_box(outline), [&](Point2 p) {
-            const RingDistance ring = ring_distance(outline, p);
-            return ring.inside ? 0 : ring.distance_m;
+            const auto distance = ring.from(p);
+            return distance.inside ? 0 : distance.m;
         });
     }
 }

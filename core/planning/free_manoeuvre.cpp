@@ -4,8 +4,10 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/disc_distances.hpp"
 #include "core/planning/manoeuvre_lattice.hpp"
 #include "core/planning/manoeuvre_sampling.hpp"
 
@@ -17,7 +19,7 @@ using Found = FreeManoeuvre::Found;
 
 // How far the field tells distances beyond the largest clearance: the more, the more of a long way
 // through open floor one test can pass.
-constexpr double kFieldBeyond_m = 2.5;
+constexpr double kFieldBeyond_m = 2.0;
 constexpr double kLeastBeyond_m = 0.5;
 constexpr double kGoodEnough = 1.05;  // times the least cost there can be: no need to look further
 constexpr int kRounds = 200;          // of shortening
@@ -45,6 +47,11 @@ tl::unexpected<Error> blocked(const char* reason, const std::string& where,
                  {"limit_m", by.limit_m}});
 }
 
+FreeFloor::Prepared prepared(Body body, const FloorField& field) {
+    FootprintCheck check(body.pieces, body.clearance_m + ManoeuvreRoom::kMargin_m, field);
+    return {std::move(body), std::move(check)};
+}
+
 bool same(const Pose2& a, const Pose2& b) {
     return geometry::distance(a.position(), b.position()) < kArrives &&
            std::abs(wrap(a.heading_rad - b.heading_rad)) < kArrives;
@@ -53,21 +60,26 @@ bool same(const Pose2& a, const Pose2& b) {
 /// One request on its way through the stages.
 class Planning {
 public:
-    Planning(const FreeManoeuvreRequest& request, const Steering& steering,
-             const ManoeuvreRoom& room)
-        : request_(request), task_{steering, room, request.start, request.goal} {}
+    Planning(const FreeManoeuvreRequest& request, const Steering& steering, ManoeuvreRoom& room)
+        : request_(request), room_(room), task_{steering, room, request.start, request.goal} {}
 
     Result<FreeManoeuvre> run() {
         const long limit = static_cast<long>(request_.time_limit_s * kTestsPerSecond);
         direct();
         if (best_m_ <= kGoodEnough * least_m_) return answer();
-        const LatticeAnswer lattice = lattice_search(task_, limit / 2);
-        if (lattice.cut_off && best_.empty()) return none(true);
-        consider(lattice.moves, Found::kByLattice);
-        for (std::uint64_t k = 0; best_.empty() && task_.room.work() < limit; ++k) {
+        room_.map_standing();
+        const DiscDistances left(room_.field(), room_.inner_radius_m(), request_.goal.position());
+        if (best_.empty() && !std::isfinite(left.from(request_.start.position()))) {
+            return none(true);
+        }
+        for (const int fineness : {1, 2}) {
+            consider(lattice_search(task_, left, fineness, limit / 3), Found::kByLattice);
+            if (!best_.empty()) break;
+        }
+        for (std::uint64_t k = 0; best_.empty() && room_.work() < limit; ++k) {
             const auto planner =
                 k % 2 == 0 ? SamplingPlanner::kRrtConnect : SamplingPlanner::kBiEst;
-            const long share = std::min(limit / 4, limit - task_.room.work());
+            const long share = std::min(limit / 4, limit - room_.work());
             consider(sampling_search(task_, planner, request_.seed + k, share), Found::kBySampling);
         }
         return best_.empty() ? none(false) : answer();
@@ -79,7 +91,7 @@ private:
         task_.steering.ways(request_.start, request_.goal, ways);
         least_m_ = ways.front().cost_m;
         for (const Way& way : ways) {
-            if (!task_.room.is_free(request_.start, way)) continue;
+            if (!room_.is_free(request_.start, way)) continue;
             const Moves moves(way.moves.begin(), way.moves.begin() + way.count);
             consider(moves, Found::kDirectly);
             if (!best_.empty()) return;
@@ -110,14 +122,14 @@ private:
         for (const Move& move : moves) at = moved(at, move);
         if (!same(at, request_.goal)) return {};
         auto segments = segments_of(request_.start, moves, request_.goal);
-        if (task_.room.conflict_along(segments)) return {};
+        if (room_.conflict_along(segments)) return {};
         return segments;
     }
 
     FreeManoeuvre answer() {
         kinematics::set_durations(*request_.type, best_);
         return {kinematics::summed(plant::MotionMode::kFree, std::move(best_)), found_,
-                task_.room.work()};
+                room_.work()};
     }
 
     Result<FreeManoeuvre> none(bool enclosed) const {
@@ -131,6 +143,7 @@ private:
     }
 
     const FreeManoeuvreRequest& request_;
+    ManoeuvreRoom& room_;
     ManoeuvreTask task_;
     std::vector<kinematics::Segment> best_;
     double best_m_ = std::numeric_limits<double>::infinity();
@@ -141,7 +154,14 @@ private:
 }  // namespace
 
 FreeFloor::FreeFloor(const plant::Plant& plant, const plant::Hall& of)
-    : hall(of.id), obstacles(plant, of), field(plant, of, reach_of(plant)) {}
+    : hall(of.id), obstacles(plant, of), field(plant, of, reach_of(plant)) {
+    for (const plant::VehicleType& type : plant.vehicle_types) {
+        for (const bool loaded : {false, true}) {
+            if (loaded && type.load_footprint.empty()) continue;
+            bodies.push_back(prepared(body_of(type, loaded), field));
+        }
+    }
+}
 
 Result<FreeManoeuvre> plan_free_manoeuvre(const FreeFloor& floor,
                                           const FreeManoeuvreRequest& request) {
@@ -158,14 +178,19 @@ Result<FreeManoeuvre> plan_free_manoeuvre(const FreeFloor& floor,
                     "type in the plant, or lower its clearance.",
                     {}, {{"clearance_m", type.clearance_m}, {"limit_m", most_m}});
     }
-    const ManoeuvreRoom room({floor.obstacles, floor.field},
-                             plant::outline_with_load(type, request.loaded), type.clearance_m,
-                             request.standing, request.start, request.goal);
+    // A type that is not the plant's, such as one that a vehicle's own factsheet states, is
+    // prepared for this request alone.
+    std::optional<FreeFloor::Prepared> fresh;
+    const Body body = body_of(type, request.loaded);
+    const auto known = std::find_if(floor.bodies.begin(), floor.bodies.end(),
+                                    [&](const auto& other) { return other.body == body; });
+    if (known == floor.bodies.end()) fresh = prepared(body, floor.field);
+    const FreeFloor::Prepared& own = fresh ? *fresh : *known;
+    ManoeuvreRoom room({floor.obstacles, floor.field, own.body, own.check}, request.standing,
+                       request.start, request.goal);
     if (const auto by = room.conflict_at(request.start)) {
         return blocked("start_blocked",
-                       "where it is now. Move it away by hand, or what stands "
-                       "there.",
-                       *by);
+                       "where it is now. Move it away by hand, or what stands there.", *by);
     }
     if (const auto by = room.conflict_at(request.goal)) {
         return blocked("goal_blocked", "at the goal. Move that away or choose another station.",

@@ -5,21 +5,28 @@
 
 #include "core/base/result.hpp"
 #include "core/kinematics/motion.hpp"
-#include "core/planning/floor_field.hpp"
+#include "core/planning/footprint_check.hpp"
 #include "core/planning/leg_planner.hpp"
 #include "core/planning/obstacles.hpp"
+#include "core/planning/roadmap_index.hpp"
 
 /// Free manoeuvres (motion mode `free`): from pose to pose where no single motion primitive fits.
 namespace pulseline::planning {
 
 /// What free manoeuvres need to know of a hall. Built once per hall: some 20 ms and 3 MB for
-/// 120 m x 60 m, so best when the first manoeuvre there is asked for.
+/// 120 m x 60 m, and half a millisecond for each vehicle type, so best when the first manoeuvre
+/// there is asked for.
 /// Thread safety: any number of threads may plan on the same one.
 struct FreeFloor {
     FreeFloor(const plant::Plant& plant, const plant::Hall& hall);
     plant::HallId hall;
     Obstacles obstacles;
     FloorField field;
+    struct Prepared {
+        Body body;
+        FootprintCheck check;
+    };
+    std::vector<Prepared> bodies;  // of the plant's types, with and without load
 };
 
 struct FreeManoeuvreRequest {

@@ -6,8 +6,6 @@
 #include <queue>
 #include <unordered_map>
 
-#include "core/planning/disc_distances.hpp"
-
 namespace pulseline::planning {
 namespace {
 
@@ -29,7 +27,7 @@ struct Node {
     double done_m = 0;
 };
 
-std::vector<Move> steps_of(const Steering& steering, double step_m) {
+std::vector<Move> steps_of(const Steering& steering, double step_m, double turn_rad) {
     std::vector<Move> steps;
     for (const double way : {1.0, -1.0}) {
         for (const double length : {step_m, 3 * step_m}) steps.push_back({.amount = way * length});
@@ -39,7 +37,7 @@ std::vector<Move> steps_of(const Steering& steering, double step_m) {
                              .curvature = side / steering.radius_m()});
         }
         if (steering.turns_on_the_spot()) {
-            steps.push_back({.kind = Kind::kRotate, .amount = way * kTurnStep_rad});
+            steps.push_back({.kind = Kind::kRotate, .amount = way * turn_rad});
         }
         if (steering.any_direction()) {
             for (const double length : {step_m, 3 * step_m}) {
@@ -52,11 +50,12 @@ std::vector<Move> steps_of(const Steering& steering, double step_m) {
 
 class Lattice {
 public:
-    Lattice(const ManoeuvreTask& task, const DiscDistances& left)
+    Lattice(const ManoeuvreTask& task, const DiscDistances& left, int fineness)
         : task_(task),
           left_(left),
-          step_m_(std::max(kTurnStep_rad * task.steering.radius_m(), kLeastStep_m)),
-          steps_(steps_of(task.steering, step_m_)) {}
+          headings_(kHeadings * fineness),
+          step_m_(std::max(kTurnStep_rad * task.steering.radius_m(), kLeastStep_m) / fineness),
+          steps_(steps_of(task.steering, step_m_, kTurnStep_rad / fineness)) {}
 
     Moves search(long work_limit) {
         const long first_work = task_.room.work();
@@ -130,7 +129,8 @@ private:
             return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(v)) + (1 << 20));
         };
         const double share = (pose.heading_rad + kPi) / (2 * kPi);
-        const auto heading = static_cast<std::uint64_t>(share * kHeadings + 0.5) % kHeadings;
+        const auto heading = static_cast<std::uint64_t>(share * headings_ + 0.5) %
+                             static_cast<std::uint64_t>(headings_);
         return (slot(2 * pose.x_m / step_m_) << 32) ^ (slot(2 * pose.y_m / step_m_) << 8) ^ heading;
     }
 
@@ -147,6 +147,7 @@ private:
 
     const ManoeuvreTask& task_;
     const DiscDistances& left_;
+    int headings_;
     double step_m_;
     std::vector<Move> steps_;
     std::vector<Node> nodes_;
@@ -157,14 +158,9 @@ private:
 
 }  // namespace
 
-LatticeAnswer lattice_search(const ManoeuvreTask& task, long work_limit) {
-    const DiscDistances left(task.room.field(), task.room.inner_radius_m(), task.goal.position(),
-                             task.start.position());
-    LatticeAnswer answer;
-    answer.at_least_m = left.from(task.start.position());
-    answer.cut_off = !std::isfinite(answer.at_least_m);
-    if (!answer.cut_off) answer.moves = Lattice(task, left).search(work_limit);
-    return answer;
+Moves lattice_search(const ManoeuvreTask& task, const DiscDistances& left, int fineness,
+                     long work_limit) {
+    return Lattice(task, left, fineness).search(work_limit);
 }
 
 }  // namespace pulseline::planning

@@ -6,6 +6,7 @@
 #include "core/planning/footprint_check.hpp"
 #include "core/planning/leg_planner.hpp"
 #include "core/planning/obstacles.hpp"
+#include "core/planning/roadmap_index.hpp"
 #include "core/planning/steering.hpp"
 
 namespace pulseline::planning {
@@ -14,14 +15,22 @@ namespace pulseline::planning {
 /// ends and for what is found. Counts its work, which bounds every search the same on any machine.
 class ManoeuvreRoom {
 public:
-    struct Floor {  // of the hall, built once
+    /// Of the hall and the vehicle type, built once. All of it outlives the room.
+    struct Floor {
         const Obstacles& obstacles;
         const FloorField& field;
+        const Body& body;
+        const FootprintCheck& check;  // of the body, with at least kMargin_m over its clearance
     };
-    /// `body`: convex pieces, body frame.
-    ManoeuvreRoom(const Floor& floor, std::vector<geometry::Polygon> body, double clearance_m,
-                  const std::vector<StandingBody>& standing, const geometry::Pose2& start,
-                  const geometry::Pose2& goal);
+    /// What a found way is checked with stands out by up to 8 mm (conflict_along), and
+    /// between two tested places a body may come nearer by (step / 2)^2 / (2 clearance).
+    static constexpr double kMargin_m = 0.012;
+
+    ManoeuvreRoom(const Floor& floor, const std::vector<StandingBody>& standing,
+                  const geometry::Pose2& start, const geometry::Pose2& goal);
+    /// Makes the standing bodies part of the field: worth its 0.1 ms for each body before thousands
+    /// of tests.
+    void map_standing();
 
     /// >= 0: free, and so is every place to which no point of the body moves farther than that.
     double slack_m(const geometry::Pose2& pose) const;
@@ -39,24 +48,31 @@ public:
     std::optional<Conflict> conflict_at(const geometry::Pose2& pose) const;
     std::optional<Conflict> conflict_along(const std::vector<kinematics::Segment>& segments) const;
 
+    /// With the standing bodies once they are mapped.
     const FloorField& field() const { return field_; }
     /// Greatest disc about the body's origin that lies in the body, with the clearance.
     double inner_radius_m() const { return inner_radius_m_; }
-    double reach_m() const { return check_.reach_m(); }
+    double reach_m() const { return floor_.check.reach_m(); }
     long work() const { return work_; }
 
 private:
     bool near_an_end(const geometry::Pose2& pose) const;
     std::vector<geometry::Polygon> placed(const geometry::Pose2& pose) const;
 
-    const Obstacles& obstacles_;
+    std::optional<Conflict> conflict_on(const kinematics::Segment& segment) const;
+    double standing_slack_m(const geometry::Pose2& pose, double enough_m) const;
+
+    struct Circle {
+        geometry::Point2 centre;
+        double radius_m = 0;
+    };
+    Floor floor_;
     const std::vector<StandingBody>& standing_;
-    std::vector<geometry::Polygon> body_;
-    double clearance_m_;
     geometry::Pose2 start_;
     geometry::Pose2 goal_;
     FloorField field_;
-    FootprintCheck check_;
+    bool standing_in_field_ = false;
+    std::vector<Circle> around_;  // one per standing body
     double inner_radius_m_ = 0;
     Obstacles::Limits limits_;
     std::vector<double> standing_limits_;  // one per body
