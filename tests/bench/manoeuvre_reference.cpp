@@ -1,0 +1,138 @@
+#include "tests/bench/manoeuvre_reference.hpp"
+
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
+#include <ompl/base/spaces/ReedsSheppStateSpace.h>
+#include <ompl/geometric/SimpleSetup.h>
+#include <ompl/geometric/planners/rrt/RRTConnect.h>
+#include <ompl/geometric/planners/rrt/RRTstar.h>
+#include <ompl/util/Console.h>
+#include <ompl/util/RandomNumbers.h>
+
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "core/planning/footprint_check.hpp"
+
+namespace pulseline::bench {
+namespace {
+
+namespace ob = ompl::base;
+namespace og = ompl::geometric;
+using geometry::Pose2;
+using nlohmann::json;
+
+constexpr double kRadius_m = 5;
+constexpr double kCheckEvery_m = 0.25;
+constexpr double kFirst_s = 3;  // for RRTConnect to show that there is a way at all
+
+class Reference {
+public:
+    explicit Reference(const ManoeuvreScene& scene)
+        : field_(scene.plant, scene.hall(), 3.0),
+          check_({scene.platform().footprint}, scene.platform().clearance_m, field_) {
+        for (const auto& other : scene.parked) field_.add(other.outline);
+    }
+
+    /// Length of the path found; 0: none.
+    double solve(const ManoeuvreQuery& query, bool optimal, double seconds) const {
+        auto space = std::make_shared<ob::ReedsSheppStateSpace>(kRadius_m);
+        ob::RealVectorBounds bounds(2);
+        bounds.setLow(0);
+        bounds.setHigh(0, 120);
+        bounds.setHigh(1, 60);
+        space->setBounds(bounds);
+        og::SimpleSetup setup(space);
+        const auto& information = setup.getSpaceInformation();
+        setup.setStateValidityChecker([this](const ob::State* state) {
+            const auto* at = state->as<ob::SE2StateSpace::StateType>();
+            return check_.is_free(field_, {at->getX(), at->getY(), at->getYaw()});
+        });
+        information->setMotionValidator(
+            std::make_shared<ob::ReedsSheppMotionValidator>(information));
+        setup.setStartAndGoalStates(state_of(space, query.start), state_of(space, query.goal));
+        setup.setOptimizationObjective(
+            std::make_shared<ob::PathLengthOptimizationObjective>(information));
+        space->setup();
+        space->setLongestValidSegmentFraction(kCheckEvery_m / space->getMaximumExtent());
+        if (optimal) {
+            setup.setPlanner(std::make_shared<og::RRTstar>(information));
+        } else {
+            setup.setPlanner(std::make_shared<og::RRTConnect>(information));
+        }
+        setup.solve(seconds);
+        return setup.haveExactSolutionPath() ? setup.getSolutionPath().length() : 0;
+    }
+
+private:
+    static ob::ScopedState<ob::SE2StateSpace> state_of(const ob::StateSpacePtr& space,
+                                                       const Pose2& pose) {
+        ob::ScopedState<ob::SE2StateSpace> state(space);
+        state->setXY(pose.x_m, pose.y_m);
+        state->setYaw(pose.heading_rad);
+        return state;
+    }
+
+    planning::FloorField field_;
+    planning::FootprintCheck check_;
+};
+
+json pose_json(const Pose2& pose) { return {pose.x_m, pose.y_m, pose.heading_rad}; }
+Pose2 pose_of(const json& from) { return {from.at(0), from.at(1), from.at(2)}; }
+
+json read(const std::string& path) {
+    std::ifstream in(path);
+    return in ? json::parse(in) : json::object();
+}
+
+}  // namespace
+
+void make_reference(const std::string& path, int count, double seconds, std::uint64_t seed,
+                    const std::string& date) {
+    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+    ompl::RNG::setSeed(static_cast<std::uint_fast32_t>(seed));
+    const ManoeuvreScene scene;
+    const Reference reference(scene);
+    json file = read(path);
+    if (file.empty()) {
+        file = {{"planner", "OMPL 1.5.2 RRTstar"},
+                {"seconds_per_query", seconds},
+                {"seed", seed},
+                {"date", date},
+                {"queries", json::array()}};
+    }
+    std::uint64_t draw = seed + (file["queries"].empty() ? 0 : 1'000'000 * file["queries"].size());
+    while (file["queries"].size() < static_cast<std::size_t>(count)) {
+        const bool near = file["queries"].size() % 4 == 3;
+        ManoeuvreQuery query = draw_query(scene, near, ++draw);
+        const double first_m = reference.solve(query, false, kFirst_s);
+        if (first_m <= 0) continue;
+        query.best_m = reference.solve(query, true, seconds);
+        file["queries"].push_back({{"start", pose_json(query.start)},
+                                   {"goal", pose_json(query.goal)},
+                                   {"near", near},
+                                   {"rrt_star_m", query.best_m},
+                                   {"rrt_connect_m", first_m}});
+        std::ofstream(path) << file.dump(1) << '\n';
+        std::printf("%zu of %d: RRT* %.1f m, RRTConnect %.1f m\n", file["queries"].size(), count,
+                    query.best_m, first_m);
+        std::fflush(stdout);
+    }
+}
+
+std::vector<ManoeuvreQuery> read_reference(const std::string& path) {
+    std::vector<ManoeuvreQuery> queries;
+    const json file = read(path);
+    if (file.empty()) return queries;
+    for (const json& query : file.at("queries")) {
+        // What one of them did not find in time the other one may have found.
+        double best_m = query.at("rrt_star_m");
+        const double first_m = query.at("rrt_connect_m");
+        if (best_m <= 0 || first_m < best_m) best_m = first_m;
+        queries.push_back(
+            {pose_of(query.at("start")), pose_of(query.at("goal")), best_m, query.at("near")});
+    }
+    return queries;
+}
+
+}  // namespace pulseline::bench
