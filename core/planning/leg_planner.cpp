@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/free_leg.hpp"
 #include "core/planning/road_leg.hpp"
 #include "core/planning/roadmap_index.hpp"
 
@@ -138,6 +139,13 @@ void describe(const Body& body, const Obstacles& obstacles,
     for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
 }
 
+Result<LegPlan> assess_free(const LegTask& task, FreeLegs& free,
+                            const std::vector<StandingBody>& standing) {
+    return free.draft(task, standing).and_then([&](LegDraft draft) {
+        return finish(task, MotionMode::kFree, std::move(draft));
+    });
+}
+
 Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
     const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
                                                       task.station.pose, mode);
@@ -266,14 +274,15 @@ struct LegPlanner::Tables {
     };
 
     explicit Tables(const plant::Plant& p)
-        : plant(p), shared(std::make_shared<const RoadmapIndex>(p)), roads(*shared) {
+        : plant(p), shared(std::make_shared<const RoadmapIndex>(p)), roads(*shared), free(p) {
         for (const plant::VehicleType& type : plant.vehicle_types) {
             prepare(type, false);
             if (!type.load_footprint.empty()) prepare(type, true);
         }
     }
 
-    Tables(const Tables& other) : plant(other.plant), shared(other.shared), roads(*shared) {
+    Tables(const Tables& other)
+        : plant(other.plant), shared(other.shared), roads(*shared), free(other.plant) {
         for (const auto& [key, known] : other.prepared) {
             prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared));
         }
@@ -319,9 +328,13 @@ struct LegPlanner::Tables {
             closures, *obstacles, obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
 
-    /// Options of the given modes, without what only people want to know.
+    /// Options of the given modes, without what only people want to know. A free manoeuvre is
+    /// suggested only where nothing else is feasible, and planned only then unless it is `wanted`
+    /// anyway: it takes milliseconds.
     std::vector<ModeOption> assess(const LegRequest& request, Prepared& by,
-                                   const std::vector<MotionMode>& modes) const {
+                                   std::vector<MotionMode> modes, bool wants_free,
+                                   const std::vector<StandingBody>& standing) {
+        const bool may_be_free = std::erase(modes, MotionMode::kFree) > 0;
         std::vector<ModeOption> options;
         const auto task = task_of(request, by);
         for (const MotionMode mode : modes) {
@@ -330,6 +343,13 @@ struct LegPlanner::Tables {
                  false});
         }
         if (task) suggest(*task, options);
+        const bool none = std::ranges::none_of(options, &ModeOption::suggested);
+        if (may_be_free && (wants_free || none)) {
+            auto plan =
+                task.and_then([&](const LegTask& t) { return assess_free(t, free, standing); });
+            const bool suggested = none && plan;
+            options.push_back({MotionMode::kFree, std::move(plan), suggested});
+        }
         return options;
     }
 
@@ -338,6 +358,7 @@ struct LegPlanner::Tables {
     const RoadmapIndex& roads;
     std::vector<ClosedFloor> closures;
     std::map<Key, std::unique_ptr<Prepared>> prepared;
+    FreeLegs free;
 };
 
 LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
@@ -352,7 +373,7 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
     assert(request.type);
     std::unique_ptr<Tables::Prepared> fresh;
     Tables::Prepared& by = tables_->of(*request.type, request.loaded, fresh);
-    auto options = tables_->assess(request, by, modes_of(*request.type));
+    auto options = tables_->assess(request, by, modes_of(*request.type), true, standing);
     for (ModeOption& option : options) {
         if (option.plan) {
             describe(by.passage.body, *tables_->roads.obstacles(request.hall), standing,
@@ -376,8 +397,8 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
                      {"vehicle_type", request.type->id.str()}});
     }
     std::unique_ptr<Tables::Prepared> fresh;
-    auto options =
-        tables_->assess(request, tables_->of(*request.type, request.loaded, fresh), modes);
+    auto options = tables_->assess(request, tables_->of(*request.type, request.loaded, fresh),
+                                   modes, request.mode == MotionMode::kFree, {});
     for (ModeOption& option : options) {
         if (option.suggested) return std::move(option.plan);
     }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/plant/plant_file.hpp"
+#include "server/agent/hand_held_link.hpp"
 #include "server/agent/link_client.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/truth_log.hpp"
@@ -123,6 +124,18 @@ Result<int> run(const Options& options) {
         units.push_back({std::move(*vehicle), std::move(link)});
     }
 
+    std::unique_ptr<HandHeldLink> hand_held;
+    if (!options.hand_held.empty()) {
+        std::vector<Vehicle*> vehicles;
+        for (const auto& unit : units) vehicles.push_back(unit.vehicle.get());
+        auto opened = HandHeldLink::open(io, options.hand_held, std::move(vehicles));
+        if (!opened) return fail(opened.error());
+        hand_held = std::move(*opened);
+        net::co_spawn(io, hand_held->run(), [](const std::exception_ptr& error) {
+            if (error) std::rethrow_exception(error);
+        });
+    }
+
     bool running = true;
     std::size_t alive = units.size();
     net::signal_set signals(io, SIGINT, SIGTERM);
@@ -136,6 +149,7 @@ Result<int> run(const Options& options) {
             if (--alive > 0) return;
             running = false;
             signals.cancel();
+            if (hand_held) hand_held->stop();
         });
     }
     net::co_spawn(io, step_all(units, running), [](const std::exception_ptr& error) {

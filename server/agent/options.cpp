@@ -200,6 +200,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::IsMember({"rendered", "analytic"}));
     app.add_option("--battery", options.battery_percent, "charge of every vehicle at start")
         ->check(CLI::Range(0.0, 100.0));
+    app.add_option("--hand-held", options.hand_held,
+                   "socket for a hand-held control beside the vehicle (Unix, JSON lines)");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
     app.add_option("--fault", raw.faults, "for tests: wheel=NAME@SECONDS, marker-lost@SECONDS");

@@ -33,6 +33,7 @@ struct Options {
     std::vector<Identity> vehicles;
     std::string world_file;
     std::string truth_log;  // empty: none
+    std::string hand_held;  // socket of a hand-held control; empty: none
     std::uint64_t seed = 1;
     double time_factor = 1;
     bool rendered = true;

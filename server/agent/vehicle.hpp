@@ -47,6 +47,16 @@ public:
     /// The message that says goodbye on a clean exit.
     std::string offline_frame();
 
+    // From a hand-held control beside it; as VehicleExecutor says.
+    void take_by_hand() { executor_.take_by_hand(); }
+    Status drive_by_hand(const kinematics::Twist& wanted) {
+        return executor_.drive_by_hand(wanted);
+    }
+    Status give_back() { return executor_.give_back(); }
+    bool in_hand() const { return executor_.in_hand(); }
+    bool standing() const { return motion_.standing(); }
+    const geometry::Pose2& believed_pose() const { return motion_.believed_pose(); }
+
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
 private:

@@ -388,5 +388,43 @@ TEST_F(VehicleExecutorTest, UnknownInstantActionsFailAndFactsheetIsAsked) {
     EXPECT_FALSE(executor.take_factsheet_request());
 }
 
+TEST_F(VehicleExecutorTest, TakenByHandItBrakesGivesUpItsOrderAndTakesNone) {
+    executor.handle(order("leg", 9, 9));
+    run(4);
+    executor.take_by_hand();
+    EXPECT_EQ(state().operating_mode, "MANUAL");
+    run(10);
+    EXPECT_TRUE(motion.idle());
+    EXPECT_TRUE(state().node_states.empty());
+    const double stood_at = motion.true_pose().x_m;
+    executor.handle(order("next", 3, 3, stood_at));
+    EXPECT_EQ(last_error(), "orderError");
+    run(5);
+    EXPECT_EQ(motion.true_pose().x_m, stood_at) << "nobody asks it to move";
+}
+
+TEST_F(VehicleExecutorTest, DrivenByHandAndGivenBackItWaitsForAnOrder) {
+    ASSERT_FALSE(executor.drive_by_hand({0.2, 0, 0})) << "not taken yet";
+    ASSERT_FALSE(executor.give_back());
+    executor.take_by_hand();
+    for (int i = 0; i < 100; ++i) {
+        ASSERT_TRUE(executor.drive_by_hand({0.2, 0, 0}));
+        run(kStep_s);
+    }
+    EXPECT_GT(motion.true_pose().x_m, 0.3);
+    EXPECT_EQ(executor.give_back().error().reason.code, "still_moving");
+    run(3);
+    ASSERT_TRUE(executor.give_back());
+    EXPECT_EQ(state().operating_mode, "AUTOMATIC");
+    const double stood_at = motion.true_pose().x_m;
+    run(5);
+    EXPECT_EQ(motion.true_pose().x_m, stood_at);
+
+    executor.handle(order("leg", 2, 2, motion.believed_pose().x_m));
+    run(20);
+    EXPECT_NEAR(motion.believed_pose().x_m, stood_at + 2, 0.01);
+    EXPECT_TRUE(state().node_states.empty());
+}
+
 }  // namespace
 }  // namespace pulseline::simulation
