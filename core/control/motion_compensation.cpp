@@ -16,7 +16,7 @@ constexpr int kIterations = 12;
 // A new vehicle before anything is known of it, one sigma.
 constexpr double kPriorGain = 0.05;
 constexpr double kPriorOffset_m = 1e-3;
-constexpr double kPriorOffset_rad = radians(0.2);
+constexpr double kPriorOffset_rad = radians(0.05);
 // Weight of a pass falls to a half where its error is three times the usual one.
 constexpr double kDoubtful = 9;
 constexpr double kMedianOfChi2 = 2.366;  // three degrees of freedom

@@ -11,10 +11,14 @@ int main(int argc, char** argv) {
     std::string name = "all";
     Options options;
     options.folder = PULSELINE_EXPERIMENTS;
-    app.add_option("NAME", name)->check(CLI::IsMember({"all", "landmark-accuracy"}));
+    app.add_option("NAME", name)
+        ->check(CLI::IsMember({"all", "landmark-accuracy", "stop-adjustment"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     CLI11_PARSE(app, argc, argv);
     cv::setNumThreads(1);
-    return landmark_accuracy(options) ? 0 : 1;
+    bool good = true;
+    if (name == "all" || name == "landmark-accuracy") good &= landmark_accuracy(options);
+    if (name == "all" || name == "stop-adjustment") good &= stop_adjustment(options);
+    return good ? 0 : 1;
 }

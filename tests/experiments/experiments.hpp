@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 /// The papers' experiments in simulation, each printed beside the paper's own table.
@@ -8,12 +9,16 @@ namespace pulseline::experiments {
 
 struct Options {
     std::uint64_t seed = 1;
-    int runs = 50;
-    std::string folder;  // of the experiments' own files
+    std::optional<int> runs;  // absent: the experiment's own number
+    std::string folder;       // of the experiments' own files
 };
 
 /// Li 2020, section 4.2, Tables 1 and 2: distance and angle between two landmarks. False when a row
 /// is not as much better than the paper's as is claimed.
 bool landmark_accuracy(const Options& options);
+
+/// Li 2020, section 4.3, Fig. 12: the end of the adjustment to a landmark. False when an image is
+/// not read or the compensated loop is not ten times better than the paper's.
+bool stop_adjustment(const Options& options);
 
 }  // namespace pulseline::experiments

@@ -22,6 +22,7 @@ using geometry::Point2;
 using geometry::Pose2;
 using plant::MarkerKind;
 
+constexpr int kRuns = 50;
 constexpr double kTiltCalibration_rad = radians(0.01);  // one sigma, per axis
 constexpr double kMargin_m = 0.003;                     // of white sheet that stays in view
 
@@ -164,8 +165,9 @@ bool table(const char* title, const char* unit, const std::vector<Row>& rows, in
 bool landmark_accuracy(const Options& options) {
     Rig rig(options);
     const Point2 room = rig.room();
+    const int runs = options.runs.value_or(kRuns);
     const bool distances = table(
-        "Li 2020 Table 1: distance of two landmarks", "mm", kDistances, options.runs,
+        "Li 2020 Table 1: distance of two landmarks", "mm", kDistances, runs,
         [&](double actual_mm, Tally& own, Tally& paper) {
             const double actual_m = actual_mm / 1e3;
             // Both in view, as far apart as that: nearly along the image's rows.
@@ -187,7 +189,7 @@ bool landmark_accuracy(const Options& options) {
             compare(first.paper, second.paper, paper);
         });
     const bool angles = table(
-        "Li 2020 Table 2: angle between two landmarks", "deg", kAngles, options.runs,
+        "Li 2020 Table 2: angle between two landmarks", "deg", kAngles, runs,
         [&](double actual_deg, Tally& own, Tally& paper) {
             const auto place = [&](double turn) {
                 return Pose2{rig.uniform(-room.x_m, room.x_m), rig.uniform(-room.y_m, room.y_m),

@@ -1,0 +1,117 @@
+#include "core/simulation/vehicle_stop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+using control::testing::differential_vehicle;
+using control::testing::mecanum_vehicle;
+
+constexpr double kStep_s = 0.05;
+
+class TruePose : public StopSensing {
+public:
+    explicit TruePose(const VehicleMotion& motion) : motion_(motion) {}
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
+        return fleet::StopMeasurement{motion_.true_pose(), 5e-5, 5e-5, "test", {"ST01-F"}};
+    }
+
+private:
+    const VehicleMotion& motion_;
+};
+
+fleet::StopTarget target_at(const Pose2& pose) {
+    return {"st01", 1, pose, 0.025, 0.025, radians(0.2), {}};
+}
+
+/// `look` sees the true pose after each step.
+template <class Look>
+StopProcedure::Outcome adjusted(StopProcedure& procedure, VehicleMotion& motion,
+                                const fleet::StopTarget& target, Look look) {
+    procedure.start(target, true);
+    for (int i = 0; i < 20'000; ++i) {
+        motion.step(kStep_s);
+        look(motion.true_pose());
+        if (auto outcome = procedure.step(kStep_s)) return *outcome;
+    }
+    ADD_FAILURE() << "the procedure does not end";
+    return {};
+}
+
+TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
+    const auto type = differential_vehicle();
+    VehicleMotion motion(type, {}, 1, 1, testing::exact());
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    Pose2 before = motion.true_pose();
+    const auto outcome =
+        adjusted(procedure, motion, target_at({0.004, 0.006, 0}), [&](const Pose2& now) {
+            const Pose2 step = inverse(before) * now;
+            ASSERT_LE(std::abs(step.y_m), 1e-6 + std::abs(step.x_m * step.heading_rad));
+            ASSERT_LE(std::abs(now.heading_rad), radians(1.001));
+            before = now;
+        });
+    EXPECT_TRUE(outcome.succeeded) << outcome.why_not;
+    EXPECT_LE(distance(motion.true_pose().position(), {0.004, 0.006}), 0.002);
+}
+
+TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
+    for (const auto& type : {differential_vehicle(), mecanum_vehicle()}) {
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            VehicleMotion motion(type, {}, seed);
+            TruePose sensing(motion);
+            StopProcedure procedure(motion, sensing);
+            const fleet::StopTarget target = target_at({0.003, -0.006, radians(0.08)});
+            const auto outcome = adjusted(procedure, motion, target, [](const Pose2&) {});
+            EXPECT_TRUE(outcome.succeeded) << outcome.why_not;
+            const Pose2 off = inverse(motion.true_pose()) * target.target;
+            EXPECT_LE(norm(off.position()), 0.0045);
+        }
+    }
+}
+
+TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
+    MotionErrors errors = testing::exact();
+    errors.fine_scale = 0.05;
+    VehicleMotion motion(mecanum_vehicle(), {}, 3, 1, errors);
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    for (int i = 0; i < 12; ++i) {
+        const Pose2 target = motion.true_pose() * Pose2{i % 2 == 0 ? 0.05 : -0.04, 0.03, 0.01};
+        EXPECT_TRUE(adjusted(procedure, motion, target_at(target), [](const Pose2&) {}).succeeded);
+    }
+    const Pose2 before = motion.true_pose();
+    const double wanted_m = 0.06;
+    const double command_m =
+        procedure.compensation().commanded(control::MoveKind::kAdvance, wanted_m);
+    EXPECT_GT(std::abs(command_m - wanted_m), 1e-4);  // this seed's vehicle is not exact
+    motion.correct(
+        control::placed(motion.believed_pose(), control::segments_of(std::vector<control::Move>{
+                                                    {control::MoveKind::kAdvance, command_m}})));
+    while (!motion.idle()) motion.step(kStep_s);
+    EXPECT_NEAR(distance(motion.true_pose().position(), before.position()), wanted_m, 2e-4);
+
+    const StopProcedure restarted(motion, sensing, {}, procedure.compensation());
+    EXPECT_EQ(restarted.compensation().passes(), procedure.compensation().passes());
+}
+
+TEST(StopProcedure, SaysWhatWasReachedWhenTheTargetIsTooFar) {
+    VehicleMotion motion(mecanum_vehicle(), {}, 1);
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    const auto outcome = adjusted(procedure, motion, target_at({0.15, 0, 0}), [](const Pose2&) {});
+    EXPECT_FALSE(outcome.succeeded);
+    EXPECT_EQ(outcome.why_not.rfind("too_far_from_target: 150.0 mm and 0.000 deg left", 0), 0u)
+        << outcome.why_not;
+    EXPECT_TRUE(outcome.measurement);
+}
+
+}  // namespace
+}  // namespace pulseline::simulation
