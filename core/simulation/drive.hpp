@@ -30,6 +30,8 @@ public:
     /// Brakes and stays; release() drives on.
     virtual void hold() = 0;
     virtual void release() = 0;
+    /// From now on at this share of every speed, from 0, which brakes and waits, to 1.
+    virtual void slow_to(double share) = 0;
     /// Drops the queue. REQUIRES: standing().
     virtual void clear() = 0;
     virtual void step(double dt_s) = 0;

@@ -38,7 +38,6 @@ struct DriveBudget {
     double fine_rad = radians(0.003);
 
     // Steering.
-    double steering_rate_radps = 0.6;   // 35 deg/s, usual for steered drives
     double aligned_rad = radians(0.2);  // wheels closer to their direction may roll
     // Supervision.
     double slip_limit =

@@ -78,15 +78,19 @@ void HandDrive::step(double dt_s) {
     driven_ = wanted_;
     if (still(driven_)) return;
     const double speed_mps = std::hypot(driven_.vx_mps, driven_.vy_mps);
-    for (const Segment& segment : way_of(drive_.believed_pose(), driven_)) {
+    const auto way = way_of(drive_.believed_pose(), driven_);
+    for (const Segment& segment : way) {
         drive_.append(segment, speed_mps * drive_.time_factor());
     }
+    const double turn_radps = std::min(std::abs(driven_.turn_radps), kFastest_radps);
+    drive_.slow_to(speed_mps > 0 ? 1 : turn_radps / kinematics::max_rate(drive_.type(), way[0], 0));
     drive_.release();
 }
 
 void HandDrive::give_back() {
     assert(standing());
     drive_.clear();
+    drive_.slow_to(1);
     drive_.release();
 }
 

@@ -66,14 +66,13 @@ kinematics::Twist derivative(const Segment& segment, double s) {
 PathReference::PathReference(plant::VehicleType type, double time_factor)
     : type_(std::move(type)), time_factor_(time_factor) {}
 
-PathReference::Move PathReference::make_move(const Segment& segment, double max_speed_mps,
-                                             double rate_share) const {
+PathReference::Move PathReference::make_move(const Segment& segment, double max_speed_mps) const {
     Move move;
     move.segment = segment;
     move.size = size_of(segment);
     Segment shape = segment;
     if (turns_on_the_spot(segment)) shape.kind = Kind::kRotate;
-    move.max_rate = kinematics::max_rate(type_, shape, 0) * time_factor_ * rate_share;
+    move.max_rate = kinematics::max_rate(type_, shape, 0) * time_factor_;
     if (max_speed_mps > 0 && shape.kind != Kind::kRotate) {
         move.max_rate = std::min(move.max_rate, max_speed_mps);
     }
@@ -81,12 +80,12 @@ PathReference::Move PathReference::make_move(const Segment& segment, double max_
     return move;
 }
 
-void PathReference::append(const Segment& segment, double max_speed_mps, double rate_share) {
-    queue_.push_back(make_move(segment, max_speed_mps, rate_share));
+void PathReference::append(const Segment& segment, double max_speed_mps) {
+    queue_.push_back(make_move(segment, max_speed_mps));
 }
 
-void PathReference::append_fine(const Segment& segment, double rate_share) {
-    Move move = make_move(segment, kCreeping_mps * time_factor_, rate_share);
+void PathReference::append_fine(const Segment& segment) {
+    Move move = make_move(segment, kCreeping_mps * time_factor_);
     move.fine = true;
     queue_.push_back(std::move(move));
 }
@@ -179,7 +178,9 @@ std::span<const PathReference::Passed> PathReference::step(double h_s) {
 /// Highest rate that still obeys every limit ahead: the end of the run (rate 0) and slower moves.
 double PathReference::allowed_rate(double h_s) const {
     const double accel = queue_.front().max_accel;
-    double allowed = queue_.front().max_rate;
+    // Told to go slower it brakes no harder than ever.
+    double allowed =
+        std::max(rate_share_ * queue_.front().max_rate, std::max(0.0, rate_ - accel * h_s));
     double ahead = queue_.front().size - queue_.front().done;
     for (std::size_t i = 1; i < queue_.size(); ++i) {
         const Move& next = queue_[i];
@@ -219,7 +220,6 @@ void PathReference::finish_front(Passed passed) {
     passed.on_the_spot = turns_on_the_spot(done.segment);
     passed.fine = done.fine;
     passed.finished = true;
-    passed.fine_over = done.fine && (queue_.empty() || !queue_.front().fine);
     if (!done.fine) ++segments_done_;
     if (passed.way == 0) passed.from = passed.to = done.segment.end;
     if (queue_.empty() || !continues(done.segment, queue_.front().segment)) {

@@ -24,25 +24,24 @@ public:
         Pose2 to;
         double way = 0;  // metres; radians of a turn on the spot
         bool on_the_spot = false;
-        bool fine = false;       // of append_fine()
-        bool finished = false;   // its end is reached
-        bool fine_over = false;  // and it was the last of the fine ones
-        bool rests = false;      // the profile comes to rest here
-        double peak_rate = 0;    // of way per second, the highest since it last rested
+        bool fine = false;      // of append_fine()
+        bool finished = false;  // its end is reached
+        bool rests = false;     // the profile comes to rest here
+        double peak_rate = 0;   // of way per second, the highest since it last rested
     };
 
     /// Speeds of `type` are multiplied by `time_factor`, accelerations by its square.
     PathReference(plant::VehicleType type, double time_factor);
 
     /// Adds a segment at the end of the queue. max_speed_mps 0: the vehicle's own limit.
-    /// `rate_share` slows it further, turns on the spot too.
-    void append(const kinematics::Segment& segment, double max_speed_mps = 0,
-                double rate_share = 1);
+    void append(const kinematics::Segment& segment, double max_speed_mps = 0);
     /// The same at creeping speed; it does not count among the segments done.
-    void append_fine(const kinematics::Segment& segment, double rate_share = 1);
+    void append_fine(const kinematics::Segment& segment);
     void hold() { held_ = true; }
     void release() { held_ = false; }
     bool held() const { return held_; }
+    /// From now on at this share of every rate, 0 to 1; slowing down takes its time.
+    void slow_to(double share) { rate_share_ = share; }
     /// Drops the queue. REQUIRES: standing().
     void clear();
     /// The pieces covered, in their order; valid until the next call.
@@ -75,8 +74,7 @@ private:
         bool fine = false;
     };
 
-    Move make_move(const kinematics::Segment& segment, double max_speed_mps,
-                   double rate_share) const;
+    Move make_move(const kinematics::Segment& segment, double max_speed_mps) const;
     kinematics::Twist twist_at(double rate) const;
     double allowed_rate(double h_s) const;
     void advance(double way);
@@ -88,6 +86,7 @@ private:
     std::vector<Passed> passed_;
     double rate_ = 0;  // of the front move's size
     double peak_rate_ = 0;
+    double rate_share_ = 1;
     bool held_ = false;
     std::size_t segments_done_ = 0;
 };

@@ -16,9 +16,7 @@ using kinematics::WheelMotion;
 
 constexpr double kCycle_s = ServoAxis::kCycle_s;
 constexpr double kRounding_s = 1e-9;
-constexpr int kSamples = 8;  // of a segment, where its wheels are looked at
 constexpr double kNoWay = 1e-9;
-constexpr double kAnyRate = 1e9;
 constexpr double kStartShare = 0.05;     // of the speed for which the standing wheels are steered
 constexpr double kFlip_rad = 0.35;       // steering does not follow such a change while driving
 constexpr double kFlipSpeed_mps = 0.01;  // slower wheels may point anywhere
@@ -48,33 +46,18 @@ ServoDrive::ServoDrive(plant::VehicleType type, const Pose2& true_pose, std::uin
       accel_mps2_(type_.wheels.size()),
       grade_n_(type_.wheels.size()) {}
 
-/// What the wheels allow of the body's limits on this segment.
-double ServoDrive::rate_share(const Segment& segment) const {
-    double share = 1;
-    for (int i = 0; i < kSamples; ++i) {
-        const Twist way = derivative(segment, (i + 0.5) / kSamples);
-        const double length = std::hypot(way.vx_mps, way.vy_mps);
-        const double turn = std::abs(way.turn_radps);
-        if (length + turn < kNoWay) continue;
-        const double per_s = std::min(length > kNoWay ? type_.max_speed_mps / length : kAnyRate,
-                                      turn > kNoWay ? type_.max_turn_rate_radps / turn : kAnyRate);
-        const Twist fastest{way.vx_mps * per_s, way.vy_mps * per_s, way.turn_radps * per_s};
-        const Twist limited = kinematics::within_limits(type_, fastest);
-        const auto size = [](const Twist& t) {
-            return std::hypot(t.vx_mps, t.vy_mps) + std::abs(t.turn_radps);
-        };
-        share = std::min(share, size(limited) / size(fastest));
-    }
-    return share;
-}
-
 void ServoDrive::append(const Segment& segment, double max_speed_mps) {
-    reference_.append(segment, max_speed_mps / time_factor_, rate_share(segment));
+    reference_.append(segment, max_speed_mps / time_factor_);
 }
 
 void ServoDrive::correct(std::span<const Segment> moves) {
     assert(idle());
-    for (const Segment& move : moves) reference_.append_fine(move, rate_share(move));
+    for (const Segment& move : moves) reference_.append_fine(move);
+}
+
+void ServoDrive::slow_to(double share) {
+    speed_share_ = share;
+    reference_.slow_to(share);
 }
 
 void ServoDrive::clear() {
@@ -116,7 +99,7 @@ void ServoDrive::cycle() {
     if (!cause_) {
         if (auto wheel = wheels_.fault()) stop_for({"wheel_fault", {{"wheel", *wheel}}});
     }
-    const bool stays = held_ || cause_;
+    const bool stays = held_ || cause_ || speed_share_ == 0;
     switch (phase_) {
         case Phase::kBraked:
             if (!reference_.empty() && !stays) begin();

@@ -35,6 +35,7 @@ public:
     void correct(std::span<const kinematics::Segment> moves) override;
     void hold() override { held_ = true; }
     void release() override { held_ = false; }
+    void slow_to(double share) override;
     void clear() override;
     void step(double dt_s) override;
 
@@ -74,7 +75,6 @@ private:
     /// The first two stand.
     enum class Phase { kBraked, kSteering, kDriving, kSettling };
 
-    double rate_share(const kinematics::Segment& segment) const;
     void cycle();
     void begin();
     void steer_standing();
@@ -111,6 +111,7 @@ private:
 
     Phase phase_ = Phase::kBraked;
     bool held_ = false;
+    double speed_share_ = 1;
     bool must_steer_ = false;  // a wheel must be turned further than it can while driving
     double pending_s_ = 0;     // own time not yet made into cycles
     double in_phase_s_ = 0;

@@ -18,7 +18,7 @@ struct OrderContext {
     bool idle = true;        // nothing left to drive or to do
     bool cancelled = false;  // that order was cancelled, or is being cancelled
     bool cancelling = false;
-    bool in_hand = false;  // somebody drives it with a hand-held control
+    bool in_hand = false;        // somebody drives it with a hand-held control
     std::string stitch_node_id;  // last node of the base
     std::int64_t stitch_sequence_id = 0;
     std::optional<Pose2> pose;  // believed; nullopt while it is not initialised

@@ -32,7 +32,8 @@ public:
     void step(double dt_s);
 
     /// Somebody drives the vehicle with a hand-held control from now on: it brakes, gives up its
-    /// order and takes none (operatingMode MANUAL). Where it stands it still tells, and may be told.
+    /// order and takes none (operatingMode MANUAL). Where it stands it still tells, and may be
+    /// told.
     void take_by_hand();
     /// Fails with conflict not_in_hand {}, or cannot_move_so as HandDrive says.
     Status drive_by_hand(const kinematics::Twist& wanted);

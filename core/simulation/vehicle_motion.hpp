@@ -48,6 +48,7 @@ public:
     void correct(std::span<const kinematics::Segment> moves) override;
     void hold() override { reference_.hold(); }
     void release() override { reference_.release(); }
+    void slow_to(double share) override { reference_.slow_to(share); }
     void clear() override { reference_.clear(); }
     void step(double dt_s) override;
 

@@ -44,7 +44,7 @@ ServoParameters rolling(const plant::VehicleType& type, const plant::Wheel& whee
     return p;
 }
 
-ServoParameters steering(const plant::VehicleType& type, double load_kg, double rate_radps) {
+ServoParameters steering(const plant::VehicleType& type, double load_kg) {
     const double weight_n = kGravity_mps2 * (std::max(kLightest_kg, type.mass_kg) + load_kg) /
                             static_cast<double>(type.wheels.size());
     ServoParameters p;
@@ -55,7 +55,7 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg, double 
     p.viscous_friction = 20;
     p.tuned_inertia = kSteeringInertia;
     p.position_gain_per_s = kSteeringGain_per_s;
-    p.speed_limit = 1.5 * rate_radps;
+    p.speed_limit = 1.5 * type.max_steering_rate_radps;
     p.dead_cycles = WheelSet::kDeadCycles;
     p.increment = kSteeringCount_rad;
     return p;
@@ -65,7 +65,9 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg, double 
 
 WheelSet::WheelSet(const plant::VehicleType& type, double load_kg, const DriveBudget& budget,
                    std::mt19937_64& random)
-    : budget_(budget), max_accel_mps2_(type.max_accel_mps2) {
+    : budget_(budget),
+      max_accel_mps2_(type.max_accel_mps2),
+      steering_rate_radps_(type.max_steering_rate_radps) {
     const auto driven = static_cast<double>(std::count_if(
         type.wheels.begin(), type.wheels.end(), [](const auto& wheel) { return wheel.driven; }));
     assert(driven > 0);
@@ -83,7 +85,7 @@ WheelSet::WheelSet(const plant::VehicleType& type, double load_kg, const DriveBu
             wheel.roll->set_load((std::max(kLightest_kg, type.mass_kg) + load_kg) / driven);
         }
         if (plan.steered) {
-            wheel.steer.emplace(steering(type, load_kg, budget.steering_rate_radps), random());
+            wheel.steer.emplace(steering(type, load_kg), random());
         }
         wheels_.push_back(std::move(wheel));
     }
@@ -117,7 +119,7 @@ void WheelSet::cycle(std::span<const WheelMotion> wanted, bool standing,
 void WheelSet::steer(Wheel& wheel, double wanted_rad) {
     if (!wheel.steer) return;
     if (wheel.broken) return;  // its motor is off, the gear blocks itself
-    const double most = budget_.steering_rate_radps * ServoAxis::kCycle_s;
+    const double most = steering_rate_radps_ * ServoAxis::kCycle_s;
     const double step = std::clamp(wanted_rad - wheel.steer_rad, -most, most);
     wheel.steer_rad += step;
     wheel.steer->cycle(wheel.steer_rad, step / ServoAxis::kCycle_s);

@@ -79,6 +79,7 @@ private:
     std::vector<kinematics::WheelMotion> measured_;
     std::vector<kinematics::WheelMotion> rolled_;
     double max_accel_mps2_;
+    double steering_rate_radps_;
 };
 
 }  // namespace pulseline::simulation

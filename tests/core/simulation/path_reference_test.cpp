@@ -60,19 +60,44 @@ TEST(PathReference, TellsWhatItPassedAndWhereItRested) {
     reference.append_fine(turn({0.5, 0, 0}, 0.01));
     double way = 0;
     int rests = 0;
-    int fine_over = 0;
+    int fine_ends = 0;
     while (!reference.empty()) {
         for (const auto& passed : reference.step(kStep_s)) {
             if (!passed.fine) way += passed.way;
             rests += passed.rests;
-            fine_over += passed.fine_over;
+            fine_ends += passed.fine && passed.finished;
         }
     }
 
     EXPECT_NEAR(way, 0.5, 1e-5);
     EXPECT_EQ(rests, 2);
-    EXPECT_EQ(fine_over, 1);
+    EXPECT_EQ(fine_ends, 1);
     EXPECT_EQ(reference.segments_done(), 2u);
+}
+
+TEST(PathReference, SlowsDownNoHarderThanItBrakesAndWaitsAtNothing) {
+    PathReference reference(platform_type(), 1);
+    const double accel = platform_type().max_accel_mps2;
+    reference.append(straight({}, 40));
+    const auto drive = [&](double time_s) {
+        for (double t = 0; t < time_s; t += kStep_s) {
+            const double before = reference.velocity_mps();
+            reference.step(kStep_s);
+            EXPECT_GE(reference.velocity_mps(), before - accel * kStep_s - 1e-9);
+        }
+    };
+    drive(10);
+    const double full = reference.velocity_mps();
+    reference.slow_to(0.4);
+    drive(10);
+    EXPECT_NEAR(reference.velocity_mps(), 0.4 * full, 1e-9);
+    reference.slow_to(0);
+    drive(10);
+    EXPECT_TRUE(reference.standing());
+    EXPECT_FALSE(reference.empty());
+    reference.slow_to(1);
+    drive(10);
+    EXPECT_NEAR(reference.velocity_mps(), full, 1e-9);
 }
 
 TEST(PathReference, CreepsOverFineMoves) {

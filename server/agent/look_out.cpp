@@ -1,0 +1,120 @@
+#include "server/agent/look_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "core/kinematics/primitives.hpp"
+
+namespace pulseline::agent {
+namespace {
+
+using geometry::Polygon;
+using geometry::Pose2;
+using kinematics::Twist;
+
+// In the vehicle's own time; a scanner of the class turns 40 times a second.
+constexpr double kEvery_s = 0.1;
+// A real machine cannot look more often than this, however fast its time runs.
+constexpr double kEveryReal_s = 0.04;
+constexpr double kFreeFor_s = 1.0;  // what has left may come back
+constexpr double kStart_mps = 0.2;  // of a standing vehicle that wants to go
+constexpr double kStart_radps = 0.05;
+
+std::vector<Polygon> standing_things(const simulation::World& world, const plant::HallId& id) {
+    std::vector<Polygon> things;
+    if (const auto* hall = plant::find_hall(world.plant, id)) things.push_back(hall->outline);
+    for (const auto& area : world.plant.areas) {
+        if (area.hall == id && area.kind == plant::AreaKind::kObstacle) {
+            things.push_back(area.outline);
+        }
+    }
+    return things;
+}
+
+/// Front left and back right, each looking away from the body.
+std::vector<Pose2> corners(const Polygon& footprint) {
+    const auto box = geometry::bounding_box(footprint);
+    return {{box.max.x_m, box.max.y_m, kPi / 4}, {box.min.x_m, box.min.y_m, -3 * kPi / 4}};
+}
+
+Twist times(double k, const Twist& twist) {
+    return {k * twist.vx_mps, k * twist.vy_mps, k * twist.turn_radps};
+}
+
+bool still(const Twist& twist) {
+    return twist.vx_mps == 0 && twist.vy_mps == 0 && twist.turn_radps == 0;
+}
+
+}  // namespace
+
+LookOut::LookOut(const simulation::World& world, const plant::Vehicle& vehicle,
+                 const plant::HallId& hall, simulation::Drive& drive, std::uint64_t seed)
+    : drive_(drive), random_(seed) {
+    const auto things = standing_things(world, hall);
+    for (const Pose2& corner : corners(drive.type().footprint))
+        scanners_.emplace_back(corner, things);
+    scans_.resize(scanners_.size());
+    for (const Polygon& piece : plant::outline_with_load(drive.type(), plant::is_loaded(vehicle))) {
+        fields_.emplace_back(drive.type(), piece);
+    }
+}
+
+/// What the vehicle does, or would begin to do, in its own time.
+Twist LookOut::intended() const {
+    const auto* segment = drive_.current();
+    if (segment == nullptr) return {};
+    if (!drive_.standing()) return times(1 / drive_.time_factor(), drive_.twist());
+    const bool on_the_spot = segment->kind == kinematics::Segment::Kind::kRotate;
+    const double way_m = std::abs(segment->length_m);
+    const double share = on_the_spot || way_m == 0 ? 0 : drive_.distance_on_segment_m() / way_m;
+    return times(on_the_spot ? kStart_radps : kStart_mps, kinematics::twist_along(*segment, share));
+}
+
+control::FieldAnswer LookOut::look() {
+    control::FieldAnswer worst;
+    const Twist twist = intended();
+    if (still(twist)) return worst;
+    for (std::size_t i = 0; i < scanners_.size(); ++i) {
+        scanners_[i].scan(drive_.true_pose(), others_, random_, scans_[i]);
+        for (auto& field : fields_) {
+            const auto answer = field.check(scans_[i], twist);
+            if (answer.speed_share < worst.speed_share) worst = answer;
+        }
+    }
+    return worst;
+}
+
+void LookOut::step(double dt_s) {
+    free_for_s_ += dt_s * drive_.time_factor();
+    until_scan_s_ -= dt_s;
+    if (until_scan_s_ > 0) return;
+    until_scan_s_ = std::max(kEvery_s / drive_.time_factor(), kEveryReal_s);
+    last_ = look();
+    const bool stop = last_.verdict == control::FieldAnswer::Verdict::kStop;
+    if (stop) free_for_s_ = 0;
+    const bool barred = stop || (barred_ && free_for_s_ < kFreeFor_s);
+    changed_ |= barred != barred_;
+    barred_ = barred;
+    drive_.slow_to(barred ? 0 : last_.speed_share);
+}
+
+bool LookOut::take_changed() { return std::exchange(changed_, false); }
+
+void LookOut::write_state(fleet::StateMessage& state) const {
+    if (!barred_) return;
+    state.field_violation = true;
+    char where[64] = "";
+    if (last_.nearest) {
+        std::snprintf(where, sizeof where, " %.2f m ahead and %.2f m to the left of its centre",
+                      last_.nearest->x_m, last_.nearest->y_m);
+    }
+    state.errors.push_back(
+        {"obstacle",
+         false,
+         std::string("something stands in the way") + where + "; it goes on when the way is free",
+         {}});
+}
+
+}  // namespace pulseline::agent
