@@ -203,6 +203,7 @@ void VehicleExecutor::finish_stop(const StopProcedure::Outcome& outcome) {
 void VehicleExecutor::finish_cancel() {
     if (cancel_id_.empty() || !motion_.standing() || procedure_.running()) return;
     motion_.release();
+    motion_.acknowledge();
     drop_order();
     set_action(cancel_id_, ActionStatus::kFinished);
     cancel_id_.clear();
@@ -228,8 +229,10 @@ void VehicleExecutor::note_motion() {
     const double ask_m = motion_.braking_m() + std::abs(motion_.velocity_mps()) * kAskForBase_s;
     const bool base_queued = queued_edges_ == edges_.size() || !edges_[queued_edges_].released;
     const bool ask = horizon && base_queued && motion_.remaining_m() <= ask_m;
-    changed_ |= driving != driving_ || ask != new_base_request_;
+    const bool stopped = motion_.stop_cause().has_value();
+    changed_ |= driving != driving_ || ask != new_base_request_ || stopped != stopped_;
     driving_ = driving;
+    stopped_ = stopped;
     new_base_request_ = ask;
 }
 

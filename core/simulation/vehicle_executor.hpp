@@ -15,8 +15,10 @@
 namespace pulseline::simulation {
 
 /// Obeys orders and instant actions as VDA 5050 2.1 asks: takes or rejects them, drives the base
-/// and never past it, reports nodes, runs actions. Its state lives in memory only: a restarted
-/// vehicle knows no order and no pose. Thread safety: none. No clock: time passes by step().
+/// and never past it, reports nodes, runs actions. A drive that has stopped of itself is let go on
+/// by what a person sends: stopPause, initPosition, or the end of a cancelOrder. Its state lives in
+/// memory only: a restarted vehicle knows no order and no pose. Thread safety: none. No clock: time
+/// passes by step().
 class VehicleExecutor {
 public:
     /// `equipment` may be null: it measures and drives only.
@@ -120,6 +122,7 @@ private:
     std::vector<fleet::VehicleError> errors_;
     bool position_initialized_ = false;
     bool driving_ = false;
+    bool stopped_ = false;  // by the drive itself
     bool new_base_request_ = false;
     bool changed_ = true;
     bool factsheet_requested_ = false;

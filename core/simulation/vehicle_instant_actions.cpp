@@ -79,6 +79,7 @@ void VehicleExecutor::handle_instant(const Action& action) {
     }
     if (action.type == "stopPause") {
         paused_ = false;
+        motion_.acknowledge();
         if (!pause_id_.empty()) {
             set_action(std::exchange(pause_id_, {}), ActionStatus::kFailed,
                        "overtaken by stopPause");
@@ -143,6 +144,7 @@ void VehicleExecutor::init_position(const Action& action) {
             "map " + action.init_position->map_id + " is not on this vehicle; it has " + map_id_);
     }
     motion_.set_believed(action.init_position->pose);
+    motion_.acknowledge();
     position_initialized_ = true;
     add_action(action, ActionStatus::kFinished);
 }

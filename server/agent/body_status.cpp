@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace pulseline::agent {
 namespace {
@@ -12,6 +13,29 @@ constexpr double kForceNoise = 0.002;
 constexpr double kAmbient_c = 22;
 constexpr double kHeat_c = 18;  // above ambient at full speed for long
 constexpr double kHeatTime_s = 600;
+
+std::string text_of(const Param& param) {
+    if (const auto* text = std::get_if<std::string>(&param.value)) return *text;
+    const auto* number = std::get_if<double>(&param.value);
+    return number == nullptr ? "" : std::to_string(*number);
+}
+
+/// A drive that has stopped of itself, as an error: it needs a person.
+fleet::VehicleError stopped_error(const Reason& cause) {
+    fleet::VehicleError error;
+    error.fatal = true;
+    if (cause.code == "slip") {
+        error.type = "wheelSlip";
+        error.description =
+            "wheels and floor differ by the share " + text_of(cause.params.at(0)) + " of the speed";
+    } else {
+        error.type = "offPath";
+        error.description = "the vehicle is " + text_of(cause.params.at(0)) + " m off its path";
+    }
+    for (const Param& param : cause.params)
+        error.references.emplace_back(param.name, text_of(param));
+    return error;
+}
 
 }  // namespace
 
@@ -38,6 +62,12 @@ std::vector<kinematics::WheelMotion> BodyStatus::wheel_motions() const {
     return wheels ? *wheels : std::vector<kinematics::WheelMotion>(wheels_.size());
 }
 
+/// The wheel that the drive itself has found at fault; empty: none.
+std::string BodyStatus::faulty_wheel() const {
+    const auto cause = motion_.stop_cause();
+    return cause && cause->code == "wheel_fault" ? text_of(cause->params.at(0)) : "";
+}
+
 void BodyStatus::step(double dt_s) {
     const double full_mps = motion_.type().max_speed_mps * motion_.time_factor();
     rolling_ = wheel_motions();
@@ -48,7 +78,9 @@ void BodyStatus::step(double dt_s) {
         const double target_c = kAmbient_c + kHeat_c * std::min(1.0, speed / full_mps);
         const double share = std::min(1.0, dt_s * motion_.time_factor() / kHeatTime_s);
         wheels_[i].temperature_c += share * (target_c - wheels_[i].temperature_c);
-        wheels_[i].fault = wheels_[i].name == broken_wheel_ ? "steering_drive_fault" : "";
+        wheels_[i].fault = "";
+        if (wheels_[i].name == faulty_wheel()) wheels_[i].fault = "drive_fault";
+        if (wheels_[i].name == broken_wheel_) wheels_[i].fault = "steering_drive_fault";
     }
 }
 
@@ -64,12 +96,15 @@ void BodyStatus::write_state(fleet::StateMessage& state) {
     }
     state.wheels = wheels_;
     state.load_kg = load_kg_;
-    if (!broken_wheel_.empty()) {
+    const std::string at_fault = broken_wheel_.empty() ? faulty_wheel() : broken_wheel_;
+    if (!at_fault.empty()) {
         state.errors.push_back({"wheelFault",
                                 false,
-                                "the steering drive of wheel " + broken_wheel_ + " has a fault",
-                                {{"wheel", broken_wheel_}}});
+                                "the drive of wheel " + at_fault + " has a fault",
+                                {{"wheel", at_fault}}});
     }
+    const auto cause = motion_.stop_cause();
+    if (cause && cause->code != "wheel_fault") state.errors.push_back(stopped_error(*cause));
 }
 
 }  // namespace pulseline::agent

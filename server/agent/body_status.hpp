@@ -21,6 +21,7 @@ public:
 
 private:
     std::vector<kinematics::WheelMotion> wheel_motions() const;
+    std::string faulty_wheel() const;
 
     const simulation::Drive& motion_;
     double load_kg_;

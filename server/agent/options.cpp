@@ -40,6 +40,7 @@ struct Raw {
     std::string token;
     std::string token_file;
     std::string sensing = "rendered";
+    std::string drive;  // empty: as fits the sensing
     int count = 0;
     std::vector<std::string> faults;
 };
@@ -87,9 +88,16 @@ Status complete(const Raw& raw, Options& options) {
     if (!vehicles) return fail(vehicles.error());
     options.vehicles = std::move(*vehicles);
     options.rendered = raw.sensing == "rendered";
+    options.servo_drive = raw.drive.empty() ? options.rendered : raw.drive == "servo";
     for (const auto& text : raw.faults) {
         auto fault = parse_fault(text);
         if (!fault) return fail(fault.error());
+        const bool needs_wheels =
+            fault->kind == Fault::Kind::kSlip || fault->kind == Fault::Kind::kEncoder;
+        if (needs_wheels && !options.servo_drive) {
+            return fail(Errc::kInvalid, "no_wheels",
+                        "--fault " + text + " needs the wheels of --drive servo");
+        }
         options.faults.push_back(std::move(*fault));
     }
     return {};
@@ -143,8 +151,27 @@ Result<Fault> parse_fault(const std::string& text) {
     }
     if (what == "marker-lost") {
         fault.kind = Fault::Kind::kMarkerLost;
-    } else if (what.rfind("wheel=", 0) == 0 && what.size() > 6) {
-        fault.wheel = what.substr(6);
+        return fault;
+    }
+    const auto equals = what.find('=');
+    if (equals == std::string::npos || equals + 1 == what.size()) return bad();
+    const std::string kind = what.substr(0, equals);
+    fault.wheel = what.substr(equals + 1);
+    if (kind == "wheel") {
+        fault.kind = Fault::Kind::kWheel;
+    } else if (kind == "encoder") {
+        fault.kind = Fault::Kind::kEncoder;
+    } else if (kind == "slip") {
+        fault.kind = Fault::Kind::kSlip;
+        const auto colon = fault.wheel.rfind(':');
+        if (colon == std::string::npos || colon == 0) return bad();
+        const char* end = fault.wheel.data() + fault.wheel.size();
+        const auto [rest, error] =
+            std::from_chars(fault.wheel.data() + colon + 1, end, fault.share);
+        if (error != std::errc{} || rest != end || !(fault.share > 0 && fault.share <= 1)) {
+            return bad();
+        }
+        fault.wheel.resize(colon);
     } else {
         return bad();
     }
@@ -198,13 +225,19 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(1.0, 20.0));
     app.add_option("--sensing", raw.sensing, "rendered: real images; analytic: their error model")
         ->check(CLI::IsMember({"rendered", "analytic"}));
+    app.add_option("--drive", raw.drive,
+                   "servo: wheel by wheel (default with rendered sensing); statistical: a pose "
+                   "with seeded errors, for many vehicles (default with analytic sensing)")
+        ->check(CLI::IsMember({"servo", "statistical"}));
     app.add_option("--battery", options.battery_percent, "charge of every vehicle at start")
         ->check(CLI::Range(0.0, 100.0));
     app.add_option("--hand-held", options.hand_held,
                    "socket for a hand-held control beside the vehicle (Unix, JSON lines)");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
-    app.add_option("--fault", raw.faults, "for tests: wheel=NAME@SECONDS, marker-lost@SECONDS");
+    app.add_option("--fault", raw.faults,
+                   "for tests: wheel=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
+                   "encoder=NAME@SECONDS, marker-lost@SECONDS");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

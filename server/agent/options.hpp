@@ -22,9 +22,10 @@ struct ServerAddress {
 };
 
 struct Fault {
-    enum class Kind { kWheel, kMarkerLost };
+    enum class Kind { kWheel, kMarkerLost, kSlip, kEncoder };
     Kind kind = Kind::kWheel;
     std::string wheel;
+    double share = 0;  // of the rim's speed that slips
     double after_s = 0;
 };
 
@@ -37,6 +38,7 @@ struct Options {
     std::uint64_t seed = 1;
     double time_factor = 1;
     bool rendered = true;
+    bool servo_drive = true;
     std::optional<double> battery_percent;  // of every vehicle at start; absent: by the seed
     bool insecure = false;
     std::string ca_file;
@@ -48,7 +50,7 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code);
 
 /// "ws://host:port" or "wss://host:port"; a port is optional.
 [[nodiscard]] Result<ServerAddress> parse_server(const std::string& url);
-/// "wheel=FL@20" or "marker-lost@5"; "@SECONDS" is optional.
+/// "wheel=FL@20", "slip=FL:0.2@20", "encoder=FL@20" or "marker-lost@5"; "@SECONDS" is optional.
 [[nodiscard]] Result<Fault> parse_fault(const std::string& text);
 /// Lines "MAKER/SERIAL TOKEN"; empty ones and # comments are skipped.
 [[nodiscard]] Result<std::vector<Identity>> parse_vehicle_list(const std::string& text);

@@ -14,6 +14,7 @@
 #include "api/vehicle/order.hpp"
 #include "api/vehicle/state.hpp"
 #include "api/vehicle/visualization.hpp"
+#include "core/simulation/vehicle_motion.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -58,6 +59,20 @@ plant::VehicleType as_loaded(plant::VehicleType type, const plant::Vehicle& vehi
     return type;
 }
 
+std::unique_ptr<simulation::Drive> make_drive(const plant::VehicleType& type,
+                                              const plant::Vehicle& vehicle,
+                                              const geometry::Pose2& true_pose,
+                                              const VehicleSettings& settings) {
+    const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
+    const bool driven = std::any_of(type.wheels.begin(), type.wheels.end(),
+                                    [](const plant::Wheel& wheel) { return wheel.driven; });
+    if (settings.servo_drive && driven) {
+        return std::make_unique<simulation::ServoDrive>(type, true_pose, seed, settings.time_factor,
+                                                        vehicle.load_kg);
+    }
+    return std::make_unique<simulation::VehicleMotion>(type, true_pose, seed, settings.time_factor);
+}
+
 }  // namespace
 
 Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
@@ -65,15 +80,14 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
     : vehicle_(vehicle),
       type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
       settings_(settings),
-      motion_(type_, true_pose, simulation::seed_for(settings.seed, "motion " + vehicle.id.str()),
-              settings.time_factor),
-      sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, motion_,
+      drive_(make_drive(type_, vehicle, true_pose, settings)),
+      sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, *drive_,
                settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
       equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor),
-      executor_(motion_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
+      executor_(*drive_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
                 &equipment_),
-      body_(vehicle, motion_, simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
+      body_(vehicle, *drive_, simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       estimate_(true_pose),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
@@ -83,13 +97,13 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
     executor_.step(dt_s);
     body_.step(dt_s);
-    equipment_.step(dt_s, std::abs(motion_.velocity_mps()) * dt_s);
+    equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
     if (const auto fix = sensing_.take_fix()) {
         estimate_.take(*fix);
     } else {
-        estimate_.drive_to(motion_.believed_pose());
+        estimate_.drive_to(drive_->believed_pose());
     }
-    if (!motion_.standing()) stood_since_ = now;
+    if (!drive_->standing()) stood_since_ = now;
     write_truth(now);
     if (sensing_.take_fresh()) {
         pictures_due_ = true;
@@ -113,19 +127,35 @@ void Vehicle::apply_faults(double dt_s) {
     age_s_ += dt_s;
     std::erase_if(settings_.faults, [&](const Fault& fault) {
         if (age_s_ < fault.after_s) return false;
-        if (fault.kind == Fault::Kind::kWheel) {
-            body_.break_wheel(fault.wheel);
-        } else {
-            sensing_.cover();
-        }
+        apply(fault);
         state_due_ = true;
         return true;
     });
 }
 
+void Vehicle::apply(const Fault& fault) {
+    auto* servo = dynamic_cast<simulation::ServoDrive*>(drive_.get());
+    bool known = true;
+    switch (fault.kind) {
+        case Fault::Kind::kMarkerLost:
+            return sensing_.cover();
+        case Fault::Kind::kWheel:
+            body_.break_wheel(fault.wheel);
+            if (servo != nullptr) known = servo->break_wheel(fault.wheel);
+            break;
+        case Fault::Kind::kSlip:
+            known = servo != nullptr && servo->set_slip(fault.wheel, fault.share);
+            break;
+        case Fault::Kind::kEncoder:
+            known = servo != nullptr && servo->kill_encoder(fault.wheel);
+            break;
+    }
+    if (!known) spdlog::warn("{}: no drive {} can fail so", vehicle_.id.str(), fault.wheel);
+}
+
 /// What the cameras see lets the server confirm where the vehicle stands.
 void Vehicle::look_while_standing(Steady::time_point now) {
-    if (!motion_.standing()) {
+    if (!drive_->standing()) {
         sensing_.forget();
         last_look_ = {};
         return;
@@ -159,8 +189,8 @@ void Vehicle::send_state(Steady::time_point now) {
 }
 
 void Vehicle::send_visualization() {
-    const fleet::VisualizationMessage message{motion_.believed_pose(), true, motion_.velocity_mps(),
-                                              motion_.turn_rate_radps()};
+    const fleet::VisualizationMessage message{drive_->believed_pose(), true, drive_->velocity_mps(),
+                                              drive_->turn_rate_radps()};
     fleet::StateMessage map;
     executor_.write_state(map);
     outbox_.put_visualization(vda5050::encode_frame(
@@ -267,10 +297,10 @@ void Vehicle::receive(std::string_view text) {
     if (frame->topic == Topic::kInstantActions) {
         const auto actions = vda5050::decode_instant_actions(frame->payload);
         if (!actions) return report(actions.error(), topic);
-        const geometry::Pose2 before = motion_.believed_pose();
+        const geometry::Pose2 before = drive_->believed_pose();
         executor_.handle(*actions);
         // Nothing drives in between: a person said where it stands.
-        if (motion_.believed_pose() != before) estimate_.start_at(motion_.believed_pose());
+        if (drive_->believed_pose() != before) estimate_.start_at(drive_->believed_pose());
         return;
     }
     report({Errc::kInvalid,
@@ -283,8 +313,8 @@ void Vehicle::receive(std::string_view text) {
 void Vehicle::write_truth(Steady::time_point now) {
     if (truth_ == nullptr) return;
     TruthLine line{vehicle_.id.str(),
-                   motion_.true_pose(),
-                   !motion_.standing(),
+                   drive_->true_pose(),
+                   !drive_->standing(),
                    executor_.order_id(),
                    executor_.last_node_sequence_id(),
                    executor_.base_end_sequence_id()};

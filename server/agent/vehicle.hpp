@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "api/vehicle/header.hpp"
+#include "core/simulation/servo_drive.hpp"
 #include "core/simulation/vehicle_executor.hpp"
-#include "core/simulation/vehicle_motion.hpp"
 #include "core/simulation/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"
@@ -27,6 +27,7 @@ struct VehicleSettings {
     std::optional<double> battery_percent;  // absent: by the seed
     int vehicles = 1;  // in this process: they share one processor for rendering
     std::vector<Fault> faults;
+    bool servo_drive = false;  // wheel by wheel; a type without driven wheels stays statistical
 };
 
 /// One vehicle: its simulated machine and what it says. Frames come in by receive() and go out
@@ -68,12 +69,13 @@ private:
     void send_pictures(Steady::time_point now);
     void look_while_standing(Steady::time_point now);
     void apply_faults(double dt_s);
+    void apply(const Fault& fault);
     void write_truth(Steady::time_point now);
 
     const plant::Vehicle& vehicle_;
     const plant::VehicleType type_;  // its cameras as they hang under its load
     VehicleSettings settings_;
-    simulation::VehicleMotion motion_;
+    std::unique_ptr<simulation::Drive> drive_;
     CameraSensing sensing_;
     simulation::VehicleEquipment equipment_;
     simulation::VehicleExecutor executor_;

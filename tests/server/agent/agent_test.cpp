@@ -16,6 +16,7 @@
 #include "server/agent/outbox.hpp"
 #include "server/agent/truth_log.hpp"
 #include "server/agent/vehicle.hpp"
+#include "tests/core/control/vehicle_types.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::agent {
@@ -210,6 +211,104 @@ TEST_F(VehicleTest, DrivesOnWithoutALinkToTheEndOfItsBaseAndTellsItAfterwards) {
     EXPECT_NEAR(state.pose->x_m, 23, 1e-4);
 }
 
+fleet::OrderMessage straight_order(const geometry::Pose2& from, double length_m) {
+    fleet::OrderMessage order;
+    order.order_id = "a";
+    order.nodes.resize(2);
+    order.edges.resize(1);
+    order.edges[0].edge_id = "e";
+    order.edges[0].sequence_id = 1;
+    order.edges[0].released = true;
+    order.edges[0].segment = simulation::testing::straight(from, length_m);
+    for (int i = 0; i < 2; ++i) {
+        order.nodes[i].node_id = "n" + std::to_string(i);
+        order.nodes[i].sequence_id = 2 * i;
+        order.nodes[i].released = true;
+        order.nodes[i].map_id = "hall";
+        order.nodes[i].pose = from * geometry::Pose2{length_m * i, 0, 0};
+    }
+    return order;
+}
+
+/// The same vehicle on a drive with wheels.
+class ServoVehicleTest : public VehicleTest {
+protected:
+    ServoVehicleTest() {
+        auto& type = world.plant.vehicle_types[0];
+        const auto wheels = pulseline::testing::platform();
+        type.wheels = wheels.wheels;
+        type.mass_kg = wheels.mass_kg;
+    }
+    void start(std::vector<Fault> faults) {
+        VehicleSettings settings{1, 10, false, {}, 1, std::move(faults), true};
+        servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
+                      nullptr);
+        servo->link_up();
+        tell("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+        servo->receive(
+            vda5050::encode_frame(vda5050::Topic::kOrder, false,
+                                  vda5050::encode_order(straight_order({20, 10, 0}, 12),
+                                                        headers.next(vda5050::Topic::kOrder, {}))));
+    }
+    void tell(const std::string& type, std::optional<fleet::InitPosition> init = {}) {
+        fleet::Action action;
+        action.type = type;
+        action.id = "id-" + type;
+        action.init_position = init;
+        servo->receive(vda5050::encode_frame(
+            vda5050::Topic::kInstantActions, false,
+            vda5050::encode_instant_actions({{action}},
+                                            headers.next(vda5050::Topic::kInstantActions, {}))));
+    }
+    void drive(std::chrono::milliseconds time) {
+        for (auto t = 0ms; t < time; t += 20ms) {
+            now += 20ms;
+            servo->step(0.02, now);
+            while (auto frame = servo->outbox().take()) {
+                if (frame->binary) continue;
+                const auto read = vda5050::decode_frame(frame->bytes);
+                if (read && read->topic == vda5050::Topic::kState) {
+                    state = *vda5050::decode_state(read->payload);
+                }
+            }
+        }
+    }
+    std::optional<Vehicle> servo;
+};
+
+TEST_F(ServoVehicleTest, DrivesItsOrderAndShowsItsWheels) {
+    start({});
+    drive(1500ms);
+    ASSERT_EQ(state.wheels.size(), 6u);
+    for (const auto& wheel : state.wheels) EXPECT_GT(wheel.speed_mps, 0.5) << wheel.name;
+    drive(8000ms);
+    EXPECT_EQ(state.last_node_id, "n1");
+    EXPECT_NEAR(state.pose->x_m, 32, 1e-3);
+    EXPECT_TRUE(state.errors.empty());
+}
+
+TEST_F(ServoVehicleTest, ASlippingWheelIsAFatalErrorUntilThePersonsCancelIsOver) {
+    start({{Fault::Kind::kSlip, "back drive", 0.3, 1.5}});
+    drive(8000ms);
+    ASSERT_EQ(state.errors.size(), 1u);
+    EXPECT_EQ(state.errors[0].type, "wheelSlip");
+    EXPECT_TRUE(state.errors[0].fatal);
+    EXPECT_FALSE(state.driving);
+    EXPECT_LT(state.pose->x_m, 31);
+    tell("cancelOrder");
+    drive(1000ms);
+    EXPECT_TRUE(state.errors.empty());
+}
+
+TEST_F(ServoVehicleTest, ADeadEncoderIsReportedAsAFaultOfItsWheel) {
+    start({{Fault::Kind::kEncoder, "front drive", 0, 1.5}});
+    drive(5000ms);
+    ASSERT_EQ(state.errors.size(), 1u);
+    EXPECT_EQ(state.errors[0].type, "wheelFault");
+    EXPECT_EQ(state.wheels[4].fault, "drive_fault");
+    EXPECT_FALSE(state.driving);
+}
+
 TEST(Outbox, NewestStateAndPictureWinAndEventsGoFirst) {
     Outbox outbox;
     outbox.put_picture("front", "picture 1");
@@ -256,7 +355,11 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     }
     EXPECT_EQ(parse_fault("wheel=drive front@20")->wheel, "drive front");
     EXPECT_EQ(parse_fault("marker-lost")->after_s, 0);
-    for (const char* bad : {"wheel=", "fire", "marker-lost@soon", "wheel=FL@-1"}) {
+    EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->wheel, "back drive");
+    EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
+    EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
+    for (const char* bad : {"wheel=", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
+                            "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;
     }
     const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");
