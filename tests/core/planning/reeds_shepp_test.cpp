@@ -63,6 +63,22 @@ TEST(ReedsShepp, TheShortestIsAsShortAsOmplsOwn) {
     }
 }
 
+TEST(ReedsShepp, FindsAPathWhereCirclesTouch) {
+    std::vector<RsPath> paths;
+    for (int x = -8; x <= 8; ++x) {
+        for (int y = -8; y <= 8; ++y) {
+            for (int eighth = -3; eighth <= 4; ++eighth) {
+                const Pose2 goal{x / 2.0, y / 2.0, eighth * kPi / 4};
+                reeds_shepp_paths(goal, paths);
+                ASSERT_FALSE(paths.empty());
+                // The shortest one may fall to rounding there, but not to a much longer one.
+                EXPECT_LT(paths.front().length, reeds_shepp_length(goal) + 2.0)
+                    << x << ' ' << y << ' ' << eighth;
+            }
+        }
+    }
+}
+
 TEST(ReedsShepp, StraightAheadBehindAndInPlace) {
     std::vector<RsPath> paths;
 
