@@ -174,15 +174,11 @@ void FloorField::add_grid(const plant::OccupancyGrid& grid) {
             lower(run, [&](Point2 p) { return to_box(p, run); });
         }
     }
-    // Off the map nobody may drive. The nodes next to its border as well: every place beyond it
-    // then has four such nodes about it.
-    const Point2 inset{spacing_m_, spacing_m_};
-    const Box known{corner(0, 0) + inset, corner(grid.width, grid.height) - inset};
-    const Box everything{origin_, node_at(tiles_x_, tiles_y_, 0, 0)};
-    lower(everything, [&](Point2 p) {
-        const bool on_map = p.x_m > known.min.x_m && p.x_m < known.max.x_m &&
-                            p.y_m > known.min.y_m && p.y_m < known.max.y_m;
-        return on_map ? reach_m_ : 0.0;
+    // Off the map nobody may drive, so its border is kept away from as a wall is.
+    const Box known{corner(0, 0), corner(grid.width, grid.height)};
+    lower({origin_, node_at(tiles_x_, tiles_y_, 0, 0)}, [&](Point2 p) {
+        return std::max(0.0, std::min({p.x_m - known.min.x_m, known.max.x_m - p.x_m,
+                                       p.y_m - known.min.y_m, known.max.y_m - p.y_m}));
     });
 }
 

@@ -9,9 +9,9 @@
 namespace pulseline::planning {
 
 /// Distance from any place of a hall to what stands still there: walls, no-go areas, obstacles and
-/// marked cells of its map, as `Obstacles` knows them, and whatever is added. Exact distances at
-/// the nodes of a lattice, bilinear in between; 0 inside obstacles, outside the hall and outside
-/// its map.
+/// marked cells of its map, as `Obstacles` knows them, the map's border, and whatever is added.
+/// Exact distances at the nodes of a lattice, bilinear in between; 0 inside obstacles, outside the
+/// hall and outside its map.
 ///
 /// Cost: a hall of 120 m x 60 m takes some 10 ms and 3 MB at most, once. A copy shares its tiles
 /// and takes microseconds, so that what stands for one query only is added to a copy.

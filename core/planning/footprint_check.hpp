@@ -12,7 +12,7 @@ namespace pulseline::planning {
 /// when each disc's centre is as far from everything as the disc's radius. Most poses are decided
 /// by a few large discs, each of which stands for many.
 /// Conservative: free here is free by `Obstacles` and by the exact distance of polygons. A body
-/// that truly keeps clearance + excess_m() is free here.
+/// that truly keeps clearance + excess_m(), to the border of the hall's map as well, is free here.
 /// Thread safety: an unchanging check may be used by any number of threads.
 class FootprintCheck {
 public:

@@ -95,6 +95,7 @@ private:
 
     const Way* way_to_goal(const Pose2& pose) {
         task_.steering.ways(pose, task_.goal, ways_);
+        task_.room.add_work(kWaysWork);
         for (std::size_t i = 0; i < std::min(kWaysTried, ways_.size()); ++i) {
             if (task_.room.is_free(pose, ways_[i])) return &ways_[i];
         }
@@ -117,6 +118,7 @@ private:
     void reach(const Pose2& pose, const Move& move, int parent, double done_m) {
         const double left_m =
             std::max(left_.from(pose.position()), task_.steering.least_cost_m(pose, task_.goal));
+        task_.room.add_work(kWaysWork);
         if (!std::isfinite(left_m)) return;
         const std::size_t index = nodes_.size();
         nodes_.push_back({pose, move, parent, done_m});

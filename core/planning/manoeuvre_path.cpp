@@ -54,6 +54,7 @@ public:
         const Pose2 a = pose_at(from);
         const Pose2 b = pose_at(to);
         task_.steering.ways(a, b, ways_);
+        task_.room.add_work(kWaysWork);
         for (std::size_t i = 0; i < std::min(kWaysTried, ways_.size()); ++i) {
             Moves joined = spliced(moves_, from, to, ways_[i]);
             if (cost_m(task_.steering, joined) > cost_ - kGain_m) continue;

@@ -16,6 +16,9 @@ struct ManoeuvreTask {
     geometry::Pose2 goal;
 };
 
+/// What Steering::ways or least_cost_m costs in tests of the body.
+constexpr long kWaysWork = 6;
+
 using Moves = std::vector<Move>;
 
 /// True when the vehicle goes on from `a` into `b` without a stop.

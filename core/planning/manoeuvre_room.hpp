@@ -53,7 +53,9 @@ public:
     /// Greatest disc about the body's origin that lies in the body, with the clearance.
     double inner_radius_m() const { return inner_radius_m_; }
     double reach_m() const { return floor_.check.reach_m(); }
+    /// Work done so far, in tests of the body; others add theirs.
     long work() const { return work_; }
+    void add_work(long tests) const { work_ += tests; }
 
 private:
     bool near_an_end(const geometry::Pose2& pose) const;

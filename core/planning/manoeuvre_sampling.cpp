@@ -65,16 +65,18 @@ private:
 /// SE(2) with the steering's least way between two poses as its straight line.
 class SteeringSpace : public ob::SE2StateSpace {
 public:
-    SteeringSpace(const Steering& steering, std::uint64_t seed)
-        : steering_(steering), seed_(seed) {}
+    SteeringSpace(const ManoeuvreTask& task, std::uint64_t seed)
+        : task_(task), steering_(task.steering), seed_(seed) {}
 
     double distance(const ob::State* a, const ob::State* b) const override {
+        task_.room.add_work(kWaysWork);
         return steering_.least_cost_m(pose_of(a), pose_of(b));
     }
     void interpolate(const ob::State* from, const ob::State* to, double share,
                      ob::State* state) const override {
         const Pose2 start = pose_of(from);
         steering_.ways(start, pose_of(to), ways_);
+        task_.room.add_work(kWaysWork);
         const Way& way = ways_.front();
         double left = share * std::max(0.0, way.cost_m - Steering::kStop_m * (way.count - 1));
         Pose2 at = start;
@@ -97,6 +99,7 @@ public:
     }
 
 private:
+    const ManoeuvreTask& task_;
     const Steering& steering_;
     mutable std::uint64_t seed_;
     mutable std::vector<Way> ways_;
@@ -109,6 +112,7 @@ public:
 
     bool checkMotion(const ob::State* a, const ob::State* b) const override {
         task_.steering.ways(pose_of(a), pose_of(b), ways_);
+        task_.room.add_work(kWaysWork);
         return task_.room.is_free(pose_of(a), ways_.front());
     }
     bool checkMotion(const ob::State* a, const ob::State* b,
@@ -146,12 +150,38 @@ ob::PlannerPtr planner_of(SamplingPlanner planner, const ob::SpaceInformationPtr
     return connect;
 }
 
+/// Appends the way that the planner found free between two states. It may have grown the edge from
+/// its other end, where the least of several equal ways can be another one.
+bool append_edge(const ManoeuvreTask& task, const Pose2& from, const Pose2& to, Moves& moves) {
+    std::vector<Way> ways;
+    task.steering.ways(from, to, ways);
+    const auto there = std::find_if(ways.begin(), ways.end(),
+                                    [&](const Way& way) { return task.room.is_free(from, way); });
+    if (there != ways.end()) {
+        for (int k = 0; k < there->count; ++k) {
+            append(moves, there->moves[static_cast<std::size_t>(k)]);
+        }
+        return true;
+    }
+    task.steering.ways(to, from, ways);
+    for (const Way& way : ways) {
+        if (!task.room.is_free(to, way)) continue;
+        for (int k = way.count - 1; k >= 0; --k) {
+            Move back = way.moves[static_cast<std::size_t>(k)];
+            back.amount = -back.amount;
+            append(moves, back);
+        }
+        return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 Moves sampling_search(const ManoeuvreTask& task, SamplingPlanner planner, std::uint64_t seed,
                       long work_limit) {
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
-    const auto space = std::make_shared<SteeringSpace>(task.steering, seed);
+    const auto space = std::make_shared<SteeringSpace>(task, seed);
     const geometry::Box box = task.room.field().box();
     ob::RealVectorBounds bounds(2);
     bounds.setLow(0, box.min.x_m);
@@ -182,12 +212,10 @@ Moves sampling_search(const ManoeuvreTask& task, SamplingPlanner planner, std::u
 
     const auto* path = problem->getSolutionPath()->as<og::PathGeometric>();
     Moves moves;
-    std::vector<Way> ways;
-    for (std::size_t i = 1; i < path->getStateCount(); ++i) {
-        task.steering.ways(pose_of(path->getState(static_cast<unsigned>(i - 1))),
-                           pose_of(path->getState(static_cast<unsigned>(i))), ways);
-        const Way& way = ways.front();
-        for (int k = 0; k < way.count; ++k) append(moves, way.moves[static_cast<std::size_t>(k)]);
+    for (unsigned i = 1; i < path->getStateCount(); ++i) {
+        if (!append_edge(task, pose_of(path->getState(i - 1)), pose_of(path->getState(i)), moves)) {
+            return {};
+        }
     }
     return moves;
 }

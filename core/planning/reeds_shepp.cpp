@@ -115,6 +115,18 @@ Lengths lp_rm_s_lm_rp(const Goal& g) {  // 8.11
     return {t, u, v, t >= -kSign && v >= -kSign};
 }
 
+/// Left, straight, left, all forwards: always there, and without a root that could lose digits
+/// where two circles touch.
+RsPath forwards_round(const Pose2& goal) {
+    const double xi = goal.x_m - std::sin(goal.heading_rad);
+    const double eta = goal.y_m - 1 + std::cos(goal.heading_rad);
+    const auto forwards = [](double angle) { return angle < 0 ? angle + 2 * kPi : angle; };
+    const double t = forwards(std::atan2(eta, xi));
+    const double u = std::sqrt(xi * xi + eta * eta);
+    const double v = forwards(wrap(goal.heading_rad - t));
+    return {{RsPiece{1, t}, RsPiece{0, u}, RsPiece{1, v}}, 3, t + u + v, 0};
+}
+
 /// Calls take(steers, lengths, count) for every word with the goal as it is, flipped in time
 /// (everything driven the other way round) and mirrored (left for right).
 template <class Take>
@@ -198,6 +210,7 @@ void reeds_shepp_paths(const Pose2& goal, std::vector<RsPath>& paths) {
         }
         if (arrives(path, goal)) paths.push_back(path);
     });
+    if (paths.empty()) paths.push_back(forwards_round(goal));
     std::stable_sort(paths.begin(), paths.end(),
                      [](const RsPath& a, const RsPath& b) { return a.length < b.length; });
 }

@@ -28,6 +28,7 @@ geometry::Pose2 rs_moved(const RsPiece& piece, double length);
 /// Reeds, Shepp 1990, "Optimal paths for a car that goes both forwards and backwards", formulas
 /// 8.1 to 8.11 with the corrections of 8.4 and 8.6 known from their implementations; each path is
 /// driven once more to prove that it ends at the goal (1e-10), so a wrong branch is never given.
+/// Never empty.
 void reeds_shepp_paths(const geometry::Pose2& goal, std::vector<RsPath>& paths);
 /// Length of the shortest one, in turning radii.
 double reeds_shepp_length(const geometry::Pose2& goal);

@@ -85,6 +85,18 @@ json read(const std::string& path) {
     return in ? json::parse(in) : json::object();
 }
 
+/// One query a line, so that the file stays short and its changes can be read.
+void write(const std::string& path, json file) {
+    const json queries = std::move(file["queries"]);
+    file["queries"] = json::array();
+    std::string text = file.dump();
+    text.resize(text.rfind(']'));
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        text += (i == 0 ? "\n" : ",\n") + queries[i].dump();
+    }
+    std::ofstream(path) << text << "\n]}\n";
+}
+
 }  // namespace
 
 void make_reference(const std::string& path, int count, double seconds, std::uint64_t seed,
@@ -113,7 +125,7 @@ void make_reference(const std::string& path, int count, double seconds, std::uin
                                    {"near", near},
                                    {"rrt_star_m", query.best_m},
                                    {"rrt_connect_m", first_m}});
-        std::ofstream(path) << file.dump(1) << '\n';
+        write(path, file);
         std::printf("%zu of %d: RRT* %.1f m, RRTConnect %.1f m\n", file["queries"].size(), count,
                     query.best_m, first_m);
         std::fflush(stdout);
