@@ -121,12 +121,12 @@ WindowCommand DynamicWindow::step(const WindowInput& input) {
     gather_obstacles(input);
     samples_.clear();
     offer(input, stopping);
-    samples_.front().barred_by.reset();  // nothing is safer
     if (sideways_) {
         sample_sideways(input);
     } else {
         sample_differential(input);
     }
+    weigh_obstacles();
 
     const Twist chosen = best(true)->twist;
     const Sample* wanted = best(false);
@@ -249,19 +249,52 @@ void DynamicWindow::offer(const WindowInput& input, const Twist& twist) {
     sample.speed = speed / top_speed_mps_;
     const double left_m = geometry::distance(sample.rest.position(), body_from_target_.position());
     sample.target = std::cos(kPi / 2 * std::min(1.0, left_m / d_tar0_m_));
-    sample.distance = options_.clear_m;
-    double least_m = std::numeric_limits<double>::infinity();
+    samples_.push_back(sample);
+}
+
+/// Room left by each sample, and which obstacle bars it. Most places are too far from the least
+/// distance to matter to any sample, as the widest of all motions shows.
+void DynamicWindow::weigh_obstacles() {
+    double least_m = options_.margin_m + options_.clear_m;
+    for (const auto& place : ring_.places()) least_m = std::min(least_m, place.distance_m);
+    double most_way_m = 0;
+    double most_turn_rad = 0;
+    geometry::Box shifts{};
+    geometry::Box turns{};  // along x
+    for (Sample& sample : samples_) {
+        const Pose2& rest = sample.rest;
+        sample.distance = least_m;
+        most_way_m = std::max(most_way_m, norm(rest.position()));
+        most_turn_rad = std::max(most_turn_rad, std::abs(rest.heading_rad));
+        shifts.min = {std::min(shifts.min.x_m, rest.x_m), std::min(shifts.min.y_m, rest.y_m)};
+        shifts.max = {std::max(shifts.max.x_m, rest.x_m), std::max(shifts.max.y_m, rest.y_m)};
+        turns.min.x_m = std::min(turns.min.x_m, rest.heading_rad);
+        turns.max.x_m = std::max(turns.max.x_m, rest.heading_rad);
+    }
+    const auto most = [](double factor, double low, double high) {
+        return std::max(factor * low, factor * high);
+    };
     for (std::size_t i = 0; i < ring_.places().size(); ++i) {
         const ObstacleRing::Place& place = ring_.places()[i];
-        const double after_m = ObstacleRing::distance_after(place, sample.rest);
-        sample.distance = std::min(sample.distance, after_m - options_.margin_m);
-        const bool nearer = after_m < place.distance_m - kRounding;
-        if (after_m < options_.margin_m && nearer && after_m < least_m) {
-            least_m = after_m;
-            sample.barred_by = i;
+        const double nearer_m = most(place.away.x_m, shifts.min.x_m, shifts.max.x_m) +
+                                most(place.away.y_m, shifts.min.y_m, shifts.max.y_m) +
+                                place.away_blur * most_way_m;
+        const double turned_m =
+            most(place.lever_m, turns.min.x_m, turns.max.x_m) + place.lever_blur_m * most_turn_rad;
+        const double slack_m = most_turn_rad * (place.reach_m * most_turn_rad / 2 + most_way_m);
+        if (place.distance_m - nearer_m - turned_m - slack_m >
+            std::max(least_m, options_.margin_m)) {
+            continue;
+        }
+        for (Sample& sample : samples_) {
+            const double after_m = ObstacleRing::distance_after(place, sample.rest);
+            const bool barred =
+                after_m < options_.margin_m && after_m < place.distance_m - kRounding;
+            if (barred && (!sample.barred_by || after_m < sample.distance)) sample.barred_by = i;
+            sample.distance = std::min(sample.distance, after_m);
         }
     }
-    samples_.push_back(sample);
+    samples_.front().barred_by.reset();  // it brakes: nothing is safer
 }
 
 double DynamicWindow::angle_term(const Pose2& rest, const Twist& twist) const {
