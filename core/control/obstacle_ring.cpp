@@ -61,10 +61,10 @@ void ObstacleRing::clear(double reach_m) {
 }
 
 void ObstacleRing::add(Point2 p) {
-    if (p.x_m < box_.min.x_m - reach_m_ || p.x_m > box_.max.x_m + reach_m_ ||
-        p.y_m < box_.min.y_m - reach_m_ || p.y_m > box_.max.y_m + reach_m_) {
-        return;
-    }
+    // So that neither infinite points nor such that are no numbers pass.
+    const bool near = p.x_m >= box_.min.x_m - reach_m_ && p.x_m <= box_.max.x_m + reach_m_ &&
+                      p.y_m >= box_.min.y_m - reach_m_ && p.y_m <= box_.max.y_m + reach_m_;
+    if (!near) return;
     double least2 = reach_m_ * reach_m_;
     const Edge* nearest = nullptr;
     double nearest_along = 0;
