@@ -91,6 +91,7 @@ private:
     void sample_differential(const WindowInput& input);
     void sample_sideways(const WindowInput& input);
     void offer(const WindowInput& input, const Twist& twist);
+    void weigh_obstacles();
     double angle_term(const Pose2& rest, const Twist& twist) const;
     Pose2 rest_of(const Twist& twist, double dt_s) const;
     double turn_that_ends(double turn_rad, double present_radps, double dt_s) const;

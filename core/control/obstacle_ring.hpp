@@ -9,9 +9,10 @@
 namespace pulseline::control {
 
 /// The obstacle points around a vehicle's outline, thinned to the nearest one for each stretch of
-/// the outline, and a bound of how near small motions bring them. The distance of a point from a
-/// convex body is a convex function of a shift, so its tangent never promises more room than there
-/// is; a turn adds a slack for what is of second order. No allocation after construction.
+/// an edge and each small fan of directions at a corner, and a bound of how near small motions
+/// bring them. The distance of a point from a convex body is a convex function of a shift, so its
+/// tangent never promises more room than there is; slack is added for what a turn does in second
+/// order and for the points left out. No allocation after construction.
 class ObstacleRing {
 public:
     using Point2 = geometry::Point2;
@@ -23,6 +24,9 @@ public:
         double lever_m = 0;  // of a turn, positive where turning left comes nearer
         double distance_m = 0;
         double reach_m = 0;  // of the obstacle from the body's origin
+        // How much away and lever of the points left out may differ from these.
+        double away_blur = 0;
+        double lever_blur_m = 0;
     };
 
     /// `outline`: body frame; its convex hull counts.
@@ -44,13 +48,17 @@ private:
         Point2 along;  // unit
         double length_m = 0;
         std::size_t first_stretch = 0;
+        std::size_t first_fan = 0;  // of the corner where it begins
     };
+
+    std::size_t fan_of(std::size_t corner, Point2 away) const;
 
     std::vector<Edge> edges_;
     geometry::Box box_;
+    double stretch_m_ = 0;
     double reach_m_ = 0;
     std::vector<Place> places_;
-    std::vector<std::size_t> place_of_stretch_;
+    std::vector<std::size_t> place_of_;  // stretch or fan
 };
 
 }  // namespace pulseline::control
