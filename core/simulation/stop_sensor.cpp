@@ -80,15 +80,18 @@ StopView sense_stop(std::span<const plant::Camera> actual,
     for (std::size_t i = 0; i < actual.size(); ++i) {
         const auto in_reach = near(actual[i], hall_from_body, codes);
         if (options.mode == Sensing::kAnalytic) {
-            const auto seen = analytic_reading(actual[i], hall_from_body, in_reach, random);
+            const auto seen = options.dark
+                                  ? std::nullopt
+                                  : analytic_reading(actual[i], hall_from_body, in_reach, random);
             view.readings.push_back(
                 seen ? camera_reading(calibrated[i], reinterpreted(*seen, actual[i], calibrated[i]),
                                       options.calibration_sigma_m)
                      : not_found(calibrated[i], "no_code"));
             continue;
         }
-        view.images.push_back(
-            render_floor(actual[i], hall_from_body, in_reach, ImageConditions::nominal(random)));
+        auto conditions = ImageConditions::nominal(random);
+        if (options.dark) conditions.exposure = 0;
+        view.images.push_back(render_floor(actual[i], hall_from_body, in_reach, conditions));
         vision::ReaderOptions reader;
         reader.size_m = options.code_size_m;
         if (options.known) reader.expected = expected_below(calibrated[i], *options.known);

@@ -29,6 +29,7 @@ struct SensingOptions {
     plant::MarkerKind kind = plant::MarkerKind::kQr;
     double code_size_m = 0.060;
     std::optional<KnownFloor> known = {};
+    bool dark = false;  // no light below the vehicle
 };
 
 struct StopView {

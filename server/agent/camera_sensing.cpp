@@ -67,6 +67,7 @@ void CameraSensing::look_for_nearest(const std::vector<FloorCode>& codes) {
 void CameraSensing::look() { look_expecting(std::nullopt); }
 
 void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) {
+    options_.dark = dark_;
     const auto codes = codes_around();
     look_for_nearest(codes);
     options_.known = std::move(known);

@@ -42,6 +42,8 @@ public:
     void forget() { readings_.clear(); }
     /// Somebody covers the codes.
     void cover() { covered_ = true; }
+    /// The lights below the vehicle fail: its cameras see black.
+    void darken() { dark_ = true; }
 
 private:
     std::vector<simulation::FloorCode> codes_around() const;
@@ -60,6 +62,7 @@ private:
     std::optional<localisation::PoseFix> fix_;
     bool fresh_ = false;
     bool covered_ = false;
+    bool dark_ = false;
 };
 
 }  // namespace pulseline::agent

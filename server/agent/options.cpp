@@ -103,6 +103,16 @@ Status complete(const Raw& raw, Options& options) {
     return {};
 }
 
+/// "X,Y"
+bool read_place(const std::string& text, geometry::Point2& place) {
+    const char* end = text.data() + text.size();
+    const auto [comma, error] = std::from_chars(text.data(), end, place.x_m);
+    if (error != std::errc{} || comma == end || *comma != ',') return false;
+    const auto [rest, error_y] = std::from_chars(comma + 1, end, place.y_m);
+    return error_y == std::errc{} && rest == end && std::isfinite(place.x_m) &&
+           std::isfinite(place.y_m);
+}
+
 }  // namespace
 
 Result<ServerAddress> parse_server(const std::string& url) {
@@ -137,7 +147,9 @@ Result<ServerAddress> parse_server(const std::string& url) {
 Result<Fault> parse_fault(const std::string& text) {
     const auto bad = [&] {
         return fail(Errc::kInvalid, "bad_fault",
-                    "fault \"" + text + "\" must be wheel=NAME@SECONDS or marker-lost@SECONDS");
+                    "fault \"" + text +
+                        "\" must be wheel=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
+                        "camera-dark, obstacle=X,Y or way-free, each with @SECONDS or without");
     };
     Fault fault;
     std::string what = text;
@@ -149,8 +161,11 @@ Result<Fault> parse_fault(const std::string& text) {
             return bad();
         }
     }
-    if (what == "marker-lost") {
-        fault.kind = Fault::Kind::kMarkerLost;
+    for (const auto& [name, kind] : {std::pair{"marker-lost", Fault::Kind::kMarkerLost},
+                                     std::pair{"camera-dark", Fault::Kind::kDark},
+                                     std::pair{"way-free", Fault::Kind::kWayFree}}) {
+        if (what != name) continue;
+        fault.kind = kind;
         return fault;
     }
     const auto equals = what.find('=');
@@ -161,6 +176,9 @@ Result<Fault> parse_fault(const std::string& text) {
         fault.kind = Fault::Kind::kWheel;
     } else if (kind == "encoder") {
         fault.kind = Fault::Kind::kEncoder;
+    } else if (kind == "obstacle") {
+        fault.kind = Fault::Kind::kObstacle;
+        if (!read_place(std::exchange(fault.wheel, {}), fault.place)) return bad();
     } else if (kind == "slip") {
         fault.kind = Fault::Kind::kSlip;
         const auto colon = fault.wheel.rfind(':');
@@ -237,7 +255,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
     app.add_option("--fault", raw.faults,
                    "for tests: wheel=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
-                   "encoder=NAME@SECONDS, marker-lost@SECONDS");
+                   "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
+                   "obstacle=X,Y@SECONDS, way-free@SECONDS");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

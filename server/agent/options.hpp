@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "core/geometry/pose2.hpp"
 
 namespace pulseline::agent {
 
@@ -22,10 +23,11 @@ struct ServerAddress {
 };
 
 struct Fault {
-    enum class Kind { kWheel, kMarkerLost, kSlip, kEncoder };
+    enum class Kind { kWheel, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
     Kind kind = Kind::kWheel;
     std::string wheel;
-    double share = 0;  // of the rim's speed that slips
+    double share = 0;        // of the rim's speed that slips
+    geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     double after_s = 0;
 };
 

@@ -59,6 +59,12 @@ plant::VehicleType as_loaded(plant::VehicleType type, const plant::Vehicle& vehi
     return type;
 }
 
+/// Somebody left a box standing there.
+geometry::Polygon thing_at(geometry::Point2 place) {
+    constexpr double kBox_m = 0.5;
+    return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
+}
+
 std::unique_ptr<simulation::Drive> make_drive(const plant::VehicleType& type,
                                               const plant::Vehicle& vehicle,
                                               const geometry::Pose2& true_pose,
@@ -91,10 +97,18 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       estimate_(true_pose),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
-      look_every_(kLookInterval) {}
+      look_every_(kLookInterval) {
+    if (settings.servo_drive) {
+        look_out_.emplace(world, vehicle, plant::find_station(world.plant, vehicle.home)->hall,
+                          *drive_,
+                          simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
+    }
+}
 
 void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
+    // Whoever drives it by hand looks out.
+    if (look_out_ && !executor_.in_hand()) look_out_->step(dt_s);
     executor_.step(dt_s);
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
@@ -113,6 +127,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     look_while_standing(now);
     if (executor_.take_factsheet_request()) send_factsheet();
     state_due_ |= executor_.take_changed();
+    if (look_out_) state_due_ |= look_out_->take_changed();
     if (!linked_) return;
     const auto since = now - last_state_;
     if ((state_due_ && since >= kMinStateInterval) || since >= kStateInterval) send_state(now);
@@ -139,6 +154,14 @@ void Vehicle::apply(const Fault& fault) {
     switch (fault.kind) {
         case Fault::Kind::kMarkerLost:
             return sensing_.cover();
+        case Fault::Kind::kDark:
+            return sensing_.darken();
+        case Fault::Kind::kObstacle:
+            if (look_out_) look_out_->put(thing_at(fault.place));
+            return;
+        case Fault::Kind::kWayFree:
+            if (look_out_) look_out_->take_away();
+            return;
         case Fault::Kind::kWheel:
             body_.break_wheel(fault.wheel);
             if (servo != nullptr) known = servo->break_wheel(fault.wheel);
@@ -174,6 +197,7 @@ fleet::StateMessage Vehicle::state() {
     executor_.write_state(state);
     body_.write_state(state);
     equipment_.write_state(state);
+    if (look_out_ && !executor_.in_hand()) look_out_->write_state(state);
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();

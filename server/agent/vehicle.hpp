@@ -13,6 +13,7 @@
 #include "core/simulation/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/look_out.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
 #include "server/agent/pose_estimate.hpp"
@@ -55,8 +56,8 @@ public:
     }
     Status give_back() { return executor_.give_back(); }
     bool in_hand() const { return executor_.in_hand(); }
-    bool standing() const { return motion_.standing(); }
-    const geometry::Pose2& believed_pose() const { return motion_.believed_pose(); }
+    bool standing() const { return drive_->standing(); }
+    const geometry::Pose2& believed_pose() const { return drive_->believed_pose(); }
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
@@ -80,6 +81,7 @@ private:
     simulation::VehicleEquipment equipment_;
     simulation::VehicleExecutor executor_;
     BodyStatus body_;
+    std::optional<LookOut> look_out_;
     PoseEstimate estimate_;
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
