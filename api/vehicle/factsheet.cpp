@@ -29,6 +29,9 @@ Json parameters_of(const std::string& action) {
                             parameter("theta", "NUMBER"), parameter("mapId", "STRING"),
                             parameter("lastNodeId", "STRING", true)});
     }
+    if (action == "setBracketHeight") {
+        return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER")});
+    }
     return Json::array();
 }
 

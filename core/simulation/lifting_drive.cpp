@@ -12,12 +12,12 @@ namespace {
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kCycle_s = ServoAxis::kCycle_s;
 constexpr double kRounding_s = 1e-9;
-constexpr double kLevel_m = 1e-7;   // heights that count as the same
-constexpr double kThere_m = 2e-5;
+constexpr double kLevel_m = 1e-7;  // heights that count as the same
+constexpr double kThere_m = 1e-4;
 constexpr double kSettle_s = 0.1;
 constexpr double kCurrent_a = 20;
 constexpr double kScrewInertia_kg = 5000;  // motor and screw, seen from the nut
-constexpr double kScrewFriction = 0.2;     // of the greatest force: it holds by itself
+constexpr double kScrewFriction = 0.05;    // of the greatest force
 
 ServoParameters screw(const LiftParameters& lift) {
     ServoParameters p;
@@ -41,7 +41,8 @@ LiftingDrive::LiftingDrive(std::vector<LiftPlace> places, const LiftParameters& 
     assert(!places_.empty());
     std::uniform_real_distribution<double> uneven(-parameters_.uneven, parameters_.uneven);
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        lifts_.push_back({ServoAxis(screw(parameters_), random_()), 0, 0, uneven(random_), 0, false});
+        lifts_.push_back(
+            {ServoAxis(screw(parameters_), random_()), 0, 0, uneven(random_), 0, 0, false});
     }
 }
 
@@ -69,6 +70,7 @@ std::optional<Reason> LiftingDrive::begin(std::optional<std::size_t> lift, doubl
         lifts_[i].moves = !lift || *lift == i;
         lifts_[i].wanted_m = height_m;
         lifts_[i].axis.brake();
+        lifts_[i].axis.preload(lifts_[i].force_n);
         lifts_[i].commanded_m = lifts_[i].axis.measured_position();
     }
     cause_.reset();
@@ -92,7 +94,8 @@ void LiftingDrive::cycle() {
         left_m = std::max(left_m, std::abs(lift.wanted_m - lift.commanded_m));
         in_step &= std::abs(lift.axis.following_error()) <= parameters_.in_step_m;
     }
-    speed_mps_ = in_step ? pace(left_m) : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * kCycle_s);
+    speed_mps_ =
+        in_step ? pace(left_m) : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * kCycle_s);
     std::vector<double> before_m;
     for (const Lift& lift : lifts_) before_m.push_back(lift.commanded_m);
     advance(1);
@@ -105,6 +108,7 @@ void LiftingDrive::cycle() {
         lift.axis.cycle(lift.commanded_m, (lift.commanded_m - before_m[i]) / kCycle_s);
         there &= std::abs(lift.wanted_m - lift.axis.measured_position()) <= kThere_m;
     }
+    for (Lift& lift : lifts_) lift.last_force_n = lift.force_n;
     share_load();
     check_forces();
     settled_s_ = there ? settled_s_ + kCycle_s : 0;
@@ -131,7 +135,8 @@ void LiftingDrive::advance(double sign) {
     const double front_m = hindmost_m + speed_mps_ * kCycle_s;
     for (Lift& lift : lifts_) {
         if (!lift.moves || sign * (lift.wanted_m - lift.commanded_m) <= 0) continue;
-        const double to_m = std::min(std::max(sign * lift.commanded_m, front_m), sign * lift.wanted_m);
+        const double to_m =
+            std::min(std::max(sign * lift.commanded_m, front_m), sign * lift.wanted_m);
         lift.commanded_m = sign * to_m;
         if (std::abs(lift.wanted_m - lift.commanded_m) < kLevel_m) lift.commanded_m = lift.wanted_m;
     }
@@ -157,8 +162,7 @@ void LiftingDrive::share_load() {
         std::size_t least = 0;
         for (std::size_t i = 0; i < lifts_.size(); ++i) {
             const Eigen::Vector3d place(1, places_[i].position.x_m, places_[i].position.y_m);
-            lifts_[i].force_n =
-                carries[i] ? k * (lifts_[i].axis.position() - place.dot(plane)) : 0;
+            lifts_[i].force_n = carries[i] ? k * (lifts_[i].axis.position() - place.dot(plane)) : 0;
             if (lifts_[i].force_n >= least_n) continue;
             least_n = lifts_[i].force_n;
             least = i;
@@ -169,12 +173,17 @@ void LiftingDrive::share_load() {
 }
 
 void LiftingDrive::check_forces() {
+    if (load_kg_ <= 0) return;  // nothing there that could be lost or too heavy
     const double even_n = load_kg_ * kGravity_mps2 / static_cast<double>(lifts_.size());
     const double least_n = parameters_.least_share * even_n;
     for (std::size_t i = 0; i < lifts_.size(); ++i) {
         const double force_n = lifts_[i].force_n;
         const bool above = force_n > parameters_.most_force_n;
         if (!above && force_n >= least_n) continue;
+        // A way back into the range stays open.
+        const bool worse =
+            above ? force_n > lifts_[i].last_force_n : force_n < lifts_[i].last_force_n;
+        if (!worse) continue;
         stop();
         cause_ = Reason{"bracket_force_out_of_range",
                         {{"bracket", places_[i].name},

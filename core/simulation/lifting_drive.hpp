@@ -19,7 +19,7 @@ struct LiftPlace {
 
 /// Sizes of a screw lift with its servo motor. Limits are per lift.
 struct LiftParameters {
-    double stroke_m = 0.3;     // from the lower limit switch to the upper one
+    double stroke_m = 0.3;  // from the lower limit switch to the upper one
     double speed_mps = 0.01;
     double accel_mps2 = 0.02;
     double stiffness_npm = 1.5e7;  // lift, frame and what lies on it
@@ -34,7 +34,7 @@ struct LiftParameters {
 /// parking mechanisms, position loop in the PLC, velocity and current loop in the drives; two
 /// pin-axis force sensors a bracket). In step means within 1 mm of each other: lifts at other
 /// heights wait until the others have come level. A force out of its range stops the movement.
-/// Standing, the screws hold by themselves. All in the vehicle's own time.
+/// Standing, the brakes hold. All in the vehicle's own time.
 class LiftingDrive {
 public:
     struct Forces {
@@ -72,6 +72,7 @@ private:
         double wanted_m = 0;
         double split = 0;  // of the force between the sensors: (1 + split) / 2 and (1 - split) / 2
         double force_n = 0;
+        double last_force_n = 0;  // one cycle ago
         bool moves = false;
     };
 

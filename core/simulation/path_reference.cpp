@@ -135,6 +135,29 @@ kinematics::Twist PathReference::twist_at(double rate) const {
     return {whole.vx_mps * share_per_s, whole.vy_mps * share_per_s, whole.turn_radps * share_per_s};
 }
 
+double PathReference::braking_way() const {
+    return queue_.empty() ? 0 : rate_ * rate_ / (2 * queue_.front().max_accel);
+}
+
+double PathReference::run_ahead() const {
+    double ahead = 0;
+    for (std::size_t i = 0; i < queue_.size(); ++i) {
+        if (i > 0 && !continues(queue_[i - 1].segment, queue_[i].segment)) break;
+        ahead += queue_[i].size - queue_[i].done;
+    }
+    return ahead;
+}
+
+kinematics::Twist PathReference::twist_ahead(double way) const {
+    std::size_t i = 0;
+    double at = queue_[0].done + way;
+    while (i + 1 < queue_.size() && at > queue_[i].size) at -= queue_[i++].size;
+    const Move& move = queue_[i];
+    if (move.size <= kDone) return {};
+    const kinematics::Twist whole = derivative(move.segment, std::min(1.0, at / move.size));
+    return {whole.vx_mps / move.size, whole.vy_mps / move.size, whole.turn_radps / move.size};
+}
+
 double PathReference::velocity_mps() const {
     const Segment* segment = current();
     if (segment == nullptr || turns_on_the_spot(*segment)) return 0;

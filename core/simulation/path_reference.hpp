@@ -61,6 +61,13 @@ public:
     /// The twist it would have here at `share` of the current segment's highest rate.
     kinematics::Twist twist_at_share(double share) const;
 
+    /// What is left until it must rest, and the share of it needed to brake now; of the current
+    /// segment's size, metres or radians.
+    double run_ahead() const;
+    double braking_way() const;
+    /// The twist that far ahead on the run, driven at a rate of 1. REQUIRES: not empty().
+    kinematics::Twist twist_ahead(double way) const;
+
     double velocity_mps() const;
     double turn_rate_radps() const;
 

@@ -81,6 +81,11 @@ void ServoAxis::brake() {
     for (Command& command : on_the_way_) command = {measured_, 0};
 }
 
+void ServoAxis::preload(double force) {
+    integral_ = force;
+    current_a_ = force / parameters_.force_per_ampere;
+}
+
 void ServoAxis::home(double position) {
     position_ = measured_ = position;
     brake();

@@ -54,6 +54,8 @@ public:
     void cycle(double position, double velocity);
     /// The brake falls in: it stands, and the loops forget.
     void brake();
+    /// Before a brake opens: the motor already pushes with `force`, so that a load does not sink.
+    void preload(double force);
     /// The counter is set to `position`, standing: homing.
     void home(double position);
 

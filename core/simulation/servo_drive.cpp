@@ -17,7 +17,11 @@ using kinematics::WheelMotion;
 constexpr double kCycle_s = ServoAxis::kCycle_s;
 constexpr double kRounding_s = 1e-9;
 constexpr double kNoWay = 1e-9;
-constexpr double kStartShare = 0.05;     // of the speed for which the standing wheels are steered
+constexpr double kStartShare = 0.05;  // of the speed for which the standing wheels are steered
+constexpr int kLooks = 100;           // ahead on a run, at the wheels' directions
+constexpr double kFarAhead = 1e9;
+constexpr double kFeedback_rad = radians(2);  // steering that is left to the tracker
+constexpr double kBrakeAhead = 0.02;
 constexpr double kFlip_rad = 0.35;       // steering does not follow such a change while driving
 constexpr double kFlipSpeed_mps = 0.01;  // slower wheels may point anywhere
 constexpr double kSettleGain_per_s = 1.5;
@@ -48,6 +52,11 @@ ServoDrive::ServoDrive(plant::VehicleType type, const Pose2& true_pose, std::uin
 
 void ServoDrive::append(const Segment& segment, double max_speed_mps) {
     reference_.append(segment, max_speed_mps / time_factor_);
+    if (phase_ != Phase::kDriving) return;
+    steerable_ = kFarAhead;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        steerable_ = std::min(steerable_, steerable_way(i, wanted_[i].angle_rad));
+    }
 }
 
 void ServoDrive::correct(std::span<const Segment> moves) {
@@ -124,6 +133,7 @@ void ServoDrive::begin() {
         control::track(type_, {goal_, reference_.twist_at_share(kStartShare)}, believed_);
     const auto wanted = kinematics::wheels_of(type_, twist, wheels_.present());
     wanted_ = wanted ? *wanted : wheels_.present();
+    choose_steering(wheels_.present());
     for (WheelMotion& wheel : wanted_) wheel.speed_mps = 0;
     if (!wheels_.aligned(wanted_, kScrubTurn_rad)) {
         true_ = true_ * Pose2{normal(budget_.scrub_m), normal(budget_.scrub_m), 0};
@@ -132,6 +142,45 @@ void ServoDrive::begin() {
     phase_ = Phase::kSteering;
     in_phase_s_ = 0;
     steer_standing();
+}
+
+/// Of a wheel's two directions the one with which it can be driven farther, or else the nearer.
+void ServoDrive::choose_steering(const std::vector<WheelMotion>& present) {
+    steerable_ = kFarAhead;
+    for (std::size_t i = 0; i < wanted_.size(); ++i) {
+        if (!type_.wheels[i].steered) continue;
+        double& angle_rad = wanted_[i].angle_rad;
+        const double other_rad = angle_rad > 0 ? angle_rad - kPi : angle_rad + kPi;
+        double way = steerable_way(i, angle_rad);
+        const double other_way = steerable_way(i, other_rad);
+        const double nearer =
+            std::abs(other_rad - present[i].angle_rad) - std::abs(angle_rad - present[i].angle_rad);
+        if (other_way > way || (other_way == way && nearer < 0)) {
+            angle_rad = other_rad;
+            way = other_way;
+        }
+        steerable_ = std::min(steerable_, way);
+    }
+}
+
+/// Way on the present run until a wheel that now stands at `angle_rad` reaches its steering limit.
+double ServoDrive::steerable_way(std::size_t wheel, double angle_rad) const {
+    const double limit_rad = kinematics::kSteeringLimit_rad - kFeedback_rad;
+    if (reference_.empty() || !type_.wheels[wheel].steered) return kFarAhead;
+    if (std::abs(angle_rad) > limit_rad) return 0;
+    const auto place = type_.wheels[wheel].position;
+    // Not quite to the end, where the next run begins.
+    const double step = (1 - 1e-9) * reference_.run_ahead() / kLooks;
+    for (int i = 0; i <= kLooks; ++i) {
+        const Twist twist = reference_.twist_ahead(i * step);
+        const double vx = twist.vx_mps - twist.turn_radps * place.y_m;
+        const double vy = twist.vy_mps + twist.turn_radps * place.x_m;
+        if (std::hypot(vx, vy) < kNoWay) continue;
+        const double change = wrap(std::atan2(vy, vx) - angle_rad);
+        angle_rad += change - kPi * std::round(change / kPi);  // or rolling backwards
+        if (std::abs(angle_rad) > limit_rad) return std::max(0, i - 1) * step;
+    }
+    return kFarAhead;
 }
 
 void ServoDrive::steer_standing() {
@@ -147,8 +196,10 @@ void ServoDrive::drive() {
     due_.pop_front();
     for (const auto& passed : reference_.step(kCycle_s)) {
         goal_ = passed.to;
+        steerable_ -= passed.way;
         if (!passed.on_the_spot) peak_mps_ = std::max(peak_mps_, passed.way / kCycle_s);
     }
+    must_steer_ |= steerable_ <= reference_.braking_way() + kBrakeAhead;
     if (reference_.standing()) {
         phase_ = Phase::kSettling;
         in_phase_s_ = 0;
@@ -187,6 +238,7 @@ void ServoDrive::follow(const Twist& twist) {
     const auto& present = wheels_.present();
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         const double jump = wanted_[i].angle_rad - present[i].angle_rad;
+        // Only feedback can ask for it: choose_steering() has looked ahead.
         if (std::abs(jump) < kFlip_rad || std::abs(wanted_[i].speed_mps) < kFlipSpeed_mps) continue;
         wanted_[i] = {present[i].angle_rad, wanted_[i].speed_mps * std::cos(jump)};
         must_steer_ = true;

@@ -77,6 +77,8 @@ private:
 
     void cycle();
     void begin();
+    void choose_steering(const std::vector<kinematics::WheelMotion>& present);
+    double steerable_way(std::size_t wheel, double angle_rad) const;
     void steer_standing();
     void drive();
     void settle();
@@ -113,6 +115,7 @@ private:
     bool held_ = false;
     double speed_share_ = 1;
     bool must_steer_ = false;  // a wheel must be turned further than it can while driving
+    double steerable_ = 0;     // way until then
     double pending_s_ = 0;     // own time not yet made into cycles
     double in_phase_s_ = 0;
     double peak_mps_ = 0;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <sstream>
 #include <utility>
+#include <variant>
 
 #include "core/base/angle.hpp"
 
@@ -14,24 +17,91 @@ constexpr double kChargePerSecond = 0.028;  // per cent: an hour from empty to f
 constexpr double kContact_m = 0.05;
 constexpr double kContact_rad = 2 * kPi / 180.0;
 constexpr double kFeetDown_m = 0.12;
-constexpr double kFeetSpeed_mps = 0.02;
-constexpr const char* kFeet[] = {"front left", "front right", "back left", "back right"};
+constexpr double kGravity_mps2 = 9.80665;
+constexpr double kOverload = 1.5;          // of an even share of the greatest load, on one bracket
+constexpr double kLoadOffCentre_m = 0.03;  // sigma, each direction
+// Feet have no force sensors: nothing stops them but their ends.
+constexpr LiftParameters kFeet{.stroke_m = 0.15, .speed_mps = 0.02, .accel_mps2 = 0.05};
 
 bool meets(const Pose2& charger, const Pose2& vehicle) {
     return geometry::distance(charger.position(), vehicle.position()) <= kContact_m &&
            std::abs(wrap(charger.heading_rad - vehicle.heading_rad)) <= kContact_rad;
 }
 
+/// At the corners of the vehicle (Tang 2020, section 2.1).
+std::vector<LiftPlace> foot_places(const plant::VehicleType& type) {
+    double x_m = 0;
+    double y_m = 0;
+    for (const auto& corner : type.footprint) {
+        x_m = std::max(x_m, std::abs(corner.x_m));
+        y_m = std::max(y_m, std::abs(corner.y_m));
+    }
+    return {{"front left", {x_m, y_m}},
+            {"front right", {x_m, -y_m}},
+            {"back left", {-x_m, y_m}},
+            {"back right", {-x_m, -y_m}}};
+}
+
+LiftingDrive bracket_lifts(const plant::VehicleType& type, double load_kg, std::uint64_t seed) {
+    std::vector<LiftPlace> places;
+    geometry::Point2 middle;
+    const auto count = static_cast<double>(type.brackets.size());
+    for (const auto& bracket : type.brackets) {
+        places.push_back({bracket.name, bracket.position});
+        middle = middle + (1 / count) * bracket.position;
+    }
+    LiftParameters parameters;
+    parameters.most_force_n =
+        kOverload * kGravity_mps2 * std::max(type.max_load_kg, load_kg) / count;
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> off(0, kLoadOffCentre_m);
+    const geometry::Point2 beside{off(random), off(random)};
+    LiftingDrive lifts(std::move(places), parameters, random());
+    lifts.set_load(load_kg, middle + beside);
+    return lifts;
+}
+
+const ParamValue* find(const Params& params, const std::string& name) {
+    for (const Param& param : params) {
+        if (param.name == name) return &param.value;
+    }
+    return nullptr;
+}
+
+std::optional<double> number(const ParamValue* value) {
+    if (value == nullptr) return std::nullopt;
+    if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
+    if (const auto* real = std::get_if<double>(value)) return *real;
+    return std::nullopt;
+}
+
+/// "bracket_force_out_of_range: bracket front left, force_n 81234, limit_n 80000"
+std::string sentence(const Reason& reason) {
+    std::ostringstream text;
+    text << reason.code;
+    const char* between = ": ";
+    for (const Param& param : reason.params) {
+        text << std::exchange(between, ", ") << param.name << ' ';
+        if (const auto* name = std::get_if<std::string>(&param.value)) text << *name;
+        if (const auto* real = std::get_if<double>(&param.value)) text << *real;
+    }
+    return text.str();
+}
+
 }  // namespace
 
 VehicleEquipment::VehicleEquipment(const plant::VehicleType& type, std::vector<Pose2> chargers,
-                                   double battery_percent, double time_factor)
+                                   double battery_percent, double time_factor, double load_kg,
+                                   std::uint64_t seed)
     : action_types_{"startCharging", "stopCharging"},
       chargers_(std::move(chargers)),
       time_factor_(time_factor),
       battery_percent_(battery_percent),
-      has_feet_(!type.brackets.empty()) {
-    if (has_feet_) action_types_.insert(action_types_.end(), {"raiseParking", "lowerParking"});
+      load_kg_(load_kg) {
+    if (type.brackets.empty()) return;
+    action_types_.insert(action_types_.end(), {"raiseParking", "lowerParking", "setBracketHeight"});
+    feet_.emplace(foot_places(type), kFeet, seed);
+    brackets_.emplace(bracket_lifts(type, load_kg, seed + 1));
 }
 
 bool VehicleEquipment::runs(const std::string& action_type) const {
@@ -39,40 +109,87 @@ bool VehicleEquipment::runs(const std::string& action_type) const {
            action_types_.end();
 }
 
-std::optional<std::string> VehicleEquipment::begin(const std::string& action_type,
+std::optional<std::string> VehicleEquipment::begin(const fleet::Action& action,
                                                    const Pose2& true_pose) {
-    if (action_type == "stopCharging") {
+    lifting_ = action.type == "setBracketHeight";
+    if (action.type == "stopCharging") {
         charging_ = false;
-    } else if (action_type == "startCharging") {
+    } else if (action.type == "startCharging") {
         const bool contact = std::any_of(chargers_.begin(), chargers_.end(),
                                          [&](const Pose2& c) { return meets(c, true_pose); });
         if (!contact) return "noCharger: the contacts of no charger are touched here";
         charging_ = true;
-    } else {
-        wanted_feet_m_ = action_type == "lowerParking" ? kFeetDown_m : 0;
-        moving_feet_ = true;
+    } else if (lifting_) {
+        return begin_bracket(action);
+    } else if (auto why_not =
+                   feet_->begin(std::nullopt, action.type == "lowerParking" ? kFeetDown_m : 0)) {
+        return sentence(*why_not);
     }
     return std::nullopt;
+}
+
+std::optional<std::string> VehicleEquipment::begin_bracket(const fleet::Action& action) {
+    const auto height_m = number(find(action.params, "height_m"));
+    const auto* named = find(action.params, "bracket");
+    const auto* name = named == nullptr ? nullptr : std::get_if<std::string>(named);
+    if (!height_m || name == nullptr) {
+        return "bad_parameters: setBracketHeight needs bracket (a name or \"all\") and height_m";
+    }
+    std::optional<std::size_t> lift;
+    if (*name != "all") {
+        lift = brackets_->find(*name);
+        if (!lift) return "unknown_bracket: there is no bracket " + *name;
+    }
+    if (const auto why_not = brackets_->begin(lift, *height_m)) return sentence(*why_not);
+    return std::nullopt;
+}
+
+bool VehicleEquipment::busy() const {
+    return (feet_ && feet_->moving()) || (brackets_ && brackets_->moving());
+}
+
+std::optional<std::string> VehicleEquipment::failure() const {
+    if (!lifting_ || !brackets_->stop_cause()) return std::nullopt;
+    return sentence(*brackets_->stop_cause());
+}
+
+void VehicleEquipment::abort() {
+    if (feet_) feet_->stop();
+    if (brackets_) brackets_->stop();
 }
 
 void VehicleEquipment::step(double dt_s, double way_m) {
     const double charged = charging_ ? kChargePerSecond * time_factor_ * dt_s : 0;
     battery_percent_ =
         std::clamp(battery_percent_ + charged - kBatteryPerMetre * std::abs(way_m), 0.0, 100.0);
-    if (!moving_feet_) return;
-    const double step_m = kFeetSpeed_mps * time_factor_ * dt_s;
-    feet_m_ += std::clamp(wanted_feet_m_ - feet_m_, -step_m, step_m);
-    moving_feet_ = feet_m_ != wanted_feet_m_;
+    if (feet_) feet_->step(dt_s * time_factor_);
+    if (brackets_) brackets_->step(dt_s * time_factor_);
 }
 
-bool VehicleEquipment::holds_vehicle() const { return charging_ || feet_m_ > 0; }
+bool VehicleEquipment::holds_vehicle() const {
+    return charging_ || busy() || (feet_ && feet_->height_m(0) > 0);
+}
 
-void VehicleEquipment::write_state(fleet::StateMessage& state) const {
+std::optional<double> VehicleEquipment::bracket_height_m(const std::string& name) const {
+    if (!brackets_) return std::nullopt;
+    const auto lift = brackets_->find(name);
+    return lift ? std::optional(brackets_->height_m(*lift)) : std::nullopt;
+}
+
+void VehicleEquipment::write_state(fleet::StateMessage& state) {
     state.battery_percent = battery_percent_;
     state.charging = charging_;
+    state.load_kg = load_kg_;
     state.parking_feet.clear();
-    if (!has_feet_) return;
-    for (const char* name : kFeet) state.parking_feet.push_back({name, feet_m_});
+    state.brackets.clear();
+    if (!feet_) return;
+    for (std::size_t i = 0; i < feet_->places().size(); ++i) {
+        state.parking_feet.push_back({feet_->places()[i].name, feet_->height_m(i)});
+    }
+    for (std::size_t i = 0; i < brackets_->places().size(); ++i) {
+        const auto forces = brackets_->forces(i);
+        state.brackets.push_back({brackets_->places()[i].name, forces.a_n, forces.b_n});
+    }
 }
 
 }  // namespace pulseline::simulation

@@ -177,14 +177,16 @@ void VehicleExecutor::run_equipment() {
     if (running_equipment_ != action.id) {
         running_equipment_ = action.id;
         set_action(action.id, ActionStatus::kRunning);
-        if (auto why_not = equipment_->begin(action.type, motion_.true_pose())) {
+        if (auto why_not = equipment_->begin(action, motion_.true_pose())) {
             set_action(action.id, ActionStatus::kFailed, std::move(*why_not));
             waiting_.pop_front();
             return;
         }
     }
     if (equipment_->busy()) return;
-    set_action(action.id, ActionStatus::kFinished);
+    const auto failure = equipment_->failure();
+    set_action(action.id, failure ? ActionStatus::kFailed : ActionStatus::kFinished,
+               failure.value_or(""));
     waiting_.pop_front();
 }
 

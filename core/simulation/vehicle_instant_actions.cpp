@@ -164,7 +164,7 @@ void VehicleExecutor::instant_stop(const Action& action) {
 }
 
 void VehicleExecutor::instant_equipment(const Action& action) {
-    auto why_not = equipment_->begin(action.type, motion_.true_pose());
+    auto why_not = equipment_->begin(action, motion_.true_pose());
     add_action(action, why_not ? ActionStatus::kFailed : ActionStatus::kFinished,
                why_not.value_or(""));
 }

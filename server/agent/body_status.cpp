@@ -7,9 +7,6 @@
 namespace pulseline::agent {
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
-constexpr double kUneven = 0.03;  // how unevenly the load lies on the brackets
-constexpr double kForceNoise = 0.002;
 constexpr double kAmbient_c = 22;
 constexpr double kHeat_c = 18;  // above ambient at full speed for long
 constexpr double kHeatTime_s = 600;
@@ -39,16 +36,7 @@ fleet::VehicleError stopped_error(const Reason& cause) {
 
 }  // namespace
 
-BodyStatus::BodyStatus(const plant::Vehicle& vehicle, const simulation::Drive& motion,
-                       std::uint64_t seed)
-    : motion_(motion), load_kg_(vehicle.load_kg), random_(seed) {
-    std::uniform_real_distribution<double> uneven(1 - kUneven, 1 + kUneven);
-    double sum = 0;
-    for (std::size_t i = 0; i < 2 * motion.type().brackets.size(); ++i) {
-        bracket_share_.push_back(uneven(random_));
-        sum += bracket_share_.back();
-    }
-    for (double& share : bracket_share_) share /= sum;
+BodyStatus::BodyStatus(const simulation::Drive& motion) : motion_(motion) {
     for (const auto& wheel : motion.type().wheels) {
         wheels_.push_back({wheel.name, 0, 0, kAmbient_c, ""});
     }
@@ -84,18 +72,8 @@ void BodyStatus::step(double dt_s) {
     }
 }
 
-void BodyStatus::write_state(fleet::StateMessage& state) {
-    std::normal_distribution<double> noise(1, kForceNoise);
-    const auto& brackets = motion_.type().brackets;
-    state.brackets.clear();
-    for (std::size_t i = 0; i < brackets.size(); ++i) {
-        const double weight_n = load_kg_ * kGravity_mps2;
-        state.brackets.push_back({brackets[i].name,
-                                  weight_n * bracket_share_[2 * i] * noise(random_),
-                                  weight_n * bracket_share_[2 * i + 1] * noise(random_)});
-    }
+void BodyStatus::write_state(fleet::StateMessage& state) const {
     state.wheels = wheels_;
-    state.load_kg = load_kg_;
     const std::string at_fault = broken_wheel_.empty() ? faulty_wheel() : broken_wheel_;
     if (!at_fault.empty()) {
         state.errors.push_back({"wheelFault",

@@ -100,6 +100,19 @@ TEST(PathReference, SlowsDownNoHarderThanItBrakesAndWaitsAtNothing) {
     EXPECT_NEAR(reference.velocity_mps(), full, 1e-9);
 }
 
+TEST(PathReference, LooksAheadAlongTheRunAndNotBehindIt) {
+    PathReference reference(platform_type(), 1);
+    reference.append(straight({}, 2));
+    reference.append(straight({2, 0, 0}, 3));
+    reference.append(arc({5, 0, 0}, {5, 10}, 0.5));
+    EXPECT_NEAR(reference.run_ahead(), 5, 1e-12);
+    EXPECT_NEAR(reference.twist_ahead(4.9).vx_mps, 1, 1e-9);
+    EXPECT_NEAR(reference.twist_ahead(4.9).turn_radps, 0, 1e-9);
+    while (reference.segments_done() < 2) reference.step(kStep_s);
+    EXPECT_NEAR(reference.run_ahead(), 5, 1e-12);
+    EXPECT_NEAR(reference.twist_ahead(1).turn_radps, 0.1, 1e-9);
+}
+
 TEST(PathReference, CreepsOverFineMoves) {
     PathReference reference(platform_type(), 1);
     reference.append_fine(straight({}, 0.2));

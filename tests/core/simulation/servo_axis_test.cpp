@@ -94,6 +94,23 @@ TEST(ServoAxis, FrictionHoldsWhatIsTooWeakToBreakIt) {
     EXPECT_NEAR(axis.position(), 0, 1e-5);
 }
 
+TEST(ServoAxis, PreloadHoldsAWeightWhenTheBrakeOpens) {
+    const auto sunk = [](double preload) {
+        ServoAxis axis = loaded_axis({});
+        axis.brake();
+        axis.preload(preload);
+        axis.set_external_force(-2000);
+        double lowest = 0;
+        for (int i = 0; i < 200; ++i) {
+            axis.cycle(0, 0);
+            lowest = std::min(lowest, axis.position());
+        }
+        return -lowest;
+    };
+    EXPECT_LT(sunk(2000), 1e-5);
+    EXPECT_GT(sunk(0), 1e-3);
+}
+
 TEST(ServoAxis, ADeadEncoderRunsAwayFromItsCommand) {
     ServoAxis axis = loaded_axis({});
     axis.set_dead_encoder(true);

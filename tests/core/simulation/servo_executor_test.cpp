@@ -1,0 +1,128 @@
+// The executor on a drive with wheels: what the statistical drive cannot show.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/vehicle_executor.hpp"
+#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+using fleet::ActionStatus;
+using simulation::testing::straight;
+
+constexpr double kStep_s = 0.05;
+
+class TrueSensing : public StopSensing {
+public:
+    explicit TrueSensing(const Drive& drive) : drive_(drive) {}
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
+        return fleet::StopMeasurement{drive_.true_pose(), 1e-4, 1e-4, "test", {"ST01-F"}};
+    }
+
+private:
+    const Drive& drive_;
+};
+
+/// One leg straight ahead, at its end `actions`.
+fleet::OrderMessage leg(double length_m, std::vector<fleet::Action> actions) {
+    fleet::OrderMessage order;
+    order.order_id = "a";
+    order.nodes.resize(2);
+    order.edges.resize(1);
+    order.edges[0].sequence_id = 1;
+    order.edges[0].released = true;
+    order.edges[0].segment = straight({}, length_m);
+    for (int i = 0; i < 2; ++i) {
+        order.nodes[i].node_id = "n" + std::to_string(i);
+        order.nodes[i].sequence_id = 2 * i;
+        order.nodes[i].released = true;
+        order.nodes[i].map_id = "hall";
+        order.nodes[i].pose = {length_m * i, 0, 0};
+    }
+    order.nodes[1].actions = std::move(actions);
+    return order;
+}
+
+class ServoExecutorTest : public ::testing::TestWithParam<int> {
+protected:
+    ServoExecutorTest() { instant("initPosition"); }
+
+    static plant::VehicleType type() {
+        return GetParam() == 0 ? pulseline::testing::platform() : pulseline::testing::mecanum();
+    }
+    void instant(const std::string& name) {
+        fleet::Action action;
+        action.type = name;
+        action.id = "id-" + name;
+        if (name == "initPosition") {
+            action.init_position = fleet::InitPosition{drive.believed_pose(), "hall", ""};
+        }
+        executor.handle(fleet::InstantActionsMessage{{action}});
+    }
+    void run(double seconds) {
+        for (double t = 0; t < seconds; t += kStep_s) executor.step(kStep_s);
+    }
+    std::optional<ActionStatus> status(const std::string& id) const {
+        fleet::StateMessage state;
+        executor.write_state(state);
+        for (const auto& action : state.action_states) {
+            if (action.id == id) return action.status;
+        }
+        return std::nullopt;
+    }
+
+    ServoDrive drive{type(), {}, 5};
+    TrueSensing sensing{drive};
+    VehicleExecutor executor{drive, sensing, "hall"};
+};
+
+TEST_P(ServoExecutorTest, AdjustsItsTruePoseAtTheEndOfALeg) {
+    fleet::Action adjust;
+    adjust.type = "adjustToMarker";
+    adjust.id = "adjust";
+    const Pose2 target{12.012, -0.008, radians(0.1)};
+    adjust.stop_target = fleet::StopTarget{"st01", 1, target, 0.025, 0.025, 0.0035, {}};
+    executor.handle(leg(12, {adjust}));
+    run(120);
+    ASSERT_EQ(status("adjust"), ActionStatus::kFinished);
+    const Pose2 off = inverse(target) * drive.true_pose();
+    EXPECT_LT(norm(off.position()), 0.0025);
+    EXPECT_LT(std::abs(off.heading_rad), radians(0.04));
+}
+
+TEST_P(ServoExecutorTest, CancelWhileItDrivesOrSteersLeavesAnIdleVehicle) {
+    executor.handle(leg(12, {}));
+    run(5);
+    instant("cancelOrder");
+    run(30);
+    EXPECT_EQ(status("id-cancelOrder"), ActionStatus::kFinished);
+    EXPECT_TRUE(drive.idle());
+    EXPECT_LT(drive.true_pose().x_m, 11);
+}
+
+TEST_P(ServoExecutorTest, StopPauseLetsADriveGoOnThatHasStoppedItself) {
+    const std::string wheel = GetParam() == 0 ? "back drive" : "BR";
+    executor.handle(leg(12, {}));
+    run(5);
+    drive.set_slip(wheel, 0.3);
+    run(30);
+    ASSERT_TRUE(drive.stop_cause());
+    const double here_m = drive.believed_pose().x_m;
+    EXPECT_LT(here_m, 11);
+    drive.set_slip(wheel, 0);
+    run(10);
+    EXPECT_EQ(drive.believed_pose().x_m, here_m);  // of itself it does nothing
+    instant("stopPause");
+    run(60);
+    EXPECT_FALSE(drive.stop_cause());
+    EXPECT_NEAR(drive.believed_pose().x_m, 12, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(PlatformAndMecanum, ServoExecutorTest, ::testing::Values(0, 1));
+
+}  // namespace
+}  // namespace pulseline::simulation

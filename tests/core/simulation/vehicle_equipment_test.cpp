@@ -1,0 +1,115 @@
+#include "core/simulation/vehicle_equipment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/core/control/vehicle_types.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+fleet::Action action(const std::string& type, Params params = {}) {
+    fleet::Action made;
+    made.type = type;
+    made.id = "id";
+    made.params = std::move(params);
+    return made;
+}
+
+fleet::Action bracket_height(const std::string& bracket, ParamValue height_m) {
+    return action("setBracketHeight", {{"bracket", bracket}, {"height_m", std::move(height_m)}});
+}
+
+class VehicleEquipmentTest : public ::testing::Test {
+protected:
+    double run() {
+        double t_s = 0;
+        for (; equipment.busy() && t_s < 100; t_s += 0.02) equipment.step(0.02, 0);
+        return t_s;
+    }
+    fleet::StateMessage state() {
+        fleet::StateMessage state;
+        equipment.write_state(state);
+        return state;
+    }
+
+    VehicleEquipment equipment{pulseline::testing::platform(), {{5, 0, 0}}, 50, 10, 18200, 4};
+};
+
+TEST_F(VehicleEquipmentTest, FeetGoDownTogetherHoldTheVehicleAndComeBackToTheirSwitches) {
+    EXPECT_FALSE(equipment.holds_vehicle());
+    EXPECT_FALSE(equipment.begin(action("lowerParking"), {}));
+    EXPECT_TRUE(equipment.busy());
+    EXPECT_LT(run(), 2);  // ten times faster than 0.12 m at 0.02 m/s
+    EXPECT_TRUE(equipment.holds_vehicle());
+    for (const auto& foot : state().parking_feet) EXPECT_NEAR(foot.extension_m, 0.12, 1.5e-4);
+
+    EXPECT_FALSE(equipment.begin(action("raiseParking"), {}));
+    run();
+    EXPECT_FALSE(equipment.holds_vehicle());
+    for (const auto& foot : state().parking_feet) EXPECT_EQ(foot.extension_m, 0);
+}
+
+TEST_F(VehicleEquipmentTest, BracketsRiseSinglyOrAllAndTellTheirLoads) {
+    EXPECT_FALSE(equipment.begin(bracket_height("all", 0.1), {}));
+    run();
+    EXPECT_FALSE(equipment.failure());
+    EXPECT_NEAR(*equipment.bracket_height_m("back left"), 0.1, 1.5e-4);
+    EXPECT_FALSE(equipment.begin(bracket_height("back left", 0.101), {}));
+    run();
+    EXPECT_NEAR(*equipment.bracket_height_m("back left"), 0.101, 1.5e-4);
+    EXPECT_NEAR(*equipment.bracket_height_m("front left"), 0.1, 1.5e-4);
+    EXPECT_FALSE(equipment.begin(bracket_height("all", std::int64_t{0}), {}));
+    run();
+
+    const auto now = state();
+    ASSERT_EQ(now.brackets.size(), 4u);
+    double sum_n = 0;
+    for (const auto& bracket : now.brackets) {
+        EXPECT_GT(bracket.force_a_n, 0);
+        sum_n += bracket.force_a_n + bracket.force_b_n;
+    }
+    EXPECT_NEAR(sum_n, 18200 * 9.80665, 2000);
+    EXPECT_EQ(now.load_kg, 18200);
+}
+
+TEST_F(VehicleEquipmentTest, AForceOutOfRangeFailsTheActionAndNotTheNext) {
+    EXPECT_FALSE(equipment.begin(bracket_height("front right", 0.2), {}));
+    run();
+    ASSERT_TRUE(equipment.failure());
+    EXPECT_EQ(equipment.failure()->rfind("bracket_force_out_of_range: bracket ", 0), 0u);
+    EXPECT_FALSE(equipment.begin(action("startCharging"), {5, 0, 0}));
+    EXPECT_FALSE(equipment.failure());
+}
+
+TEST_F(VehicleEquipmentTest, RefusesBracketActionsThatSayTooLittleOrTooMuch) {
+    const auto refused = [&](const fleet::Action& wrong, const std::string& code) {
+        const auto why_not = equipment.begin(wrong, {});
+        return why_not && why_not->rfind(code + ":", 0) == 0 && !equipment.busy();
+    };
+    EXPECT_TRUE(refused(action("setBracketHeight"), "bad_parameters"));
+    EXPECT_TRUE(refused(action("setBracketHeight", {{"height_m", 0.1}}), "bad_parameters"));
+    EXPECT_TRUE(refused(bracket_height("all", std::string("high")), "bad_parameters"));
+    EXPECT_TRUE(refused(bracket_height("fifth", 0.1), "unknown_bracket"));
+    EXPECT_TRUE(refused(bracket_height("all", 0.5), "out_of_stroke"));
+}
+
+TEST_F(VehicleEquipmentTest, AbortLeavesThemWhereTheyAre) {
+    EXPECT_FALSE(equipment.begin(bracket_height("all", 0.2), {}));
+    equipment.step(0.5, 0);
+    equipment.abort();
+    EXPECT_FALSE(equipment.busy());
+    const double at_m = *equipment.bracket_height_m("front left");
+    EXPECT_GT(at_m, 0.01);
+    equipment.step(1, 0);
+    EXPECT_EQ(*equipment.bracket_height_m("front left"), at_m);
+}
+
+TEST(VehicleEquipment, AVehicleWithoutBracketsHasNoneOfTheirActions) {
+    VehicleEquipment equipment(pulseline::testing::mecanum(), {}, 50, 1);
+    EXPECT_FALSE(equipment.runs("setBracketHeight"));
+    EXPECT_FALSE(equipment.runs("lowerParking"));
+    EXPECT_FALSE(equipment.bracket_height_m("front left"));
+}
+
+}  // namespace
+}  // namespace pulseline::simulation
