@@ -16,7 +16,7 @@ constexpr double kTurnStep_rad = kPi / 8;
 constexpr double kLeastStep_m = 0.5;
 constexpr int kHeadings = 24;
 constexpr double kGreed = 1.4;  // weight of what is left against what is done
-constexpr std::size_t kWaysTried = 3;
+constexpr std::size_t kWaysTried = 4;
 // With a way known, looking for a better one is worth so many tests and a part of those before.
 constexpr long kLeastMoreWork = 3000;
 constexpr long kMoreWork = 4;
@@ -112,14 +112,24 @@ private:
     }
 
     void reach(const Pose2& pose, const Move& move, int parent, double done_m) {
-        const double left_m =
-            std::max(left_.from(pose.position()), task_.steering.least_cost_m(pose, task_.goal));
+        const double left_m = left_from(pose);
         task_.room.add_work(kWaysWork);
         if (!std::isfinite(left_m)) return;
         const std::size_t index = nodes_.size();
         nodes_.push_back({pose, move, parent, done_m, left_m});
         by_cell_[cell_of(pose)] = index;
         open_.push({{-(done_m + kGreed * left_m), -static_cast<long>(index)}, index});
+    }
+
+    /// What is left from a pose, about. A body that moves in any direction turns where it likes, so
+    /// its turn comes on top of the way round the obstacles.
+    double left_from(const Pose2& pose) const {
+        double round_m = left_.from(pose.position());
+        if (task_.steering.any_direction()) {
+            round_m += task_.steering.cost_m(
+                {.kind = Kind::kRotate, .amount = wrap(task_.goal.heading_rad - pose.heading_rad)});
+        }
+        return std::max(round_m, task_.steering.least_cost_m(pose, task_.goal));
     }
 
     std::uint64_t cell_of(const Pose2& pose) const {
