@@ -13,8 +13,11 @@ namespace {
 using geometry::Point2;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kLeastCell_m = 0.4;
-constexpr double kLargestCell_m = 1.0;
+constexpr double kLeastCell_m = 0.35;
+constexpr double kLargestCell_m = 0.6;
+// A cell where the disc may or may not pass counts as so much longer: a guide that leads into gaps
+// a little too narrow costs the search more than a detour.
+constexpr double kUnsure = 8;
 constexpr double kMostCells = 250'000;
 
 }  // namespace
@@ -23,7 +26,7 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
     const geometry::Box box = field.box();
     const double width = box.max.x_m - box.min.x_m;
     const double height = box.max.y_m - box.min.y_m;
-    cell_m_ = std::max(std::clamp(disc_radius_m / 2, kLeastCell_m, kLargestCell_m),
+    cell_m_ = std::max(std::clamp(disc_radius_m / 3, kLeastCell_m, kLargestCell_m),
                        std::sqrt(width * height / kMostCells));
     origin_ = box.min;
     width_ = static_cast<int>(std::ceil(width / cell_m_));
@@ -34,10 +37,12 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
     if (goal_cell < 0) return;
     const double diagonal = std::numbers::sqrt2;
     const double room_m = disc_radius_m - cell_m_ * diagonal / 2;
-    const auto passable = [&](int index) {
+    const auto factor = [&](int index) {  // of the length through a cell; infinite: blocked
         const Point2 middle =
             origin_ + cell_m_ * Point2{index % width_ + 0.5, index / width_ + 0.5};
-        return field.distance_m(middle) >= room_m;
+        const double free_m = field.distance_m(middle);
+        if (free_m >= disc_radius_m) return 1.0;
+        return free_m >= room_m || index == goal_cell ? kUnsure : kInfinite;
     };
 
     using Entry = std::pair<double, int>;
@@ -54,10 +59,10 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
             for (int dx = -1; dx <= 1; ++dx) {
                 if (x + dx < 0 || x + dx >= width_ || y + dy < 0 || y + dy >= height_) continue;
                 const int next = index + dy * width_ + dx;
-                const double longer = length + cell_m_ * (dx != 0 && dy != 0 ? diagonal : 1);
-                if (longer >= length_m_[static_cast<std::size_t>(next)] || !passable(next)) {
-                    continue;
-                }
+                const double step = cell_m_ * (dx != 0 && dy != 0 ? diagonal : 1);
+                if (length + step >= length_m_[static_cast<std::size_t>(next)]) continue;
+                const double longer = length + step * factor(next);
+                if (longer >= length_m_[static_cast<std::size_t>(next)]) continue;
                 length_m_[static_cast<std::size_t>(next)] = longer;
                 open.emplace(longer, next);
             }

@@ -6,9 +6,10 @@
 
 namespace pulseline::planning {
 
-/// Lengths of the ways of a disc to a goal, round what stands on the floor: what any body that
-/// holds such a disc has to drive at least, up to the cells' size (8-connected, never blocked where
-/// some place in the cell is free for the disc).
+/// Lengths of the ways of a disc to a goal, round what stands on the floor: a guide for any body
+/// that holds such a disc. On cells, 8-connected: up to 8 % longer than the shortest way, and more
+/// through gaps of about the disc's width. Never blocked where some place in the cell is free for
+/// the disc, so that no length at all proves that there is no way.
 class DiscDistances {
 public:
     DiscDistances(const FloorField& field, double disc_radius_m, geometry::Point2 goal);

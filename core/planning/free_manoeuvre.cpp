@@ -68,12 +68,18 @@ public:
         direct();
         if (best_m_ <= kGoodEnough * least_m_) return answer();
         room_.map_standing();
-        const DiscDistances left(room_.field(), room_.inner_radius_m(), request_.goal.position());
-        if (best_.empty() && !std::isfinite(left.from(request_.start.position()))) {
+        const ManoeuvreTask back{task_.steering, room_, task_.goal, task_.start};
+        const DiscDistances to_goal(room_.field(), room_.inner_radius_m(), task_.goal.position());
+        const DiscDistances to_start(room_.field(), room_.inner_radius_m(), task_.start.position());
+        if (best_.empty() && !std::isfinite(to_goal.from(task_.start.position()))) {
             return none(true);
         }
+        // From both ends: leaving a tight place is easier found by ways that end there exactly.
         for (const int fineness : {1, 2}) {
-            consider(lattice_search(task_, left, fineness, limit / 3), Found::kByLattice);
+            consider(lattice_search(task_, to_goal, fineness, {limit / 6, best_m_}),
+                     Found::kByLattice);
+            consider(reversed(lattice_search(back, to_start, fineness, {limit / 6, best_m_})),
+                     Found::kByLattice);
             if (!best_.empty()) break;
         }
         for (std::uint64_t k = 0; best_.empty() && room_.work() < limit; ++k) {

@@ -16,15 +16,17 @@ constexpr double kTurnStep_rad = kPi / 8;
 constexpr double kLeastStep_m = 0.5;
 constexpr int kHeadings = 24;
 constexpr double kGreed = 1.4;  // weight of what is left against what is done
-constexpr std::size_t kWaysTried = 3;
-constexpr double kMoreWork = 0.25;  // share of the work so far that looking for better is worth
-constexpr long kLeastMoreWork = 2000;
+constexpr std::size_t kWaysTried = 4;
+// With a way known, looking for a better one is worth so many tests and a part of those before.
+constexpr long kLeastMoreWork = 3000;
+constexpr long kMoreWork = 4;
 
 struct Node {
     Pose2 pose;
     Move move;  // that led here
     int parent = -1;
     double done_m = 0;
+    double left_m = 0;  // about
 };
 
 std::vector<Move> steps_of(const Steering& steering, double step_m, double turn_rad) {
@@ -57,32 +59,25 @@ public:
           step_m_(std::max(kTurnStep_rad * task.steering.radius_m(), kLeastStep_m) / fineness),
           steps_(steps_of(task.steering, step_m_, kTurnStep_rad / fineness)) {}
 
-    Moves search(long work_limit) {
+    Moves search(const LatticeLimits& limits) {
         const long first_work = task_.room.work();
         reach(task_.start, {}, -1, 0);
-        double best_m = std::numeric_limits<double>::infinity();
+        double best_m = limits.below_m;
         Moves best;
-        long until = work_limit;
+        long until = std::isfinite(best_m) ? std::min(limits.work, kLeastMoreWork) : limits.work;
         while (!open_.empty() && task_.room.work() - first_work < until) {
             const auto [rank, index] = open_.top();
             open_.pop();
             if (by_cell_.at(cell_of(nodes_[index].pose)) != index) continue;  // reached cheaper
-            if (-rank.first >= best_m) break;
-            if (const Way* way = way_to_goal(nodes_[index].pose)) {
-                const double cost = nodes_[index].done_m + way->cost_m;
-                if (cost < best_m) {
-                    if (best.empty()) {
-                        const long so_far = task_.room.work() - first_work;
-                        until = std::min(
-                            work_limit,
-                            so_far + std::max(kLeastMoreWork,
-                                              static_cast<long>(kMoreWork * double(so_far))));
-                    }
-                    best_m = cost;
-                    best = moves_to(static_cast<int>(index));
-                    for (int i = 0; i < way->count; ++i) {
-                        append(best, way->moves[static_cast<std::size_t>(i)]);
-                    }
+            if (nodes_[index].done_m + nodes_[index].left_m >= best_m) continue;
+            const Way* way = way_to_goal(nodes_[index].pose, best_m - nodes_[index].done_m);
+            if (way != nullptr) {
+                const long so_far = task_.room.work() - first_work;
+                until = std::min(limits.work, so_far + kLeastMoreWork + so_far / kMoreWork);
+                best_m = nodes_[index].done_m + way->cost_m;
+                best = moves_to(static_cast<int>(index));
+                for (int i = 0; i < way->count; ++i) {
+                    append(best, way->moves[static_cast<std::size_t>(i)]);
                 }
             }
             expand(index);
@@ -93,10 +88,11 @@ public:
 private:
     using Rank = std::pair<double, long>;  // both negative: the queue gives the greatest first
 
-    const Way* way_to_goal(const Pose2& pose) {
+    const Way* way_to_goal(const Pose2& pose, double below_m) {
         task_.steering.ways(pose, task_.goal, ways_);
         task_.room.add_work(kWaysWork);
         for (std::size_t i = 0; i < std::min(kWaysTried, ways_.size()); ++i) {
+            if (ways_[i].cost_m >= below_m) break;
             if (task_.room.is_free(pose, ways_[i])) return &ways_[i];
         }
         return nullptr;
@@ -116,14 +112,24 @@ private:
     }
 
     void reach(const Pose2& pose, const Move& move, int parent, double done_m) {
-        const double left_m =
-            std::max(left_.from(pose.position()), task_.steering.least_cost_m(pose, task_.goal));
+        const double left_m = left_from(pose);
         task_.room.add_work(kWaysWork);
         if (!std::isfinite(left_m)) return;
         const std::size_t index = nodes_.size();
-        nodes_.push_back({pose, move, parent, done_m});
+        nodes_.push_back({pose, move, parent, done_m, left_m});
         by_cell_[cell_of(pose)] = index;
         open_.push({{-(done_m + kGreed * left_m), -static_cast<long>(index)}, index});
+    }
+
+    /// What is left from a pose, about. A body that moves in any direction turns where it likes, so
+    /// its turn comes on top of the way round the obstacles.
+    double left_from(const Pose2& pose) const {
+        double round_m = left_.from(pose.position());
+        if (task_.steering.any_direction()) {
+            round_m += task_.steering.cost_m(
+                {.kind = Kind::kRotate, .amount = wrap(task_.goal.heading_rad - pose.heading_rad)});
+        }
+        return std::max(round_m, task_.steering.least_cost_m(pose, task_.goal));
     }
 
     std::uint64_t cell_of(const Pose2& pose) const {
@@ -161,8 +167,8 @@ private:
 }  // namespace
 
 Moves lattice_search(const ManoeuvreTask& task, const DiscDistances& left, int fineness,
-                     long work_limit) {
-    return Lattice(task, left, fineness).search(work_limit);
+                     const LatticeLimits& limits) {
+    return Lattice(task, left, fineness).search(limits);
 }
 
 }  // namespace pulseline::planning

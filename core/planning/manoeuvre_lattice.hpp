@@ -5,6 +5,11 @@
 
 namespace pulseline::planning {
 
+struct LatticeLimits {
+    long work = 0;       // in tests of the room
+    double below_m = 0;  // only ways of less cost; with one known already it looks for a short time
+};
+
 /// Best-first search over poses reached by short arcs, straights and turns (hybrid A*: Dolgov,
 /// Thrun, Montemerlo, Diebel 2010, "Path planning for autonomous vehicles in unknown
 /// semi-structured environments"), with the steering's own ways to the goal tried from every pose.
@@ -12,6 +17,6 @@ namespace pulseline::planning {
 /// the obstacles. Deterministic; no more than `work_limit` tests of the room.
 /// `left`: of that disc to the goal. `fineness` 1, 2, ..: steps of an arc of pi / 8 / fineness.
 Moves lattice_search(const ManoeuvreTask& task, const DiscDistances& left, int fineness,
-                     long work_limit);
+                     const LatticeLimits& limits);
 
 }  // namespace pulseline::planning

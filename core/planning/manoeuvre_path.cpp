@@ -129,6 +129,12 @@ void append(Moves& moves, const Move& move) {
     }
 }
 
+Moves reversed(const Moves& moves) {
+    Moves result(moves.rbegin(), moves.rend());
+    for (Move& move : result) move.amount = -move.amount;
+    return result;
+}
+
 double cost_m(const Steering& steering, const Moves& moves) {
     double sum = 0;
     for (const Move& move : moves) sum += steering.cost_m(move);

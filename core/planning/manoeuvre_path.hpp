@@ -25,6 +25,8 @@ using Moves = std::vector<Move>;
 bool same_motion(const Move& a, const Move& b);
 /// Appends a move; one that goes on as the last did only lengthens it.
 void append(Moves& moves, const Move& move);
+/// The same path driven the other way round.
+Moves reversed(const Moves& moves);
 /// Sum of the moves and of a stop between any two.
 double cost_m(const Steering& steering, const Moves& moves);
 

@@ -13,6 +13,7 @@ namespace pulseline::planning {
 
 /// The room that one body has for one manoeuvre: fast tests for the search, exact ones for its
 /// ends and for what is found. Counts its work, which bounds every search the same on any machine.
+/// Thread safety: none, not even for const methods: they count. One room a request.
 class ManoeuvreRoom {
 public:
     /// Of the hall and the vehicle type, built once. All of it outlives the room.
