@@ -92,8 +92,7 @@ TEST(Lidar, ErrsByTheStatedNoiseAndNeverMore) {
         for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
             const double angle =
                 body.heading_rad + scan.first_rad + static_cast<double>(i) * scan.step_rad;
-            const double error =
-                scan.ranges_m[i] - nearest(body.position(), angle, kRooms);
+            const double error = scan.ranges_m[i] - nearest(body.position(), angle, kRooms);
             ASSERT_LE(std::abs(error), 0.0401);
             sum += error;
             sum2 += error * error;
