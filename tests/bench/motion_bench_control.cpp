@@ -10,7 +10,7 @@
 #include "core/control/dynamic_window.hpp"
 #include "core/control/protective_fields.hpp"
 #include "core/simulation/lidar.hpp"
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::bench {
 namespace {

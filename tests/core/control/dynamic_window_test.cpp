@@ -7,7 +7,7 @@
 #include <functional>
 #include <random>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/planning/counted_new.hpp"
 
 namespace pulseline::control {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::control {
 namespace {
@@ -60,6 +60,24 @@ TEST(ObstacleRing, AStraightShiftTowardsAWallIsExact) {
         left_m = std::min(left_m, ObstacleRing::distance_after(place, {0.2, 0, 0}));
     }
     EXPECT_NEAR(left_m, 0.1, 1e-9);
+}
+
+TEST(ObstacleRing, AllowsForThePointsItLeavesOut) {
+    ObstacleRing ring(geometry::rectangle(2, 1));
+    ring.clear(0.5);
+    const Point2 corner{1, 0.5};
+    const auto at = [&](double angle_deg, double distance_m) {
+        const double angle = radians(angle_deg);
+        return corner + distance_m * Point2{std::cos(angle), std::sin(angle)};
+    };
+    const Point2 left_out = at(5.5, 0.1001);
+    ring.add(at(0.5, 0.1));
+    ring.add(left_out);
+    ASSERT_EQ(ring.places().size(), 1u);
+
+    const Pose2 motion{0, 0.01, 0};
+    EXPECT_LE(ObstacleRing::distance_after(ring.places()[0], motion),
+              ring.outline_distance_m(inverse(motion) * left_out));
 }
 
 TEST(ObstacleRing, LeavesOutWhatIsFarOrNoNumber) {

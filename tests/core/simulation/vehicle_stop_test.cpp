@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::simulation {
@@ -64,16 +64,21 @@ TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
 
 TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
     for (const auto& type : {differential_vehicle(), mecanum_vehicle()}) {
+        int steps = 0;
         for (std::uint64_t seed = 1; seed <= 60; ++seed) {
             VehicleMotion motion(type, {}, seed);
             TruePose sensing(motion);
             StopProcedure procedure(motion, sensing);
             const fleet::StopTarget target = target_at({0.003, -0.006, radians(0.08)});
-            const auto outcome = adjusted(procedure, motion, target, [](const Pose2&) {});
+            const auto outcome =
+                adjusted(procedure, motion, target, [&](const Pose2&) { ++steps; });
             EXPECT_TRUE(outcome.succeeded) << outcome.why_not;
             const Pose2 off = inverse(motion.true_pose()) * target.target;
             EXPECT_LE(norm(off.position()), 0.0045);
         }
+        const double mean_s = steps * kStep_s / 60;
+        RecordProperty(type.id.str() + "_mean_ms", static_cast<int>(1e3 * mean_s));
+        EXPECT_LT(mean_s, 60);
     }
 }
 
