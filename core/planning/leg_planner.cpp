@@ -77,12 +77,9 @@ kinematics::ExpectedDeviation expected_of(const plant::VehicleType& type,
     return kinematics::expected_deviation(segments, kinematics::usual_noise(type.kinematics));
 }
 
-/// The finished plan of a draft whose swept area keeps clear, or what blocks it.
-Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
-    const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
-    if (const auto by = task.obstacles.violation(pieces, task.limits)) {
-        return blocked(*by, task.passage.body.clearance_m);
-    }
+/// The plan of a draft that keeps clear; `pieces` are its swept area.
+LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
+                const std::vector<Polygon>& pieces) {
     const auto sums = kinematics::summed(mode, std::move(draft.segments));
     LegPlan plan;
     plan.mode = mode;
@@ -100,6 +97,15 @@ Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
         if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
     }
     return plan;
+}
+
+/// The finished plan of a draft whose swept area keeps clear, or what blocks it.
+Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
+    const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
+    if (const auto by = task.obstacles.violation(pieces, task.limits)) {
+        return blocked(*by, task.passage.body.clearance_m);
+    }
+    return cleared(task, mode, std::move(draft), pieces);
 }
 
 /// One way after another. A route begins where the vehicle first comes to the roadmap.
@@ -141,8 +147,10 @@ void describe(const Body& body, const Obstacles& obstacles,
 
 Result<LegPlan> assess_free(const LegTask& task, FreeLegs& free,
                             const std::vector<StandingBody>& standing) {
-    return free.draft(task, standing).and_then([&](LegDraft draft) {
-        return finish(task, MotionMode::kFree, std::move(draft));
+    return free.draft(task, standing).map([&](LegDraft draft) {
+        // It was checked with finer sweeps than these, which would refuse what just fits.
+        const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
+        return cleared(task, MotionMode::kFree, std::move(draft), pieces);
     });
 }
 

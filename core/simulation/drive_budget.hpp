@@ -45,6 +45,7 @@ struct DriveBudget {
     double slip_time_s = 0.25;
     double slip_speed_mps = 0.05;            // slower says nothing
     double following_limit_m = 0.04;         // of a wheel; 0.01 is usual
+    double lag_m = 0.015;                    // while wheels and floor disagree: the encoder
     double steering_limit_rad = radians(8);  // of following: half a degree is usual
     double path_limit_m = 0.12;              // an order may begin 0.05 m from its first node
     double path_limit_rad = radians(4);

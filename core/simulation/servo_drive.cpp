@@ -271,7 +271,12 @@ void ServoDrive::watch_slip() {
     const double pace = std::hypot(told_.twist.vx_mps, told_.twist.vy_mps);
     if (pace > budget_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
     slipping_s_ = share > budget_.slip_limit ? slipping_s_ + kCycle_s : 0;
-    if (slipping_s_ > budget_.slip_time_s) stop_for({"slip", {{"share", share}}});
+    if (slipping_s_ <= budget_.slip_time_s) return;
+    if (auto wheel = wheels_.lagging()) {
+        wheels_.switch_off(*wheel);
+        return stop_for({"wheel_fault", {{"wheel", *wheel}}});
+    }
+    stop_for({"slip", {{"share", share}}});
 }
 
 /// The first cause stays: what follows comes of it.

@@ -196,6 +196,18 @@ std::optional<std::string> WheelSet::fault() const {
     return std::nullopt;
 }
 
+std::optional<std::string> WheelSet::lagging() const {
+    for (const Wheel& wheel : wheels_) {
+        if (wheel.roll && std::abs(wheel.roll->following_error()) > budget_.lag_m)
+            return wheel.plan.name;
+    }
+    return std::nullopt;
+}
+
+void WheelSet::switch_off(const std::string& name) {
+    for (Wheel& wheel : wheels_) wheel.blind |= wheel.plan.name == name;
+}
+
 bool WheelSet::break_wheel(const std::string& name) {
     for (Wheel& wheel : wheels_) {
         if (wheel.plan.name != name) continue;

@@ -48,6 +48,10 @@ public:
     bool settled() const;
     /// The first wheel that is broken or does not follow its command.
     std::optional<std::string> fault() const;
+    /// The first driven wheel that lags so far behind that its encoder, not the floor, is to blame.
+    std::optional<std::string> lagging() const;
+    /// Switches such a wheel's motor off until brake().
+    void switch_off(const std::string& name);
 
     // Faults from outside; false: there is no such wheel (or it has no motor to lose).
     bool break_wheel(const std::string& name);

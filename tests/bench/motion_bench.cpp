@@ -13,6 +13,8 @@
 
 #include "tests/bench/manoeuvre_bench.hpp"
 #include "tests/bench/manoeuvre_reference.hpp"
+#include "tests/bench/motion_bench_control.hpp"
+#include "tests/bench/motion_bench_primitives.hpp"
 
 namespace {
 
@@ -22,7 +24,9 @@ struct Section {
     const char* name;
     nlohmann::json (*measure)(bool& passed);
 };
-constexpr std::array kSections{Section{"manoeuvres", measure_manoeuvres}};
+constexpr std::array kSections{Section{"primitives", measure_primitives},
+                               Section{"control", measure_control},
+                               Section{"manoeuvres", measure_manoeuvres}};
 
 /// "--name value" and "--name=value".
 std::map<std::string, std::string> options_from(int argc, char** argv) {

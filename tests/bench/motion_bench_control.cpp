@@ -49,12 +49,13 @@ struct Times {
         return sum / static_cast<double>(us.size());
     }
     /// Prints and compares the p99 with what is allowed.
-    bool report(const char* name, const char* vehicle, double allowed_us) {
+    bool report(const char* name, const char* vehicle, double allowed_us, nlohmann::json& out) {
         std::ranges::sort(us);
         const double p99 = us[us.size() * 99 / 100];
         const bool good = p99 <= allowed_us;
         std::printf("%-22s %-20s %9zu  %8.1f %8.1f %8.1f   <= %.0f %s\n", name, vehicle, us.size(),
                     us[us.size() / 2], mean(), p99, allowed_us, good ? "yes" : "NO");
+        out[vehicle][name] = {{"p50_us", us[us.size() / 2]}, {"mean_us", mean()}, {"p99_us", p99}};
         return good;
     }
 };
@@ -96,7 +97,7 @@ std::vector<Point2> narrow_place(const plant::VehicleType& type) {
     return points;
 }
 
-bool bench_window(const plant::VehicleType& type, bool narrow) {
+bool bench_window(const plant::VehicleType& type, bool narrow, nlohmann::json& out) {
     Times times;
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> share(-1, 1);
@@ -125,10 +126,10 @@ bool bench_window(const plant::VehicleType& type, bool narrow) {
         }
     }
     return times.report(narrow ? "dynamic window, narrow" : "dynamic window, free",
-                        plant::to_string(type.kinematics), kMostStep_us);
+                        plant::to_string(type.kinematics), kMostStep_us, out);
 }
 
-bool bench_scanner(const plant::VehicleType& type) {
+bool bench_scanner(const plant::VehicleType& type, nlohmann::json& out) {
     Hall hall;
     const auto box = geometry::bounding_box(type.footprint);
     const simulation::Lidar lidar({box.max.x_m, 0, 0}, hall.fixed);
@@ -144,22 +145,22 @@ bool bench_scanner(const plant::VehicleType& type) {
         checks.take([&] { (void)fields.check(scan, twist); });
     }
     const char* name = plant::to_string(type.kinematics);
-    const bool scan_good = scans.report("scan of 1081 rays", name, kMostScan_us);
-    return checks.report("protective fields", name, kMostScan_us) && scan_good;
+    const bool scan_good = scans.report("scan of 1081 rays", name, kMostScan_us, out);
+    return checks.report("protective fields", name, kMostScan_us, out) && scan_good;
 }
 
 }  // namespace
 
-bool bench_control() {
+nlohmann::json measure_control(bool& passed) {
     using namespace control::testing;
+    nlohmann::json out;
     std::printf("%-22s %-20s %9s  %8s %8s %8s\n", "", "", "times", "p50 us", "mean us", "p99 us");
-    bool good = true;
     for (const auto& type : {differential_vehicle(), mecanum_vehicle(), steered_platform()}) {
-        good &= bench_window(type, false);
-        good &= bench_window(type, true);
-        good &= bench_scanner(type);
+        passed &= bench_window(type, false, out);
+        passed &= bench_window(type, true, out);
+        passed &= bench_scanner(type, out);
     }
-    return good;
+    return out;
 }
 
 }  // namespace pulseline::bench

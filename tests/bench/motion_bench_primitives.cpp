@@ -56,8 +56,8 @@ double quantile(const std::vector<double>& sorted, double share) {
 
 }  // namespace
 
-bool bench_primitives(nlohmann::json& out) {
-    bool kept = true;
+nlohmann::json measure_primitives(bool& passed) {
+    nlohmann::json out;
     std::printf("primitive and swept area, microseconds (limit %.0f at p99)\n", kLimit_us);
     for (const auto& type : {kinematics::tang_platform(), kinematics::mecanum_platform(),
                              kinematics::differential_vehicle()}) {
@@ -65,14 +65,14 @@ bool bench_primitives(nlohmann::json& out) {
             const auto times = measure(type, mode);
             const double p50 = quantile(times, 0.5);
             const double p99 = quantile(times, 0.99);
-            kept &= p99 <= kLimit_us;
+            passed = passed && p99 <= kLimit_us;
             std::printf("  %-13s %-20s p50 %6.1f  p99 %6.1f  (%zu)\n", type.name.c_str(),
                         plant::to_string(mode), p50, p99, times.size());
             out[type.name][plant::to_string(mode)] = {
                 {"p50_us", p50}, {"p99_us", p99}, {"motions", times.size()}};
         }
     }
-    return kept;
+    return out;
 }
 
 }  // namespace pulseline::bench

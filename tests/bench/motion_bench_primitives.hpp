@@ -5,7 +5,7 @@
 namespace pulseline::bench {
 
 /// Plans every motion mode of every family between random poses, sweeps what the body covers, and
-/// prints what both take together; true when the 99th percentile keeps to its limit.
-bool bench_primitives(nlohmann::json& out);
+/// prints what both take together. `passed` becomes false when a 99th percentile misses its limit.
+nlohmann::json measure_primitives(bool& passed);
 
 }  // namespace pulseline::bench
