@@ -82,14 +82,15 @@ PathReference::Move PathReference::make_move(const Segment& segment, double max_
         move.max_accel = turn_accel;
         return move;
     }
-    move.max_rate = type_.max_speed_mps * time_factor_ * rate_share;
-    if (max_speed_mps > 0) move.max_rate = std::min(move.max_rate, max_speed_mps);
+    move.max_rate = type_.max_speed_mps * time_factor_;
     move.max_accel = type_.max_accel_mps2 * time_factor_ * time_factor_;
     if (segment.turn_rad != 0) {
         const double radius = radius_m(segment);
         move.max_rate = std::min(move.max_rate, turn_rate * radius);
         move.max_accel = std::min(move.max_accel, turn_accel * radius);
     }
+    move.max_rate *= rate_share;
+    if (max_speed_mps > 0) move.max_rate = std::min(move.max_rate, max_speed_mps);
     return move;
 }
 
