@@ -40,8 +40,7 @@ struct DriveBudget {
     // Steering.
     double aligned_rad = radians(0.2);  // wheels closer to their direction may roll
     // Supervision.
-    double slip_limit =
-        0.07;  // share between rim and floor; one wheel of two that loses 20 % shows 10
+    double slip_limit = 0.07;  // share between rim and floor: one wheel of two losing 20 % shows 10
     double slip_time_s = 0.25;
     double slip_speed_mps = 0.05;            // slower says nothing
     double following_limit_m = 0.04;         // of a wheel; 0.01 is usual

@@ -53,6 +53,10 @@ std::optional<StopProcedure::Outcome> StopProcedure::step(double dt_s) {
         return finish(false, "cancelled");
     }
     if (!motion_.idle()) {
+        if (const auto cause = motion_.stop_cause(); cause && motion_.standing()) {
+            motion_.clear();
+            return finish(false, "drive_stopped: " + cause->code);
+        }
         settling_s_ = kSettle_s / motion_.time_factor();
         return std::nullopt;
     }

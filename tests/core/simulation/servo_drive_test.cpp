@@ -116,6 +116,19 @@ TEST(ServoDrive, DrivesSidewaysAndDiagonallyWhereTheWheelsAllowIt) {
     }
 }
 
+TEST(ServoDrive, ABendIsNoFasterThanItsOuterWheels) {
+    const auto type = platform();
+    ServoDrive drive(type, {}, 3);
+    drive.append(arc({}, {0, 13}, -1.1, true));
+    while (!drive.idle() && !drive.stop_cause()) {
+        drive.step(kStep_s);
+        for (const auto& wheel : drive.wheels()) {
+            EXPECT_LT(std::abs(wheel.speed_mps), 1.01 * type.max_speed_mps);
+        }
+    }
+    EXPECT_FALSE(drive.stop_cause());
+}
+
 TEST(ServoDrive, SteersStandingBeforeItMovesInANewDirectionAndNotTooFast) {
     const double rate_radps = platform().max_steering_rate_radps;
     ServoDrive drive(platform(), {}, 3);

@@ -94,6 +94,23 @@ TEST_P(ServoExecutorTest, AdjustsItsTruePoseAtTheEndOfALeg) {
     EXPECT_LT(std::abs(off.heading_rad), radians(0.04));
 }
 
+TEST_P(ServoExecutorTest, ADriveThatBreaksInACorrectionFailsTheAction) {
+    fleet::Action adjust;
+    adjust.type = "adjustToMarker";
+    adjust.id = "adjust";
+    adjust.stop_target = fleet::StopTarget{"st01", 1, {3.05, 0, 0}, 0.025, 0.025, 0.0035, {}};
+    executor.handle(leg(3, {adjust}));
+    for (int i = 0; i < 2000 && status("adjust") != ActionStatus::kRunning; ++i) run(kStep_s);
+    while (drive.idle()) run(kStep_s);
+    drive.break_wheel(GetParam() == 0 ? "front drive" : "FL");
+    run(10);
+    EXPECT_EQ(status("adjust"), ActionStatus::kFailed);
+    EXPECT_TRUE(drive.idle());
+    fleet::StateMessage state;
+    executor.write_state(state);
+    EXPECT_EQ(state.action_states.at(0).result_description, "drive_stopped: wheel_fault");
+}
+
 TEST_P(ServoExecutorTest, CancelWhileItDrivesOrSteersLeavesAnIdleVehicle) {
     executor.handle(leg(12, {}));
     run(5);

@@ -237,18 +237,22 @@ protected:
         auto& type = world.plant.vehicle_types[0];
         const auto wheels = pulseline::testing::platform();
         type.wheels = wheels.wheels;
+        type.brackets = wheels.brackets;
         type.mass_kg = wheels.mass_kg;
+        type.max_load_kg = wheels.max_load_kg;
+        world.plant.vehicles[0].load_kg = 18000;
     }
-    void start(std::vector<Fault> faults) {
+    void start(std::vector<Fault> faults, std::vector<fleet::Action> actions = {}) {
         VehicleSettings settings{1, 10, false, {}, 1, std::move(faults), true};
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
                       nullptr);
         servo->link_up();
         tell("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
-        servo->receive(
-            vda5050::encode_frame(vda5050::Topic::kOrder, false,
-                                  vda5050::encode_order(straight_order({20, 10, 0}, 12),
-                                                        headers.next(vda5050::Topic::kOrder, {}))));
+        auto order = straight_order({20, 10, 0}, 12);
+        order.nodes[1].actions = std::move(actions);
+        servo->receive(vda5050::encode_frame(
+            vda5050::Topic::kOrder, false,
+            vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
     }
     void tell(const std::string& type, std::optional<fleet::InitPosition> init = {}) {
         fleet::Action action;
@@ -298,6 +302,27 @@ TEST_F(ServoVehicleTest, ASlippingWheelIsAFatalErrorUntilThePersonsCancelIsOver)
     tell("cancelOrder");
     drive(1000ms);
     EXPECT_TRUE(state.errors.empty());
+}
+
+TEST_F(ServoVehicleTest, SetsItsBracketsAtANodeAndReportsTheirLoads) {
+    const auto set = [](const std::string& id, const std::string& bracket, double height_m) {
+        fleet::Action action;
+        action.type = "setBracketHeight";
+        action.id = id;
+        action.params = {{"bracket", bracket}, {"height_m", height_m}};
+        return action;
+    };
+    start({}, {set("up", "all", 0.05), set("one", "front left", 0.25)});
+    drive(15000ms);
+    ASSERT_EQ(state.brackets.size(), 4u);
+    std::map<std::string, fleet::ActionState> actions;
+    for (const auto& action : state.action_states) actions[action.id] = action;
+    EXPECT_EQ(actions["up"].status, fleet::ActionStatus::kFinished);
+    EXPECT_EQ(actions["one"].status, fleet::ActionStatus::kFailed);
+    EXPECT_EQ(actions["one"].result_description.rfind("bracket_force_out_of_range", 0), 0u);
+    double force_n = 0;
+    for (const auto& bracket : state.brackets) force_n += bracket.force_a_n + bracket.force_b_n;
+    EXPECT_NEAR(force_n, 18000 * 9.80665, 2000);
 }
 
 TEST_F(ServoVehicleTest, ADeadEncoderIsReportedAsAFaultOfItsWheel) {
