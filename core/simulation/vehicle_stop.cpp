@@ -1,5 +1,6 @@
 #include "core/simulation/vehicle_stop.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,16 @@ bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& tar
            std::abs(measured.pose.y_m - target.target.y_m) <= target.tolerance_y_m &&
            std::abs(wrap(measured.pose.heading_rad - target.target.heading_rad)) <=
                target.tolerance_heading_rad;
+}
+
+/// Adjusting ends well inside the tolerance: what is left must not be decided by the next look.
+control::AdjustmentLimits limits_for(control::AdjustmentLimits limits,
+                                     const fleet::StopTarget& target) {
+    constexpr double kShare = 0.4;
+    limits.good_m =
+        std::min({limits.good_m, kShare * target.tolerance_x_m, kShare * target.tolerance_y_m});
+    limits.good_rad = std::min(limits.good_rad, kShare * target.tolerance_heading_rad);
+    return limits;
 }
 
 }  // namespace
@@ -32,7 +43,7 @@ void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
     correct_ = correct;
     running_ = true;
     aborting_ = false;
-    adjustment_ = control::Adjustment(motion_.type(), limits_);
+    adjustment_ = control::Adjustment(motion_.type(), limits_for(limits_, target));
     blind_passes_ = 0;
     last_.reset();
     driven_.clear();

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
     Options options;
     options.folder = PULSELINE_EXPERIMENTS;
     app.add_option("NAME", name)
-        ->check(CLI::IsMember({"all", "landmark-accuracy", "stop-adjustment"}));
+        ->check(CLI::IsMember({"all", "landmark-accuracy", "stop-adjustment", "stops"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     CLI11_PARSE(app, argc, argv);
@@ -20,5 +20,6 @@ int main(int argc, char** argv) {
     bool good = true;
     if (name == "all" || name == "landmark-accuracy") good &= landmark_accuracy(options);
     if (name == "all" || name == "stop-adjustment") good &= stop_adjustment(options);
+    if (name == "all" || name == "stops") good &= stops(options);
     return good ? 0 : 1;
 }

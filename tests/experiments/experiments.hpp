@@ -21,4 +21,9 @@ bool landmark_accuracy(const Options& options);
 /// not read or the compensated loop is not ten times better than the paper's.
 bool stop_adjustment(const Options& options);
 
+/// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum with positions of
+/// iGPS grade), Li 2020 (differential vehicle, landmark). False when one is refused or misses what
+/// is asked of it.
+bool stops(const Options& options);
+
 }  // namespace pulseline::experiments

@@ -1,0 +1,250 @@
+#include "tests/experiments/stop_runs.hpp"
+
+#include <cmath>
+#include <memory>
+#include <random>
+#include <stdexcept>
+
+#include "api/plant/plant_file.hpp"
+#include "core/kinematics/motion.hpp"
+#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/vehicle_executor.hpp"
+#include "server/agent/camera_sensing.hpp"
+
+namespace pulseline::experiments {
+namespace {
+
+using geometry::Point2;
+using geometry::Pose2;
+
+constexpr double kTick_s = 0.02;
+constexpr double kPatience_s = 600;  // of the vehicle's own time, for one stop
+// Wang: four transmitters on 20 m x 10 m with 10 urad give 0.105 mm in space, 0.06 mm an axis.
+constexpr double kReceiver_m = 6e-5;
+constexpr double kReceiverPlace_m = 2e-5;  // after calibration
+
+/// Pose by receivers at the corners (Wang eq. 1 and 2; here the rigid fit of all four).
+class ReceiverSensing : public simulation::StopSensing {
+public:
+    ReceiverSensing(const simulation::Drive& drive, std::uint64_t seed)
+        : drive_(drive), random_(seed) {
+        const auto box = geometry::bounding_box(drive.type().footprint);
+        for (const double x_m : {box.min.x_m, box.max.x_m}) {
+            for (const double y_m : {box.min.y_m, box.max.y_m}) {
+                calibrated_.push_back({x_m, y_m});
+                actual_.push_back({x_m + noise(kReceiverPlace_m), y_m + noise(kReceiverPlace_m)});
+            }
+        }
+    }
+
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
+        std::vector<Point2> seen;
+        for (const Point2& place : actual_) {
+            const Point2 at = drive_.true_pose() * place;
+            seen.push_back({at.x_m + noise(kReceiver_m), at.y_m + noise(kReceiver_m)});
+        }
+        const double sigma_m = kReceiver_m / std::sqrt(static_cast<double>(seen.size()));
+        return fleet::StopMeasurement{
+            fit(seen), sigma_m, sigma_m / norm(calibrated_[0]), "igps", {}};
+    }
+
+private:
+    double noise(double sigma) { return sigma * normal_(random_); }
+
+    /// Hall from body: centroids, and the angle between what is left.
+    Pose2 fit(const std::vector<Point2>& seen) const {
+        const double share = 1.0 / static_cast<double>(seen.size());
+        Point2 body;
+        Point2 hall;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            body = body + share * calibrated_[i];
+            hall = hall + share * seen[i];
+        }
+        double along = 0;
+        double across = 0;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            along += dot(calibrated_[i] - body, seen[i] - hall);
+            across += cross(calibrated_[i] - body, seen[i] - hall);
+        }
+        const Pose2 turned{hall.x_m, hall.y_m, std::atan2(across, along)};
+        const Point2 origin = turned * (Point2{} - body);
+        return {origin.x_m, origin.y_m, turned.heading_rad};
+    }
+
+    const simulation::Drive& drive_;
+    std::mt19937_64 random_;
+    std::normal_distribution<double> normal_;
+    std::vector<Point2> calibrated_;
+    std::vector<Point2> actual_;
+};
+
+/// Counts looks and keeps where the vehicle stood at the first.
+class Watched : public simulation::StopSensing {
+public:
+    Watched(simulation::StopSensing& eyes, const simulation::Drive& drive)
+        : eyes_(eyes), drive_(drive) {}
+    void forget() { looks_ = 0; }
+    int looks() const { return looks_; }
+    const Pose2& first() const { return first_; }
+    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override {
+        if (looks_++ == 0) first_ = drive_.true_pose();
+        return eyes_.measure(target);
+    }
+
+private:
+    simulation::StopSensing& eyes_;
+    const simulation::Drive& drive_;
+    int looks_ = 0;
+    Pose2 first_;
+};
+
+fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
+                            double good_m) {
+    fleet::StopTarget target;
+    target.station_id = station.id.str();
+    target.station_number = station.number;
+    target.target = station.pose;
+    target.tolerance_x_m = std::min(station.tolerance.dx_m, 2.5 * good_m);
+    target.tolerance_y_m = std::min(station.tolerance.dy_m, 2.5 * good_m);
+    target.tolerance_heading_rad = station.tolerance.dheading_rad;
+    for (const auto& id : station.markers) {
+        const auto& marker = *plant::find_marker(plant, id);
+        target.markers.push_back({marker.payload, plant::to_string(marker.kind), marker.size_m,
+                                  marker.pose, marker.sigma_xy_m});
+    }
+    return target;
+}
+
+fleet::OrderMessage order_to(const std::string& id, const std::string& map,
+                             const std::vector<kinematics::Segment>& segments,
+                             const fleet::StopTarget& target) {
+    fleet::OrderMessage order;
+    order.order_id = id;
+    const auto add_node = [&](const Pose2& pose) {
+        fleet::OrderNode node;
+        node.node_id = id + "-" + std::to_string(order.nodes.size());
+        node.sequence_id = 2 * static_cast<std::int64_t>(order.nodes.size());
+        node.released = true;
+        node.pose = pose;
+        node.map_id = map;
+        order.nodes.push_back(node);
+    };
+    add_node(segments.front().start);
+    for (const auto& segment : segments) {
+        fleet::OrderEdge edge;
+        edge.edge_id = id + "-e" + std::to_string(order.edges.size());
+        edge.sequence_id = 2 * static_cast<std::int64_t>(order.edges.size()) + 1;
+        edge.released = true;
+        edge.segment = segment;
+        order.edges.push_back(edge);
+        add_node(segment.end);
+    }
+    for (const char* type : {"adjustToMarker", "measureStop"}) {
+        fleet::Action action;
+        action.type = type;
+        action.id = id + "-" + type;
+        action.stop_target = target;
+        order.nodes.back().actions.push_back(action);
+    }
+    return order;
+}
+
+/// One vehicle with its machine, eyes and executor.
+class Vehicle {
+public:
+    Vehicle(const StopFamily& family, const simulation::World& world, std::uint64_t seed,
+            double time_factor)
+        : family_(family),
+          plant_(world.plant),
+          vehicle_(*plant::find_vehicle(plant_, plant::VehicleId(family.vehicle))),
+          hall_(plant::find_station(plant_, vehicle_.home)->hall),
+          drive_(*plant::find_vehicle_type(plant_, vehicle_.type),
+                 simulation::placed_pose(world, vehicle_, seed).value(), seed, time_factor,
+                 vehicle_.load_kg),
+          cameras_(world, hall_, drive_, true, seed),
+          receivers_(drive_, seed),
+          eyes_(family.igps ? static_cast<simulation::StopSensing&>(receivers_) : cameras_, drive_),
+          executor_(drive_, eyes_, hall_.str()) {
+        fleet::Action here;
+        here.type = "initPosition";
+        here.id = "init";
+        here.init_position = fleet::InitPosition{drive_.true_pose(), hall_.str(), {}};
+        executor_.handle(fleet::InstantActionsMessage{{here}});
+    }
+
+    Stop drive_to(int number) {
+        const auto& station = *plant::find_station(plant_, number);
+        Stop stop;
+        stop.station = number;
+        const auto plan = kinematics::plan_motion(drive_.type(), drive_.believed_pose(),
+                                                  station.pose, plant::MotionMode::kLinear);
+        if (!plan) throw std::runtime_error(plan.error().what);
+        eyes_.forget();
+        const std::string id = "leg-" + std::to_string(++legs_);
+        executor_.handle(
+            order_to(id, hall_.str(), plan->segments, target_at(plant_, station, family_.good_m)));
+        double left_s = kPatience_s / drive_.time_factor();
+        while (stop.why_not.empty() && !done(id, stop)) {
+            executor_.step(kTick_s);
+            left_s -= kTick_s;
+            if (eyes_.looks() > 0) stop.time_s += kTick_s * drive_.time_factor();
+            if (left_s < 0) stop.why_not = "not there in time";
+        }
+        stop.arrived = inverse(station.pose) * eyes_.first();
+        stop.off = inverse(station.pose) * drive_.true_pose();
+        stop.looks = eyes_.looks();
+        return stop;
+    }
+
+private:
+    bool done(const std::string& id, Stop& stop) {
+        fleet::StateMessage state;
+        executor_.write_state(state);
+        for (const auto& error : state.errors) stop.why_not = error.type + ": " + error.description;
+        bool finished = false;
+        for (const auto& action : state.action_states) {
+            if (action.id.rfind(id, 0) != 0) continue;
+            if (action.status == fleet::ActionStatus::kFailed)
+                stop.why_not = action.result_description;
+            finished |=
+                action.type == "measureStop" && action.status == fleet::ActionStatus::kFinished;
+        }
+        return finished;
+    }
+
+    const StopFamily& family_;
+    const plant::Plant& plant_;
+    const plant::Vehicle& vehicle_;
+    plant::HallId hall_;
+    simulation::ServoDrive drive_;
+    agent::CameraSensing cameras_;
+    ReceiverSensing receivers_;
+    Watched eyes_;
+    simulation::VehicleExecutor executor_;
+    int legs_ = 0;
+};
+
+}  // namespace
+
+std::vector<StopFamily> stop_families() {
+    return {{"platform, QR", "TP-01", {2, 3, 1}},
+            {"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.00015},
+            {"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.0005}};
+}
+
+std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file, int count,
+                            std::uint64_t seed, double time_factor) {
+    auto plant = plant::load_plant_file(plant_file);
+    if (!plant) throw std::runtime_error(plant.error().what);
+    const auto world = simulation::make_world(std::move(*plant), seed);
+    Vehicle vehicle(family, world, seed, time_factor);
+    std::vector<Stop> stops;
+    for (int i = 0; i < count; ++i) {
+        const auto next = static_cast<std::size_t>(i) % family.stations.size();
+        stops.push_back(vehicle.drive_to(family.stations[next]));
+        if (!stops.back().why_not.empty()) break;
+    }
+    return stops;
+}
+
+}  // namespace pulseline::experiments
