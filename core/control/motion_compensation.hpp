@@ -85,7 +85,7 @@ constexpr double kMostGain = 1.25;  // and its inverse
 constexpr double kMostOffset_m = 0.005;
 constexpr double kMostOffset_rad = radians(1.5);
 /// Spread of a creeping move that nothing explains, one sigma.
-constexpr double kRepeatability_m = 3e-4;
+constexpr double kRepeatability_m = 2e-4;
 constexpr double kRepeatability_rad = 1e-4;
 
 }  // namespace pulseline::control

@@ -99,13 +99,13 @@ private:
 };
 
 fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
-                            double good_m) {
+                            double tolerance_m) {
     fleet::StopTarget target;
     target.station_id = station.id.str();
     target.station_number = station.number;
     target.target = station.pose;
-    target.tolerance_x_m = std::min(station.tolerance.dx_m, 2.5 * good_m);
-    target.tolerance_y_m = std::min(station.tolerance.dy_m, 2.5 * good_m);
+    target.tolerance_x_m = tolerance_m;
+    target.tolerance_y_m = tolerance_m;
     target.tolerance_heading_rad = station.tolerance.dheading_rad;
     for (const auto& id : station.markers) {
         const auto& marker = *plant::find_marker(plant, id);
@@ -182,7 +182,7 @@ public:
         eyes_.forget();
         const std::string id = "leg-" + std::to_string(++legs_);
         executor_.handle(
-            order_to(id, hall_.str(), plan->segments, target_at(plant_, station, family_.good_m)));
+            order_to(id, hall_.str(), plan->segments, target_at(plant_, station, family_.tolerance_m)));
         double left_s = kPatience_s / drive_.time_factor();
         while (stop.why_not.empty() && !done(id, stop)) {
             executor_.step(kTick_s);
@@ -228,8 +228,8 @@ private:
 
 std::vector<StopFamily> stop_families() {
     return {{"platform, QR", "TP-01", {2, 3, 1}},
-            {"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.00015},
-            {"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.0005}};
+            {"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.0004},
+            {"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002}};
 }
 
 std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file, int count,

@@ -16,7 +16,7 @@ struct StopFamily {
     std::string vehicle;        // of the plant final-assembly
     std::vector<int> stations;  // driven to in turn
     bool igps = false;          // four receivers instead of the cameras
-    double good_m = 0.002;      // adjusting ends inside it
+    double tolerance_m = 0.025;  // either way, along both axes
 };
 /// Tang 2020, Wang and Li 2020.
 std::vector<StopFamily> stop_families();

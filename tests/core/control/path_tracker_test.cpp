@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::control {
 namespace {
