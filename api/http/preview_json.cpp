@@ -50,7 +50,9 @@ Json segment_json(const kinematics::Segment& segment) {
     return json;
 }
 
-Json option_json(const planning::ModeOption& option) {
+}  // namespace
+
+Json mode_option_json(const planning::ModeOption& option) {
     Json json = {{"mode", plant::to_string(option.mode)},
                  {"feasible", option.plan.has_value()},
                  {"suggested", option.suggested}};
@@ -74,9 +76,15 @@ Json option_json(const planning::ModeOption& option) {
     json["clearance_m"] = plan.clearance_m;
     json["nearest"] = plan.nearest;
     json["swept_area_m2"] = plan.swept_area_m2;
+    if (plan.wheels) {
+        json["wheels"] = {{"max_speed_mps", plan.wheels->speed_mps},
+                          {"max_steering_rad", plan.wheels->steering_rad}};
+    }
     json["swept"] = rings_json(plan.swept);
     return json;
 }
+
+namespace {
 
 const char* text(planning::LegAlternative::Reason reason) {
     using Reason = planning::LegAlternative::Reason;
@@ -112,7 +120,7 @@ Json step_json(const fleet::StepPreview& step,
     Json json = {{"station", step.station.str()},
                  {"number", step.number},
                  {"start", pose_json(step.start)},
-                 {"options", list_json(step.options, option_json)},
+                 {"options", list_json(step.options, mode_option_json)},
                  {"alternatives", list_json(step.alternatives, alternative_json)}};
     if (step.chosen) json["chosen"] = plant::to_string(*step.chosen);
     if (expected && expected->stops > 0) {

@@ -4,6 +4,7 @@
 
 #include "api/access/secrets.hpp"
 #include "api/http/base64.hpp"
+#include "api/http/motion_question_body.hpp"
 #include "api/http/order_body.hpp"
 #include "api/http/page.hpp"
 #include "api/json/object_reader.hpp"
@@ -22,7 +23,6 @@ constexpr std::size_t kMaxClosed = 1000;
 constexpr std::int64_t kMaxRoutes = 10;
 constexpr std::int64_t kMaxStation = 1'000'000'000;
 constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
-constexpr double kMaxHeading_rad = 6.2832;
 constexpr std::size_t kMaxKeyBytes = 128;
 constexpr json::TextLimits kVehicleName{1, 64};
 constexpr json::TextLimits kClosureName{1, 100};
@@ -183,13 +183,7 @@ Result<fleet::ControlRequest> read_job_control(const Request& request) {
 }
 
 Result<geometry::Pose2> read_pose(const Request& request) {
-    return read_object<geometry::Pose2>(request, [](ObjectReader& in) {
-        geometry::Pose2 pose;
-        pose.x_m = in.number("x_m", {-kMaxCoordinate_m, kMaxCoordinate_m});
-        pose.y_m = in.number("y_m", {-kMaxCoordinate_m, kMaxCoordinate_m});
-        pose.heading_rad = wrap(in.number("heading_rad", {-kMaxHeading_rad, kMaxHeading_rad}));
-        return pose;
-    });
+    return read_object<geometry::Pose2>(request, read_pose_members);
 }
 
 Result<IntegrationRequest> read_integration(const Request& request) {
@@ -248,6 +242,10 @@ Result<planning::WhatIf> read_what_if(const Request& request) {
             });
         return read;
     });
+}
+
+Result<fleet::MotionQuestion> read_motion_question(const Request& request) {
+    return read_object<fleet::MotionQuestion>(request, read_motion_question_body);
 }
 
 Result<vision::LocalizationQuestion> read_localization(const Request& request) {

@@ -10,6 +10,7 @@
 #include "api/vision/localization.hpp"
 #include "core/base/result.hpp"
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/motion_preview.hpp"
 #include "core/planning/what_if.hpp"
 #include "core/printing/marker_sheet.hpp"
 
@@ -43,6 +44,7 @@ Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 
 Result<fleet::NewClosure> read_new_closure(const Request& request);
 Result<planning::WhatIf> read_what_if(const Request& request);
+Result<fleet::MotionQuestion> read_motion_question(const Request& request);
 Result<vision::LocalizationQuestion> read_localization(const Request& request);
 
 struct SheetsRequest {

@@ -1,6 +1,7 @@
 #include "api/http/job_order_handlers.hpp"
 #include "api/http/localization_handlers.hpp"
 #include "api/http/marker_handlers.hpp"
+#include "api/http/motion_preview_handlers.hpp"
 #include "api/http/route_handlers.hpp"
 #include "api/http/router.hpp"
 #include "api/http/schedule_handlers.hpp"
@@ -139,6 +140,7 @@ std::span<const Route> routes() {
          resume_schedule},
 
         {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes, true},
+        {"POST", "/api/v1/motion-previews", "previewMotions", kOperator, {}, preview_motions, true},
         {"POST", "/api/v1/localizations", "localize", kOperator, {}, localize, true, kImageBody},
 
         {"GET",

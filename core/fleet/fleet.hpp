@@ -48,6 +48,8 @@ struct Outputs {
     bool fleet_changed = false;
 };
 
+struct MotionQuestion;  // motion_preview.hpp
+struct MotionTask;
 struct PlantTables;  // plant_tables.hpp
 struct FleetState;   // state.hpp, for the phases of core/fleet only
 namespace journal {
@@ -161,6 +163,9 @@ public:
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;
+    /// What preview_motions needs of the fleet. Errors: unknown_vehicle, unknown_station,
+    /// unknown_hall, other_hall, pose_unknown, outside_hall.
+    Result<MotionTask> motion_task(const MotionQuestion& question) const;
     std::optional<JobOrder> order(JobOrderId id) const;
     std::vector<JobOrder> orders() const;  // open ones and recent final ones, newest first
     std::optional<OrderTemplate> order_template(const std::string& name) const;

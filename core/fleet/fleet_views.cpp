@@ -21,7 +21,8 @@ Preview Fleet::preview(const NewOrder& order, Time now) const {
     std::optional<planning::LegPlan> first_plan;
     std::optional<Pose2> pose;
     if (run->record.pose_known) pose = run->record.pose;
-    const auto standing = standing_bodies(*state_, run->record.id);
+    const auto standing =
+        standing_bodies(*state_, plant::HallId(hall_of(*state_, *run)), run->record.id);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(state_->plant, order.steps[i].station_number);
         if (!station) break;

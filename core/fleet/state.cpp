@@ -106,11 +106,13 @@ plant::StationId station_at(const FleetState& fleet, const VehicleRun& run, cons
 }
 
 std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
+                                                    const plant::HallId& hall,
                                                     const plant::VehicleId& except) {
     std::vector<planning::StandingBody> bodies;
     for (const auto& [id, run] : fleet.vehicles) {
         if (id == except || !run.record.pose_known) continue;
         if (run.record.integration < Integration::kRespect) continue;
+        if (hall_of(fleet, run) != hall.str()) continue;
         bodies.push_back({id, outline_at(run, run.record.pose)});
     }
     return bodies;

@@ -171,6 +171,7 @@ std::size_t hall_index(const FleetState& fleet, const std::string& hall);
 /// Station whose theoretical pose the vehicle stands on (within 0.25 m and 3 deg); empty: none.
 plant::StationId station_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);
 std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
+                                                    const plant::HallId& hall,
                                                     const plant::VehicleId& except);
 
 // --- legs (legs.cpp) ---

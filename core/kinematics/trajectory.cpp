@@ -78,6 +78,20 @@ TrajectoryState Trajectory::at(double time_s) const {
                                      : moving(run, in_run_s - run.steering_s);
 }
 
+WheelPeaks Trajectory::wheel_peaks() const {
+    constexpr int kParts = 32;  // even: the profile's peak is in its middle
+    WheelPeaks peaks;
+    for (const Run& run : runs_) {
+        for (int part = 0; part <= kParts; ++part) {
+            for (const WheelMotion& wheel : moving(run, run.moving_s * part / kParts).wheels) {
+                peaks.speed_mps = std::max(peaks.speed_mps, std::abs(wheel.speed_mps));
+                peaks.steering_rad = std::max(peaks.steering_rad, std::abs(wheel.angle_rad));
+            }
+        }
+    }
+    return peaks;
+}
+
 TrajectoryState Trajectory::steering(const Run& run, double time_s) const {
     TrajectoryState state{run.segments.front().start, {}, run.before};
     const double turned = type_->max_steering_rate_radps * time_s;

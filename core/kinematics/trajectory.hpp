@@ -17,6 +17,12 @@ struct TrajectoryState {
     std::vector<WheelMotion> wheels;  // in the type's order
 };
 
+/// The most that any wheel does on the way.
+struct WheelPeaks {
+    double speed_mps = 0;     // of its rim
+    double steering_rad = 0;  // to either side of straight ahead
+};
+
 /// Segments driven one after the other from rest to rest: before each run the vehicle stands while
 /// its steered wheels turn, then it follows a trapezoidal profile within the limits of body and
 /// wheels. Its duration is the sum of those that set_durations gives.
@@ -33,6 +39,8 @@ public:
     double duration_s() const { return duration_s_; }
     /// At the ends outside [0, duration_s].
     TrajectoryState at(double time_s) const;
+    /// On a combined segment, whose wheels change speed all the way, at 33 moments of its run.
+    WheelPeaks wheel_peaks() const;
 
 private:
     struct Run {

@@ -84,6 +84,7 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     LegPlan plan;
     plan.mode = mode;
     plan.segments = sums.segments;
+    plan.max_speed_mps = std::move(draft.max_speed_mps);
     plan.route = std::move(draft.route);
     plan.length_m = sums.length_m;
     plan.turns = draft.turns;
@@ -115,6 +116,9 @@ LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPl
     segments.insert(segments.end(), rest.segments.begin(), rest.segments.end());
     const auto sums = kinematics::summed(rest.mode, std::move(segments));
     plan.segments = sums.segments;
+    if (!plan.max_speed_mps.empty()) {
+        plan.max_speed_mps.insert(plan.max_speed_mps.begin(), first.segments.size(), 0.0);
+    }
     plan.length_m = sums.length_m;
     plan.duration_s = sums.duration_s;
     plan.expected = expected_of(type, plan.segments);
@@ -127,8 +131,9 @@ LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPl
     return plan;
 }
 
-/// What people want to know of a plan besides: how near it comes to what, and its outline.
-void describe(const Body& body, const Obstacles& obstacles,
+/// What people want to know of a plan besides: how near it comes to what, what the wheels do, and
+/// its outline.
+void describe(const plant::VehicleType& type, const Body& body, const Obstacles& obstacles,
               const std::vector<StandingBody>& standing, LegPlan& plan) {
     const auto pieces = kinematics::sweep(body.pieces, plan.segments);
     const Approach nearest = obstacles.nearest(pieces);
@@ -139,6 +144,10 @@ void describe(const Body& body, const Obstacles& obstacles,
         if (distance >= plan.clearance_m) continue;
         plan.clearance_m = distance;
         plan.nearest = other.vehicle.str();
+    }
+    if (!type.wheels.empty()) {
+        const auto trajectory = kinematics::Trajectory::of(type, plan.segments, plan.max_speed_mps);
+        if (trajectory) plan.wheels = trajectory->wheel_peaks();
     }
     plan.swept = geometry::union_outline(
         kinematics::sweep(body.pieces, plan.segments, kinematics::kOutlineDetail));
@@ -166,7 +175,7 @@ Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
         if (plan && !over_closed_floor) over_closed_floor = std::move(*plan);
         if (!plan && !refusal) refusal = plan.error();
     }
-    if (mode == MotionMode::kLinear) {
+    if (mode == MotionMode::kLinear && !task.request.target_pose) {
         auto plan = draft_road_leg(task).and_then(
             [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
         if (!over_closed_floor || (plan && plan->closures.empty())) return plan;
@@ -225,6 +234,7 @@ bool same_way(const LegPlan& a, const LegPlan& b) {
 std::vector<MotionMode> modes_of(const plant::VehicleType& type) {
     std::vector<MotionMode> modes;
     for (const MotionMode mode : plant::kMotionModes) {
+        if (mode == MotionMode::kAuto) continue;  // a choice among the others
         const auto& own = type.motion_modes;
         if (std::find(own.begin(), own.end(), mode) != own.end()) modes.push_back(mode);
     }
@@ -239,7 +249,13 @@ Error unknown_hall(const plant::HallId& hall) {
 }
 
 /// The station of a request, when the vehicle may go there at all.
-Result<const plant::Station*> target_of(const plant::Plant& plant, const LegRequest& request) {
+Result<plant::Station> target_of(const plant::Plant& plant, const LegRequest& request) {
+    if (request.target_pose) {
+        plant::Station place;
+        place.hall = request.hall;
+        place.pose = *request.target_pose;
+        return place;
+    }
     const plant::Station* station = plant::find_station(plant, request.target);
     if (!station) {
         return fail(Errc::kNotFound, "unknown_station",
@@ -261,7 +277,7 @@ Result<const plant::Station*> target_of(const plant::Plant& plant, const LegRequ
                         " stands in another hall than the vehicle. Choose one in its hall.",
                     {}, {{"from", request.hall.str()}, {"to", station->hall.str()}});
     }
-    return station;
+    return *station;
 }
 
 }  // namespace
@@ -331,7 +347,7 @@ struct LegPlanner::Tables {
             body.push_back(geometry::transformed(request.start, piece));
         }
         return LegTask{
-            request,  **station,  plant.routing,
+            request,  *station,   plant.routing,
             roads,    by.passage, by.lanes,
             closures, *obstacles, obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
@@ -384,8 +400,8 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
     auto options = tables_->assess(request, by, modes_of(*request.type), true, standing);
     for (ModeOption& option : options) {
         if (option.plan) {
-            describe(by.passage.body, *tables_->roads.obstacles(request.hall), standing,
-                     *option.plan);
+            describe(*request.type, by.passage.body, *tables_->roads.obstacles(request.hall),
+                     standing, *option.plan);
         }
     }
     return options;

@@ -9,6 +9,7 @@
 #include "core/base/result.hpp"
 #include "core/kinematics/dead_reckoning.hpp"
 #include "core/kinematics/motion.hpp"
+#include "core/kinematics/trajectory.hpp"
 #include "core/planning/leg_roads.hpp"
 #include "core/planning/motion_graph.hpp"
 #include "core/plant/plant.hpp"
@@ -28,6 +29,7 @@ struct LegRequest {
     geometry::Pose2 start;          // measured pose
     plant::StationId from_station;  // empty when the vehicle stands at no station
     plant::StationId target;
+    std::optional<geometry::Pose2> target_pose;  // instead of a station: no lanes lead there
     plant::MotionMode mode = plant::MotionMode::kAuto;
     bool operator==(const LegRequest&) const = default;
 };
@@ -36,7 +38,8 @@ struct LegRequest {
 struct LegPlan {
     plant::MotionMode mode = plant::MotionMode::kLinear;
     std::vector<kinematics::Segment> segments;
-    std::vector<plant::NodeId> route;  // roadmap nodes visited; empty for a direct motion
+    std::vector<double> max_speed_mps;  // of each segment by its lane; 0, or empty: none
+    std::vector<plant::NodeId> route;   // roadmap nodes visited; empty for a direct motion
     double length_m = 0;
     int turns = 0;    // changes of direction up to arrival; an arc is one
     double cost = 0;  // in units of k, roadmap routes and direct motions alike
@@ -48,6 +51,7 @@ struct LegPlan {
     // For people, filled in by assess_modes only: it costs more than the planning.
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
+    std::optional<kinematics::WheelPeaks> wheels;  // absent when the type states no wheels
     double swept_area_m2 = 0;
     std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
 };

@@ -163,6 +163,7 @@ LegDraft drive(const LegTask& task, const Entry& entry, const RoadPath& path, in
     append_turn(segments, pose, shortest_turn_rad(pose.heading_rad, task.station.pose.heading_rad));
     speeds.resize(segments.size(), 0);
     kinematics::set_durations(*task.request.type, segments, speeds);
+    draft.max_speed_mps = std::move(speeds);
     draft.cost = path.cost;
     draft.turns = path.turns + entry.turns;
     return draft;

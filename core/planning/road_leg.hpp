@@ -9,7 +9,7 @@ namespace pulseline::planning {
 /// One leg to plan, with everything looked up.
 struct LegTask {
     const LegRequest& request;
-    const plant::Station& station;
+    plant::Station station;  // one without a name or a node for a pose
     const plant::RoutingCost& cost;
     const RoadmapIndex& roads;
     const Passage& passage;
@@ -22,6 +22,7 @@ struct LegTask {
 /// Segments and route of a leg before its swept area is checked.
 struct LegDraft {
     std::vector<kinematics::Segment> segments;
+    std::vector<double> max_speed_mps;  // as set_durations takes it
     std::vector<plant::NodeId> route;
     int turns = 0;
     double cost = 0;

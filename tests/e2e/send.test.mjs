@@ -1,4 +1,4 @@
-// The operator's main job in Chromium against the real server and three real agents: sign in, send a platform,
+// The operator's main job in Chromium against the real server and four real agents: sign in, send a platform,
 // see it arrive, read how far from the drawing it stopped. The world's own log is the judge.
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
@@ -7,7 +7,7 @@ import { Client, angleBetween } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
 import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 
-const VEHICLES = ["TP-01", "TP-02", "TP-03"];
+const VEHICLES = ["TP-01", "TP-02", "TP-03", "MV-01"];
 let system, client, browser;
 
 before(async () => {
@@ -76,6 +76,47 @@ test("a wrong password is told in words", async () => {
   assert.equal(await page.locator(".shell").count(), 0);
   await context.close();
 });
+
+for (const [vehicle, station] of [["TP-01", 2], ["MV-01", 13], ["MV-01", 20]]) {
+  test(`${vehicle} to station ${station}: the area of every mode that leads there, the others greyed with the reason`, async () => {
+    const { options } = await client.post("/api/v1/motion-previews", { vehicle, station });
+    const feasible = options.filter((o) => o.feasible).map((o) => o.mode);
+    const suggested = options.find((o) => o.suggested).mode;
+    const page = await signedIn(browser, system, "operator", { path: "/send" });
+    await page.goto(`${system.url}/send?vehicle=${vehicle}&station=${station}`);
+    const rows = page.locator(".mode[role=radio]");
+    await rows.first().waitFor({ timeout: 20_000 });
+
+    const drawn = await page.locator(".pmap > svg path[data-mode][d^=M]").evaluateAll((all) => all.map((path) => path.dataset.mode));
+    assert.deepEqual(drawn.sort(), [...feasible].sort(), "an area of each, and of no other");
+    assert.equal(await page.locator(".pmap > svg path.swept").getAttribute("data-mode"), suggested, "the suggested one is hatched");
+    assert.equal(await page.locator(".areas li").count(), feasible.length > 1 ? feasible.length : 0);
+    for (const option of options) {
+      const row = page.locator(`.mode[data-mode=${option.mode}]`);
+      assert.equal(await row.getAttribute("aria-disabled"), String(!option.feasible), option.mode);
+      assert.ok((await row.boundingBox()).height >= 44, `${option.mode}: high enough for gloves`);
+      const words = await row.innerText();
+      if (option.feasible) assert.match(words, /clear.*expected ±[\d.]+ mm, ±[\d.]+°/s, option.mode);
+      else assert.ok(words.length > 20 && !words.includes(option.reason.code) && !words.includes("Reason"), `${option.mode}: ${words}`);
+    }
+
+    // A refused mode can be read by keyboard, and is not chosen; a feasible one looked at stands out.
+    await page.locator(`.mode[data-mode=${suggested}]`).focus();
+    const seen = new Set();
+    for (let i = 0; i < options.length; ++i) {
+      await page.keyboard.press("ArrowDown");
+      const { mode } = await page.evaluate(() => ({ ...document.activeElement.dataset }));
+      seen.add(mode);
+      if (!feasible.includes(mode)) await page.keyboard.press("Enter");
+      else if (mode !== suggested) assert.equal(await page.locator(".pmap > svg path.swept-looked").getAttribute("data-mode"), mode);
+    }
+    assert.deepEqual([...seen].sort(), options.map((o) => o.mode).sort());
+    assert.equal(await page.locator(".mode[aria-checked=true]").getAttribute("data-mode"), suggested);
+    assert.deepEqual(page.errors, []);
+    await picture(page, `send-modes-${vehicle}-${station}`);
+    await page.context().close();
+  });
+}
 
 test("send TP-01 from station 1 to 2, linear: one order, an arrival, a visible stop record", async () => {
   const page = await signedIn(browser, system, "operator");

@@ -120,8 +120,9 @@ std::string Answer::header(const std::string& name) const {
     return {};
 }
 
-ApiWorld::ApiWorld()
-    : access(
+ApiWorld::ApiWorld(plant::Plant plant)
+    : world(std::move(plant)),
+      access(
           access_store,
           [this](const access::Change& change) { access::apply(access_store, change); }, world.now,
           {}, kCheap),

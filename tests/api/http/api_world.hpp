@@ -59,7 +59,8 @@ class ApiWorld {
 public:
     using Headers = std::map<std::string, std::string>;
 
-    ApiWorld();
+    ApiWorld() : ApiWorld(fleet::testing::small_plant()) {}
+    explicit ApiWorld(plant::Plant plant);
 
     Answer call(const std::string& method, const std::string& target, const std::string& body = "",
                 const Headers& headers = {});

@@ -86,9 +86,9 @@ const std::vector<Bad> kNotJson = {
 
 TEST(BadInput, WhatIsNoJsonObjectIsRefusedEverywhere) {
     ApiWorld api;
-    for (const char* path :
-         {"/api/v1/job-orders", "/api/v1/job-orders?dryRun=true",
-          "/api/v1/vehicles/V1/init-position", "/api/v1/fleet/resume", "/api/v1/session"}) {
+    for (const char* path : {"/api/v1/job-orders", "/api/v1/job-orders?dryRun=true",
+                             "/api/v1/vehicles/V1/init-position", "/api/v1/fleet/resume",
+                             "/api/v1/session", "/api/v1/motion-previews"}) {
         expect_refused(api, path, kNotJson);
     }
     EXPECT_TRUE(api.world.store.orders.empty());

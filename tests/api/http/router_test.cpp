@@ -77,7 +77,7 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "createSchedule",   "deleteSchedule",
                                              "pauseSchedule",    "resumeSchedule",
                                              "closeFloor",       "reopenFloor",
-                                             "localize"};
+                                             "localize",         "previewMotions"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

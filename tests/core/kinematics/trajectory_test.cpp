@@ -67,6 +67,43 @@ TEST(Trajectory, KeepsWheelsAndBodyWithinTheirLimits) {
     }
 }
 
+TEST(Trajectory, KnowsTheMostThatItsWheelsDo) {
+    for (const Case& family : families()) {
+        SCOPED_TRACE(family.name);
+        for (const MotionPlan& plan : motions(family.type, 20)) {
+            const auto trajectory = Trajectory::of(family.type, plan.segments);
+            ASSERT_TRUE(trajectory);
+            const WheelPeaks peaks = trajectory->wheel_peaks();
+            WheelPeaks seen;
+            for (int k = 0; k <= 2000; ++k) {
+                const auto now = trajectory->at(trajectory->duration_s() * k / 2000);
+                for (const WheelMotion& wheel : now.wheels) {
+                    seen.speed_mps = std::max(seen.speed_mps, std::abs(wheel.speed_mps));
+                    seen.steering_rad = std::max(seen.steering_rad, std::abs(wheel.angle_rad));
+                }
+            }
+            EXPECT_NEAR(peaks.steering_rad, seen.steering_rad, kRounding);
+            EXPECT_NEAR(peaks.speed_mps, seen.speed_mps, 0.01 * seen.speed_mps);
+            EXPECT_LE(peaks.speed_mps, family.type.max_speed_mps + kRounding);
+        }
+    }
+}
+
+TEST(Trajectory, KeepsItsWheelsToTheLimitOfALane) {
+    const auto type = tang_platform();
+    const auto plan = plan_motion(type, {0, 0, 0}, {20, 0, 0}, MotionMode::kLinear);
+    ASSERT_TRUE(plan) << plan.error().what;
+    const std::vector<double> slow(plan->segments.size(), type.max_speed_mps / 4);
+
+    const auto freely = Trajectory::of(type, plan->segments);
+    const auto on_lane = Trajectory::of(type, plan->segments, slow);
+
+    ASSERT_TRUE(freely && on_lane);
+    EXPECT_NEAR(freely->wheel_peaks().speed_mps, type.max_speed_mps, kRounding);
+    EXPECT_NEAR(on_lane->wheel_peaks().speed_mps, type.max_speed_mps / 4, kRounding);
+    EXPECT_EQ(on_lane->wheel_peaks().steering_rad, 0);
+}
+
 TEST(Trajectory, TakesTheTimeThatThePlanSays) {
     for (const Case& family : families()) {
         SCOPED_TRACE(family.name);

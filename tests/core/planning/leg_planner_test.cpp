@@ -106,6 +106,64 @@ TEST(LegPlanner, SuggestsTheFeasibleModeWithTheLeastTime) {
     EXPECT_EQ(planner.plan_leg(request).error().reason.code, "mode_not_supported");
 }
 
+TEST(LegPlanner, CountsTheAutomaticChoiceAsNoModeOfItsOwn) {
+    LegWorld world(8);
+    auto& modes = world.plant().vehicle_types.front().motion_modes;
+    modes = {MotionMode::kAuto, MotionMode::kSelfRotation};
+    const LegPlanner planner(world.plant());
+
+    const auto options = planner.assess_modes(world.request("platform", 1, 3), {});
+    const auto plan = planner.plan_leg(world.request("platform", 1, 3));
+
+    ASSERT_EQ(options.size(), 1u);
+    EXPECT_EQ(options[0].mode, MotionMode::kSelfRotation);
+    ASSERT_FALSE(plan);
+    EXPECT_EQ(plan.error().reason.code, "not_in_place");
+}
+
+TEST(LegPlanner, DrivesToAPoseThatIsNoStation) {
+    LegWorld world(8);
+    const LegPlanner planner(world.plant());
+    auto request = world.request("platform", 1, 3);
+    request.target = {};
+    request.target_pose = Pose2{30, 50, 0.3};
+
+    const auto free = planner.plan_leg(request);
+    request.target_pose = Pose2{80, 50, 0};
+    const auto options = planner.assess_modes(request, {});
+
+    ASSERT_TRUE(free) << free.error().what;
+    expect_joined(*free, request.start, {30, 50, 0.3});
+    // The pillar is between: no lane leads to a pose, so that is what bars the direct way.
+    ASSERT_FALSE(option(options, MotionMode::kLinear).plan);
+    const Error& why = option(options, MotionMode::kLinear).plan.error();
+    EXPECT_EQ(why.reason.code, "blocked");
+    EXPECT_EQ(value<std::string>(why, "by"), "pillar");
+}
+
+TEST(LegPlanner, TellsWhatTheWheelsDoWithinTheLimitsOfLanes) {
+    LegWorld world(8);
+    plant::VehicleType& platform = world.plant().vehicle_types.front();
+    for (const double x_m : {-4.8, 4.8}) platform.wheels.push_back({"drive", {x_m, 0}, true, true});
+    for (plant::RoadmapEdge& edge : world.plant().edges) edge.max_speed_mps = 0.1;
+    const LegPlanner planner(world.plant());
+
+    const auto direct = planner.assess_modes(world.request("platform", 1, 3), {});
+    const auto by_lanes = planner.assess_modes(world.request("platform", 1, 2), {});
+
+    const auto& fast = *option(direct, MotionMode::kLinear).plan;
+    const auto& slow = *option(by_lanes, MotionMode::kLinear).plan;
+    ASSERT_TRUE(fast.route.empty());
+    ASSERT_FALSE(slow.route.empty());
+    ASSERT_TRUE(fast.wheels && slow.wheels);
+    EXPECT_NEAR(fast.wheels->speed_mps, platform.max_speed_mps, 1e-9);
+    EXPECT_NEAR(fast.wheels->steering_rad, kPi / 2, 1e-9);  // to turn on the spot
+    // Turns at the nodes are no driving on a lane.
+    const double turning_mps = 4.8 * platform.max_turn_rate_radps;
+    EXPECT_NEAR(slow.wheels->speed_mps, std::max(0.1, turning_mps), 1e-9);
+    EXPECT_LT(slow.wheels->speed_mps, fast.wheels->speed_mps);
+}
+
 TEST(LegPlanner, TakesTheRoadmapWhenTheStraightWayIsBlocked) {
     LegWorld world(8);
     const LegPlanner planner(world.plant());

@@ -15,6 +15,8 @@ const modes: readonly MotionMode[] = [
   "fixed_axis_rotation",
   "self_rotation",
   "lateral",
+  "oblique",
+  "combined",
   "free",
 ];
 

@@ -1,9 +1,10 @@
+import type { KeyboardEvent } from "react";
 import { useTranslation } from "react-i18next";
 import type { ModeOption, MotionMode } from "@/shared/api/types";
 import { ModeIcon, StatusSymbol, type ModeIconName } from "@/shared/ui";
 import { duration, length } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { capitalise, moveWords } from "./moveWords";
+import { capitalise, deviationValues, moveWords } from "./moveWords";
 import { OtherWays } from "./OtherWays";
 import { chosenOption, sortOptions, type Preview, type StepPreview } from "./preview";
 
@@ -13,6 +14,8 @@ export const modeIcon: Record<MotionMode, ModeIconName> = {
   fixed_axis_rotation: "m-arc",
   self_rotation: "m-rot",
   lateral: "m-lat",
+  oblique: "m-obl",
+  combined: "m-comb",
   free: "m-free",
 };
 
@@ -21,27 +24,29 @@ export interface ModeStepProps {
   step: StepPreview | undefined;
   mode: MotionMode;
   onMode: (mode: MotionMode) => void;
+  /** The mode under the pointer or the focus: the map shows its area. */
+  onLook: (mode: MotionMode | undefined) => void;
 }
 
-export function ModeStep({ preview, step, mode, onMode }: ModeStepProps) {
+export function ModeStep({ preview, step, mode, onMode, onLook }: ModeStepProps) {
   const { t } = useTranslation("send");
   if (!step) {
     return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "mode.wait")}</p>;
   }
   const options = sortOptions(step.options);
   const chosen = chosenOption(step, mode);
-  const best = options.find((o) => o.suggested);
   return (
     <>
-      <div role="radiogroup" aria-label={t("mode.title")}>
-        {options.map((option) => (
+      <div role="radiogroup" aria-label={t("mode.title")} onKeyDown={moveFocus}>
+        {options.map((option, i) => (
           <ModeRow
             key={option.mode}
             option={option}
-            best={best}
             checked={option.mode === chosen?.mode}
+            tabStop={chosen ? option.mode === chosen.mode : i === 0}
             // The suggested row is mode auto: it stays the suggestion when the pose changes.
             onSelect={() => onMode(option.suggested ? "auto" : option.mode)}
+            onLook={onLook}
           />
         ))}
         {options.length > 0 && !options.some((o) => o.feasible) && <p className="lab">{t("mode.none")}</p>}
@@ -51,32 +56,44 @@ export function ModeStep({ preview, step, mode, onMode }: ModeStepProps) {
   );
 }
 
+const steps: Readonly<Record<string, number>> = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 };
+
+/** Arrows only look: what they pass over must not become what Start would send. Space and Enter choose. */
+function moveFocus(event: KeyboardEvent<HTMLElement>) {
+  const step = steps[event.key];
+  if (step === undefined) return;
+  const rows = [...event.currentTarget.querySelectorAll<HTMLElement>("[role=radio]")];
+  const at = rows.indexOf(document.activeElement as HTMLElement);
+  rows[(at + step + rows.length) % rows.length]?.focus();
+  event.preventDefault();
+}
+
 function ModeRow(props: {
   option: ModeOption;
-  best: ModeOption | undefined;
   checked: boolean;
+  tabStop: boolean;
   onSelect: () => void;
+  onLook: (mode: MotionMode | undefined) => void;
 }) {
-  const { option, best, checked, onSelect } = props;
+  const { option, checked, tabStop, onSelect, onLook } = props;
   const { t } = useTranslation("send");
   const words = useWords();
-  const slower =
-    best && !option.suggested && option.duration_s !== undefined && best.duration_s !== undefined
-      ? option.duration_s - best.duration_s
-      : 0;
-  const what = option.feasible
-    ? capitalise(moveWords(option.segments ?? [], (key, params) => t(key, params), t("words.join")))
-    : option.reason
-      ? words.reason(option.reason)
-      : t("mode.infeasible");
+  const look = () => onLook(option.mode);
+  const lookAway = () => onLook(undefined);
   return (
     <button
       type="button"
       role="radio"
+      tabIndex={tabStop ? 0 : -1}
       aria-checked={checked}
       aria-disabled={!option.feasible}
       className={`mode ${checked && option.feasible ? "on" : ""} ${option.feasible ? "" : "off"}`}
+      data-mode={option.mode}
       onClick={() => option.feasible && onSelect()}
+      onPointerEnter={look}
+      onPointerLeave={lookAway}
+      onFocus={look}
+      onBlur={lookAway}
     >
       <span className="mi">
         <ModeIcon name={modeIcon[option.mode]} />
@@ -84,19 +101,31 @@ function ModeRow(props: {
       <span className="grow">
         <b>{words.mode(option.mode)}</b>
         {option.suggested && option.feasible && <i className="sug">{t("mode.suggested")}</i>}
-        <span className="what">
-          {what}
-          {option.feasible && route(option)}
-          {option.feasible && slower >= 1 && t("words.join") + t("mode.longer", { time: duration(slower) })}
-        </span>
+        {option.feasible ? (
+          <>
+            {checked && <span className="what">{way(option)}</span>}
+            <span className="what">{facts(option)}</span>
+          </>
+        ) : (
+          <span className="what">{option.reason ? words.reason(option.reason) : t("mode.infeasible")}</span>
+        )}
       </span>
       <em>{option.feasible ? duration(option.duration_s) : <StatusSymbol name="c-no" />}</em>
     </button>
   );
 
-  function route(of: ModeOption): string {
+  function way(of: ModeOption): string {
+    const move = capitalise(moveWords(of.segments ?? [], (key, params) => t(key, params), t("words.join")));
     const places = of.route?.length ?? 0;
-    if (places < 3) return "";
-    return t("words.join") + t("mode.via", { count: places, length: length(of.length_m) });
+    if (places < 3) return move;
+    return move + t("words.join") + t("mode.via", { count: places, length: length(of.length_m) });
+  }
+
+  function facts(of: ModeOption): string {
+    const parts = [t("mode.clear", { clearance: length(of.clearance_m) })];
+    if (of.expected_deviation) {
+      parts.push(t("mode.deviation_long", deviationValues(of.expected_deviation)));
+    }
+    return parts.join(t("words.join"));
   }
 }

@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import type {
   Leg,
   ModeOption,
+  MotionMode,
   Plant,
   Point,
   Pose,
@@ -12,6 +13,8 @@ import type {
   VehicleType,
 } from "@/shared/api/types";
 import { number } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { joined } from "./moveWords";
 import {
   dimension,
   inView,
@@ -19,6 +22,7 @@ import {
   nearestStation,
   placed,
   ringPath,
+  stationFrame,
   toShare,
   turnArc,
   viewOf,
@@ -26,6 +30,8 @@ import {
   type Dimension,
   type View,
 } from "./previewView";
+import { Body, DimensionLine, GhostBody, isLoaded, StationMark, TurnArc } from "./PreviewGlyphs";
+import { AreasLegend, SweptAreas } from "./SweptAreas";
 
 export interface PreviewMapProps {
   plant: Plant;
@@ -33,7 +39,12 @@ export interface PreviewMapProps {
   states: readonly StationState[];
   vehicle: Vehicle | undefined;
   target: number | undefined;
+  /** The chosen mode's, when it is feasible. */
   option: ModeOption | undefined;
+  /** All modes that lead there. */
+  options: readonly ModeOption[];
+  /** The mode that the person looks at in the list. */
+  looked: MotionMode | undefined;
   /** The drive under way, drawn instead of a preview. */
   leg?: Leg | undefined;
   /** A press on the map takes the nearest station. */
@@ -41,15 +52,17 @@ export interface PreviewMapProps {
   onPick: (station: number) => void;
 }
 
-const kTurnArc_m = 3.6;
+const kUnit_px = 24;
+const kMostTurnArc_m = 3.6;
 const kPick_px = 40;
 /** Below this scale plates are bare digits and only the selected vehicle is named. */
 const kNear_pxPerM = 8;
 const kNamedTurn_rad = 0.5 * (Math.PI / 180);
 
-/** Plan view of the previewed move to scale: swept area hatched, way, target ghost, dimensions. */
+/** Plan view of the previewed move to scale: swept areas, way, target ghost, dimensions. */
 export function PreviewMap(props: PreviewMapProps) {
   const { t } = useTranslation("send");
+  const words = useWords();
   const box = useRef<HTMLDivElement>(null);
   const size = useSize(box);
   const scene = sceneOf(props);
@@ -76,7 +89,13 @@ export function PreviewMap(props: PreviewMapProps) {
             className="m"
             viewBox={`0 0 ${view.width} ${view.height}`}
             role="img"
-            aria-label={t("preview.map")}
+            aria-label={
+              props.options.length > 0
+                ? t("preview.map_modes", {
+                    modes: props.options.map((o) => words.mode(o.mode)).join(t("words.join")),
+                  })
+                : t("preview.map")
+            }
           >
             <defs>
               <pattern
@@ -94,9 +113,10 @@ export function PreviewMap(props: PreviewMapProps) {
               </pattern>
             </defs>
             <g transform={`translate(${-view.left} ${view.height + view.bottom}) scale(1 -1)`}>
-              <Drawing {...props} scene={scene} />
+              <Drawing {...props} scene={scene} unit={(kUnit_px * view.width) / size.width} />
             </g>
           </svg>
+          <AreasLegend options={props.options} chosen={props.option} looked={props.looked} />
           <Labels {...props} scene={scene} view={view} near={size.width / view.width >= kNear_pxPerM} />
         </>
       )}
@@ -106,7 +126,6 @@ export function PreviewMap(props: PreviewMapProps) {
 
 interface Scene {
   type: VehicleType | undefined;
-  swept: Ring[];
   ghost: Ring[];
   way: Point[];
   end: Pose | undefined;
@@ -117,7 +136,7 @@ interface Scene {
   hall: string | undefined;
 }
 
-function sceneOf({ plant, vehicle, target, option, leg, picking }: PreviewMapProps): Scene {
+function sceneOf({ plant, vehicle, target, option, options, leg, picking }: PreviewMapProps): Scene {
   const station = plant.stations.find((s) => s.number === target);
   const type = plant.vehicle_types.find((v) => v.id === vehicle?.type);
   const segments = option?.segments ?? [];
@@ -125,36 +144,45 @@ function sceneOf({ plant, vehicle, target, option, leg, picking }: PreviewMapPro
   const swept = option?.swept ?? [];
   const bodies = type ? [type.footprint, ...(isLoaded(vehicle) ? [type.load_footprint] : [])] : [];
   const ghost = end ? bodies.filter((b) => b.length > 2).map((b) => placed(b, end)) : [];
-  const turn = [...segments]
+  const turn = joined(segments)
     .reverse()
     .find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
+  const nose = Math.max(...(type?.footprint ?? []).map((p) => p.x_m));
+  const arc_m = Math.min(kMostTurnArc_m, 0.8 * nose);
   const hall = vehicle?.hall ?? station?.hall ?? plant.halls[0]?.id;
   const outline = plant.halls.find((h) => h.id === hall)?.outline ?? [];
   const here = vehicle?.pose;
   const own = here ? bodies.filter((b) => b.length > 2).map((b) => placed(b, here)) : [];
   const way = leg ? leg.path : wayOf(segments);
   const dim = leg ? undefined : dimension(way, swept);
-  const about = [...swept, ...ghost, ...own, ...(leg ? [leg.path, ...leg.granted_area] : [])];
+  // All areas are in view, so that the window stays when another mode is chosen.
+  const areas = options.flatMap((o) => o.swept ?? []);
+  const about = [...areas, ...ghost, ...own, ...(leg ? [leg.path, ...leg.granted_area] : [])];
   if (dim) about.push([dim.from, dim.to]);
   return {
     type,
-    swept,
     ghost,
     way,
     dim,
     end,
-    turn: turn ? turnArc(turn, kTurnArc_m) : [],
+    turn: turn ? turnArc(turn, arc_m) : [],
     turn_rad: turn?.turn_rad ?? 0,
     fit: picking || !station || about.length === 0 ? [outline] : about,
     hall,
   };
 }
 
-function isLoaded(vehicle: Vehicle | undefined): boolean {
-  return vehicle !== undefined && (vehicle.load_kg > 0 || vehicle.load_name !== "");
-}
-
-function Drawing({ plant, vehicles, vehicle, option, leg, scene }: PreviewMapProps & { scene: Scene }) {
+function Drawing({
+  plant,
+  vehicles,
+  vehicle,
+  option,
+  options,
+  looked,
+  leg,
+  scene,
+  unit,
+}: PreviewMapProps & { scene: Scene; unit: number }) {
   const hall = plant.halls.find((h) => h.id === scene.hall);
   const areas = plant.areas.filter((a) => a.hall === scene.hall);
   const areaClass = { zone: "zone", lane: "lane", no_go: "zone", obstacle: "wall" } as const;
@@ -176,22 +204,24 @@ function Drawing({ plant, vehicles, vehicle, option, leg, scene }: PreviewMapPro
       {plant.stations
         .filter((s) => s.hall === scene.hall)
         .map((s) => (
-          <StationMark key={s.id} pose={s.pose} />
+          <StationMark key={s.id} plant={plant} station={s} />
         ))}
       {vehicles
         .filter((v) => v.id !== vehicle?.id && v.pose && v.hall === scene.hall)
         .map((v) => (
           <Body key={v.id} vehicle={v} plant={plant} />
         ))}
-      {scene.swept.length > 0 && <path className="swept" d={ringPath(scene.swept)} />}
+      <SweptAreas options={options} chosen={option} looked={looked} />
       {leg && <path className="grantband" d={ringPath(leg.granted_area)} />}
-      {scene.end && (option || leg) && <GhostBody scene={scene} />}
+      {scene.type && scene.end && (option || leg) && (
+        <GhostBody type={scene.type} end={scene.end} outlines={scene.ghost} />
+      )}
       {vehicle?.pose && <Body vehicle={vehicle} plant={plant} selected />}
       {scene.way.length > 1 && !leg && <path className="prevline" d={linePath(scene.way)} />}
       {leg && <path className="granted" d={linePath(leg.path.slice(0, leg.granted_points))} />}
       {leg && <path className="horizon" d={linePath(leg.path.slice(Math.max(0, leg.granted_points - 1)))} />}
-      {scene.dim && <DimensionLine dim={scene.dim} />}
-      {scene.turn.length > 1 && <TurnArc points={scene.turn} />}
+      {scene.dim && <DimensionLine dim={scene.dim} unit={unit} />}
+      {scene.turn.length > 1 && <TurnArc points={scene.turn} unit={unit} />}
     </>
   );
 }
@@ -205,91 +235,6 @@ function gridPath(outline: Ring, step_m: number): string {
   for (let x = Math.ceil(x0 / step_m) * step_m; x < x1; x += step_m) d += `M${x} ${y0}V${y1}`;
   for (let y = Math.ceil(y0 / step_m) * step_m; y < y1; y += step_m) d += `M${x0} ${y}H${x1}`;
   return d;
-}
-
-/** Corner brackets of the station, as in the map. */
-function StationMark({ pose }: { pose: Pose }) {
-  const deg = (pose.heading_rad * 180) / Math.PI;
-  return (
-    <path
-      className="stn"
-      transform={`translate(${pose.x_m} ${pose.y_m}) rotate(${deg})`}
-      d="M-5.6 -1V-1.6H-5M5 -1.6H5.6V-1M5.6 1V1.6H5M-5 1.6H-5.6V1M-.5 0H.5M0 -.5V.5"
-    />
-  );
-}
-
-function Body({ vehicle, plant, selected }: { vehicle: Vehicle; plant: Plant; selected?: boolean }) {
-  const type = plant.vehicle_types.find((v) => v.id === vehicle.type);
-  if (!type || !vehicle.pose) return null;
-  const pose = vehicle.pose;
-  const nose = Math.max(...type.footprint.map((p) => p.x_m));
-  const arrow = Math.min(1, nose * 0.4);
-  const stale = vehicle.link !== "live";
-  return (
-    <g className={selected ? "sel" : stale ? "stl" : ""}>
-      {isLoaded(vehicle) && type.load_footprint.length > 2 && (
-        <path className={`load ${selected ? "sel" : ""}`} d={ringPath([placed(type.load_footprint, pose)])} />
-      )}
-      <path className="veh-b" d={ringPath([placed(type.footprint, pose)])} />
-      <path
-        className="veh-h"
-        transform={`translate(${pose.x_m} ${pose.y_m}) rotate(${(pose.heading_rad * 180) / Math.PI})`}
-        d={`M${nose - 0.3} 0L${nose - 0.3 - arrow} ${arrow * 0.65}L${nose - 0.3 - arrow * 0.7} 0L${nose - 0.3 - arrow} ${-arrow * 0.65}Z`}
-      />
-    </g>
-  );
-}
-
-function GhostBody({ scene }: { scene: Scene }) {
-  if (!scene.end || !scene.type) return null;
-  const nose = Math.max(...scene.type.footprint.map((p) => p.x_m));
-  const deg = (scene.end.heading_rad * 180) / Math.PI;
-  const [body, ...loads] = scene.ghost;
-  return (
-    <>
-      {loads.length > 0 && <path className="ghost" d={ringPath(loads)} />}
-      {body && <path className="goal" d={ringPath([body])} />}
-      <path
-        className="goal"
-        transform={`translate(${scene.end.x_m} ${scene.end.y_m}) rotate(${deg})`}
-        d={`M${nose - 1.8} -.62L${nose - 0.8} 0L${nose - 1.8} .62`}
-      />
-    </>
-  );
-}
-
-function TurnArc({ points }: { points: readonly Point[] }) {
-  const tip = points[points.length - 1];
-  const before = points[Math.max(0, points.length - 3)];
-  if (!tip || !before) return null;
-  const angle = (Math.atan2(tip.y_m - before.y_m, tip.x_m - before.x_m) * 180) / Math.PI;
-  return (
-    <>
-      <path className="prevline solid" d={linePath(points)} />
-      <path
-        className="granthead"
-        transform={`translate(${tip.x_m} ${tip.y_m}) rotate(${angle})`}
-        d="M.35 0L-.55 .4V-.4Z"
-      />
-    </>
-  );
-}
-
-/** Extension lines, dimension line and its two arrow heads. */
-function DimensionLine({ dim }: { dim: Dimension }) {
-  const angle = (Math.atan2(dim.to.y_m - dim.from.y_m, dim.to.x_m - dim.from.x_m) * 180) / Math.PI;
-  const head = (p: Point, turn: number) => `translate(${p.x_m} ${p.y_m}) rotate(${angle + turn})`;
-  return (
-    <>
-      <path
-        className="dim"
-        d={linePath(dim.extensions[0]) + linePath(dim.extensions[1]) + linePath([dim.from, dim.to])}
-      />
-      <path className="dimh" transform={head(dim.from, 0)} d="M0 0l.6 .2v-.4z" />
-      <path className="dimh" transform={head(dim.to, 180)} d="M0 0l.6 .2v-.4z" />
-    </>
-  );
 }
 
 function Labels(props: PreviewMapProps & { scene: Scene; view: View; near: boolean }) {
@@ -312,7 +257,7 @@ function Labels(props: PreviewMapProps & { scene: Scene; view: View; near: boole
             <span
               key={s.id}
               className={`tag ${near ? "big" : "sm"} ${look}`}
-              style={at(near ? plate(s.pose, view) : s.pose)}
+              style={at(near ? plate(s.pose, stationFrame(plant, s), view) : s.pose)}
             >
               {s.number}
             </span>
@@ -351,11 +296,12 @@ function Labels(props: PreviewMapProps & { scene: Scene; view: View; near: boole
 }
 
 /** The number plate stands off the station's corner, so that it covers no body. */
-function plate(pose: Pose, view: View): Point {
-  const off = Math.max(1.4, view.height * 0.035);
+function plate(pose: Pose, frame: Point, view: View): Point {
+  const left = frame.x_m - Math.min(1.2, frame.x_m / 3);
+  const up = frame.y_m + Math.max(0.4 * frame.y_m, view.height * 0.035);
   const s = Math.sin(pose.heading_rad);
   const c = Math.cos(pose.heading_rad);
-  return { x_m: pose.x_m - 4.4 * c - (1.6 + off) * s, y_m: pose.y_m - 4.4 * s + (1.6 + off) * c };
+  return { x_m: pose.x_m - left * c - up * s, y_m: pose.y_m - left * s + up * c };
 }
 
 function middle({ from, to }: Dimension): Point {

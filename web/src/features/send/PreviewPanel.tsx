@@ -3,6 +3,7 @@ import type { ModeOption, Plant, Station } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
 import { degrees, duration, kNone, millimetres, number, timeOfDay } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { deviationValues } from "./moveWords";
 import type { StepPreview } from "./preview";
 
 /** Time, clearance and expected deviation of the chosen mode, each against its limit. */
@@ -19,6 +20,8 @@ export function Measures(props: {
   const ready = option?.duration_s === undefined ? undefined : now + option.duration_s * 1000;
   const expected = step?.expected_deviation;
   const nearest = option?.nearest;
+  const deviation =
+    option?.expected_deviation && t("mode.deviation", deviationValues(option.expected_deviation));
   return (
     <div className="mets">
       <div className="met">
@@ -66,7 +69,10 @@ export function Measures(props: {
             />
           </>
         ) : (
-          <span className="lab">{step ? t("preview.no_stops") : kNone}</span>
+          <span className="lab">
+            {step ? t("preview.no_stops") : kNone}
+            {deviation && t("words.join") + t("preview.before_adjusting", { deviation })}
+          </span>
         )}
       </div>
     </div>

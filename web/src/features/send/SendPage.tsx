@@ -20,7 +20,8 @@ import { ChecksStep, useChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
 import { MovePanel } from "./MovePanel";
 import { capitalise, moveWords } from "./moveWords";
-import { chosenOption, previewKey, readiness } from "./preview";
+import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
+import { isLoaded } from "./PreviewGlyphs";
 import { PreviewMap } from "./PreviewMap";
 import { Measures } from "./PreviewPanel";
 import { moveProgress } from "./progress";
@@ -56,6 +57,7 @@ export function SendPage() {
   const [mode, setMode] = useState<MotionMode>("auto");
   const [choosing, setChoosing] = useState(false);
   const [picking, setPicking] = useState(false);
+  const [looked, setLooked] = useState<MotionMode>();
   const [openStep, setOpenStep] = useState<number>();
 
   const vehicle = useVehicle(vehicleId ?? (vehicles.length === 1 ? vehicles[0]?.id : undefined));
@@ -83,6 +85,7 @@ export function SendPage() {
   const step = data?.steps[0];
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
+  const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
   const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview });
 
   const body = useMemo<NewJobOrder | undefined>(
@@ -195,8 +198,10 @@ export function SendPage() {
             preview={preview}
             step={step}
             mode={mode}
+            onLook={setLooked}
             onMode={(next) => {
               setMode(next);
+              setLooked(undefined); // the row may go before the focus has left it
               setOpenStep(undefined);
             }}
           />
@@ -222,7 +227,11 @@ export function SendPage() {
             {!orderId && <i aria-hidden="true">5</i>}
             <h2>{t(orderId ? "move.map" : "preview.title")}</h2>
             {!orderId && feasible?.swept_area_m2 !== undefined && (
-              <span className="ans r">{t("preview.swept", { area: number(feasible.swept_area_m2) })}</span>
+              <span className="ans r">
+                {t(isLoaded(vehicle) ? "preview.swept" : "preview.swept_bare", {
+                  area: number(feasible.swept_area_m2),
+                })}
+              </span>
             )}
           </header>
           {plant && streamReady ? (
@@ -233,6 +242,8 @@ export function SendPage() {
               vehicle={orderId ? mover : vehicle}
               target={target}
               option={orderId ? undefined : feasible}
+              options={orderId ? [] : leadThere}
+              looked={looked}
               leg={orderId ? mover?.leg : undefined}
               picking={(picking || !station) && !orderId}
               onPick={pick}

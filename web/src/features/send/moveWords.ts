@@ -1,5 +1,5 @@
 import type { ModeOption } from "@/shared/api/types";
-import { number } from "@/shared/words/format";
+import { degrees, millimetres, number, wrap } from "@/shared/words/format";
 
 export type Segment = NonNullable<ModeOption["segments"]>[number];
 type Say = (key: string, params: Record<string, unknown>) => string;
@@ -18,21 +18,22 @@ export function moveWords(segments: readonly Segment[], say: Say, join: string):
   return shown.map((s) => segmentWords(s, say)).join(join);
 }
 
-/** An arc is cut below 180 degrees for the vehicle's order; a person reads the pieces as one. */
-function joined(segments: readonly Segment[]): Segment[] {
+function goesOn(last: Segment, s: Segment): boolean {
+  if (last.kind === "rotate" && s.kind === "rotate") return last.turn_rad * s.turn_rad > 0;
+  if (last.kind !== s.kind || last.turn_rad * s.turn_rad <= 0 || last.length_m * s.length_m <= 0)
+    return false;
+  if (s.kind === "combined") return true;
+  const from = last.centre ?? { x_m: 0, y_m: 0 };
+  const to = s.centre ?? { x_m: 0, y_m: 0 };
+  return s.kind === "arc" && Math.hypot(from.x_m - to.x_m, from.y_m - to.y_m) < 0.01;
+}
+
+/** Arcs and turns are cut for the vehicle's order; a person reads the pieces as one. */
+export function joined(segments: readonly Segment[]): Segment[] {
   const out: Segment[] = [];
   for (const s of segments) {
     const last = out.at(-1);
-    const goesOn =
-      last?.kind === "arc" &&
-      s.kind === "arc" &&
-      last.turn_rad * s.turn_rad > 0 &&
-      last.length_m * s.length_m > 0 &&
-      Math.hypot(
-        (last.centre?.x_m ?? 0) - (s.centre?.x_m ?? 0),
-        (last.centre?.y_m ?? 0) - (s.centre?.y_m ?? 0),
-      ) < 0.01;
-    if (last && goesOn) {
+    if (last && goesOn(last, s)) {
       out[out.length - 1] = {
         ...last,
         end: s.end,
@@ -52,7 +53,9 @@ export function segmentWords(s: Segment, say: Say): string {
     case "rotate":
       return say(`words.turn_${side}`, { angle });
     case "straight":
-      return say(`words.${straightKey(s)}`, { length: number(Math.abs(s.length_m), { decimals: 3 }) });
+      return straightWords(s, say);
+    case "combined":
+      return say(`words.combined_${side}`, { angle, length: number(Math.abs(s.length_m), { decimals: 3 }) });
     case "arc": {
       const radius = Math.abs(s.turn_rad) > 1e-9 ? Math.abs(s.length_m / s.turn_rad) : 0;
       const back = s.length_m < 0 ? "back_" : "";
@@ -61,13 +64,27 @@ export function segmentWords(s: Segment, say: Say): string {
   }
 }
 
-function straightKey(s: Segment): string {
-  const direction = s.direction_rad ?? 0;
-  const sideways = Math.abs(Math.sin(direction)) > Math.SQRT1_2;
-  if (sideways)
-    return Math.sin(direction) * Math.sign(s.length_m || 1) > 0 ? "sideways_left" : "sideways_right";
-  const ahead = Math.cos(direction) * Math.sign(s.length_m || 1) > 0;
-  return ahead ? "drive" : "back";
+/** Within this of straight ahead, back or sideways nobody would name the angle. */
+const kAsGoodAs_rad = 2 * (Math.PI / 180);
+
+/** The direction alone says which way; without a sideways part the sign of the length may stand for it. */
+function straightWords(s: Segment, say: Say): string {
+  const length = number(Math.abs(s.length_m), { decimals: 3 });
+  const left = wrap(s.direction_rad ?? 0);
+  const off = Math.abs(left);
+  const side = left > 0 ? "left" : "right";
+  if (off < kAsGoodAs_rad) return say(`words.${s.length_m < 0 ? "back" : "drive"}`, { length });
+  if (Math.PI - off < kAsGoodAs_rad) return say("words.back", { length });
+  if (Math.abs(off - Math.PI / 2) < kAsGoodAs_rad) return say(`words.sideways_${side}`, { length });
+  return say(`words.oblique_${side}`, { length, angle: number((off * 180) / Math.PI, { decimals: 1 }) });
+}
+
+/** What `mode.deviation` shows of an expected deviation. */
+export function deviationValues(expected: NonNullable<ModeOption["expected_deviation"]>) {
+  return {
+    position: millimetres(expected.position_m, { decimals: expected.position_m < 0.01 ? 1 : 0 }),
+    heading: degrees(expected.heading_rad, { decimals: 2 }),
+  };
 }
 
 export function capitalise(text: string): string {

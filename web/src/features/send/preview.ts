@@ -69,7 +69,15 @@ export function countChecks(checks: readonly Check[]): {
   return { pass: of("pass") + of("note"), note: of("note"), fail: of("fail"), total: checks.length };
 }
 
-const modeOrder: MotionMode[] = ["linear", "free", "fixed_axis_rotation", "self_rotation", "lateral"];
+const modeOrder: MotionMode[] = [
+  "linear",
+  "free",
+  "fixed_axis_rotation",
+  "self_rotation",
+  "lateral",
+  "oblique",
+  "combined",
+];
 
 /** Feasible ones first, the suggested one on top; the rest in a fixed order so rows do not jump. */
 export function sortOptions(options: readonly ModeOption[]): ModeOption[] {

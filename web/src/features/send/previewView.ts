@@ -1,4 +1,4 @@
-import type { Plant, Point, Pose, Ring } from "@/shared/api/types";
+import type { Plant, Point, Pose, Ring, Station } from "@/shared/api/types";
 
 /** A window on the hall, in metres; y grows north. */
 export interface View {
@@ -72,8 +72,22 @@ export function placed(ring: Ring, pose: Pose): Ring {
   }));
 }
 
+const kFrameGap_m = 0.35;
+
+/** Half length and half width of a station: of the largest vehicle that stops there, and a little more. */
+export function stationFrame(plant: Plant, station: Station): Point {
+  const types = plant.vehicle_types.filter(
+    (t) => station.vehicle_types.length === 0 || station.vehicle_types.includes(t.id),
+  );
+  const corners = types.flatMap((t) => t.footprint);
+  return {
+    x_m: Math.max(0, ...corners.map((p) => Math.abs(p.x_m))) + kFrameGap_m,
+    y_m: Math.max(0, ...corners.map((p) => Math.abs(p.y_m))) + kFrameGap_m,
+  };
+}
+
 interface Segment {
-  kind: "rotate" | "straight" | "arc";
+  kind: "rotate" | "straight" | "arc" | "combined";
   start: Pose;
   end: Pose;
   turn_rad: number;

@@ -1,13 +1,22 @@
+import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import type { Check, Plant, Reason, StationState, Vehicle } from "@/shared/api/types";
+import type { Check, MotionMode, Plant, Reason, StationState, Vehicle } from "@/shared/api/types";
+import rawReasonsEn from "@/shared/i18n/reasons.en.json";
+import rawReasonsZh from "@/shared/i18n/reasons.zh.json";
+import wordsEn from "@/shared/i18n/words.en.json";
+import wordsZh from "@/shared/i18n/words.zh.json";
+import sprite from "@/shared/ui/sprite.svg?raw";
 import { noNames } from "@/shared/words/words";
 import { checkWords } from "./checkWords";
 import en from "./i18n.en.json";
-import { moveWords, type Segment } from "./moveWords";
-import { dimension, nearestStation, viewOf, wayOf } from "./previewView";
+import { modeIcon } from "./ModeStep";
+import { deviationValues, moveWords, type Segment } from "./moveWords";
+import { dimension, nearestStation, stationFrame, viewOf, wayOf } from "./previewView";
 import { lookUpStation, padKeyOf, pressKey } from "./stationEntry";
 import { numberRanges } from "./StationStep";
 
+const reasonsEn: Record<string, string> = rawReasonsEn;
+const reasonsZh: Record<string, string> = rawReasonsZh;
 const at = (key: string): unknown =>
   key.split(".").reduce<unknown>((o, k) => (o as Record<string, unknown>)?.[k], en);
 const template = (key: string) => (typeof at(key) === "string" ? (at(key) as string) : undefined);
@@ -39,6 +48,12 @@ describe("moveWords", () => {
     [{ length_m: -2, direction_rad: 0 }, "reverse 2.000 m"],
     [{ length_m: 2, direction_rad: Math.PI / 2 }, "move 2.000 m left"],
     [{ length_m: 2, direction_rad: -Math.PI / 2 }, "move 2.000 m right"],
+    [{ length_m: 5, direction_rad: Math.PI / 6 }, "move 5.000 m, 30.0° to the left"],
+    [{ length_m: -5, direction_rad: -(3 * Math.PI) / 4 }, "move 5.000 m, 135.0° to the right"],
+    [
+      { kind: "combined" as const, turn_rad: -Math.PI / 2, length_m: 4 },
+      "move 4.000 m, turning 90.0° right on the way",
+    ],
     [{ kind: "arc" as const, turn_rad: Math.PI / 2, length_m: 5 * Math.PI }, "arc 90.0° left, radius 10.0 m"],
     [
       { kind: "arc" as const, turn_rad: -Math.PI, length_m: -10 * Math.PI },
@@ -57,8 +72,67 @@ describe("moveWords", () => {
     expect(moveWords([segment(piece), segment(piece)], say, ", ")).toBe("arc 90.0° left, radius 10.0 m");
     expect(moveWords([segment(piece), segment(other)], say, ", ").match(/arc/g)).toHaveLength(2);
   });
+  it("reads half a turn, which is ordered as two, as one", () => {
+    const quarter = segment({ kind: "rotate", turn_rad: -Math.PI / 2 });
+
+    expect(moveWords([quarter, quarter], say, ", ")).toBe("turn 180.0° right");
+    expect(moveWords([quarter, { ...quarter, turn_rad: 0.5 }], say, ", ").match(/turn/g)).toHaveLength(2);
+  });
+  it("reads the pieces of one turn on the way as one", () => {
+    const piece = { kind: "combined" as const, turn_rad: Math.PI / 3, length_m: 2 };
+
+    expect(moveWords([segment(piece), segment(piece)], say, ", ")).toBe(
+      "move 4.000 m, turning 120.0° left on the way",
+    );
+  });
   it("leaves out a turn that nobody can see", () => {
     expect(moveWords([segment({ kind: "rotate", turn_rad: 1e-5 })], say, ", ")).toBe("");
+  });
+});
+
+describe("modes", () => {
+  const modes = Object.keys(modeIcon) as MotionMode[];
+
+  it.each(modes)("%s has a name in both languages and a picture", (mode) => {
+    for (const words of [wordsEn, wordsZh]) {
+      expect(words.mode[mode]).toBeTruthy();
+      expect(words.mode_short[mode]).toBeTruthy();
+    }
+    expect(sprite).toContain(`id="${modeIcon[mode]}"`);
+  });
+
+  // What the planner may say against a mode, read from its sources: a new code must not reach people as a code.
+  const root = new URL("../../../../core/", import.meta.url);
+  const sources = ["kinematics", "planning", "fleet"].flatMap((folder) =>
+    readdirSync(new URL(folder, root))
+      .filter((name) => name.endsWith(".cpp") && (folder !== "fleet" || name === "motion_preview.cpp"))
+      .map((name) => readFileSync(new URL(`${folder}/${name}`, root), "utf8")),
+  );
+  const codes = new Set(
+    sources.flatMap((text) =>
+      [...text.matchAll(/(?:Errc::k\w+,\s*\{?|return \{|Reason\{)"([a-z_]+)"/g)].map((found) => found[1]),
+    ),
+  );
+
+  it("are refused for reasons that the sources name", () => {
+    const known = ["mode_not_supported", "not_beside", "cannot_move_so", "blocked", "no_route"];
+    for (const code of known) expect(codes).toContain(code);
+  });
+  it.each([...codes])("the reason %s has words in both languages", (code) => {
+    for (const reasons of [reasonsEn, reasonsZh]) {
+      const said = ["", "_b", "_c", "_d"].map((variant) => reasons[`${code}${variant}`]).filter(Boolean);
+      expect(said.length, code).toBeGreaterThan(0);
+    }
+  });
+  it("show the expected deviation in mm and degrees", () => {
+    expect(deviationValues({ position_m: 0.0042, heading_rad: 0.002 })).toEqual({
+      position: "4.2",
+      heading: "0.11",
+    });
+    expect(deviationValues({ position_m: 0.0312, heading_rad: 0 })).toEqual({
+      position: "31",
+      heading: "0.00",
+    });
   });
 });
 
@@ -189,5 +263,27 @@ describe("preview geometry", () => {
     expect(nearestStation(plant, "h", view, { x: 0.52, y: 0.5 }, 0.05)).toBe(4);
     expect(nearestStation(plant, "h", view, { x: 0.7, y: 0.5 }, 0.05)).toBeUndefined();
     expect(nearestStation(plant, "other", view, { x: 0.5, y: 0.5 }, 0.05)).toBeUndefined();
+  });
+});
+
+describe("stationFrame", () => {
+  const type = (id: string, x: number, y: number) => ({
+    id,
+    footprint: [
+      { x_m: -x, y_m: -y },
+      { x_m: x, y_m: y },
+    ],
+  });
+  const plant = { vehicle_types: [type("long", 5.25, 1.25), type("short", 1.2, 2)] } as unknown as Plant;
+  const frame = (vehicle_types: string[]) =>
+    stationFrame(plant, { vehicle_types } as unknown as Plant["stations"][number]);
+
+  it.each([
+    [["long"], 5.6, 1.6],
+    [["short"], 1.55, 2.35],
+    [[], 5.6, 2.35],
+  ])("about those who stop there: %o", (types, x_m, y_m) => {
+    expect(frame(types).x_m).toBeCloseTo(x_m);
+    expect(frame(types).y_m).toBeCloseTo(y_m);
   });
 });

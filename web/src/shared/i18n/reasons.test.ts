@@ -45,6 +45,7 @@ describe("problemText", () => {
 });
 
 it.each([
+  ["along_m", -6.8, "6.80\u00a0m"],
   ["clearance_m", 0.31, "0.31\u00a0m"],
   ["length_m", 12.5, "12.50\u00a0m"],
   ["load_kg", 21500, "21.5\u00a0t"],

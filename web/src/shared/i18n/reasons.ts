@@ -26,6 +26,7 @@ export function paramText(name: string, value: string | number | boolean): strin
   if (typeof value !== "number") return String(value);
   if (name.endsWith("_m2")) return `${fixed(value, 1)}${kThin}m²`;
   if (name.endsWith("_mps")) return `${fixed(value, 2)}${kThin}m/s`;
+  if (name === "along_m") return length(Math.abs(value)); // ahead or behind: the wording says both
   if (name.endsWith("_m")) return length(value);
   if (name.endsWith("_rad")) return deg(value, 2);
   if (name.endsWith("_s")) return age(value);

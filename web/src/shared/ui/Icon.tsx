@@ -43,7 +43,7 @@ export type SymbolName =
   | "c-ok"
   | "c-no";
 
-export type ModeIconName = "m-auto" | "m-lin" | "m-arc" | "m-rot" | "m-lat" | "m-free";
+export type ModeIconName = "m-auto" | "m-lin" | "m-arc" | "m-rot" | "m-lat" | "m-obl" | "m-comb" | "m-free";
 
 /** All pictograms, once in the document; Icon and Symbol refer to them. */
 export function Sprite() {

@@ -39,8 +39,12 @@ export function useWords(): Words {
     const vehicles = new Map((plant?.vehicles ?? []).map((v) => [v.id, v.name]));
     const stations = new Map((plant?.stations ?? []).map((s) => [s.id, String(s.number)]));
     const areas = new Map((plant?.areas ?? []).map((a) => [a.id, a.name]));
+    const obstacles: Readonly<Record<string, string>> = {
+      wall: t("words:wall"),
+      map: t("words:map_obstacle"),
+    };
     const names: Names = {
-      vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? (id === "wall" ? t("words:wall") : undefined),
+      vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? obstacles[id],
       station: (id) => stations.get(id),
     };
     return {

@@ -1,0 +1,37 @@
+#include "api/http/motion_preview_handlers.hpp"
+
+#include <utility>
+
+#include "api/http/preview_json.hpp"
+#include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
+
+namespace pulseline::api {
+namespace {
+
+Json answer_json(const fleet::MotionQuestion& question, const fleet::MotionTask& task,
+                 const std::vector<planning::ModeOption>& options) {
+    Json json = {{"vehicle", question.vehicle.str()},
+                 {"hall", task.request.hall.str()},
+                 {"start", pose_json(task.request.start)},
+                 {"target", pose_json(task.target)},
+                 {"loaded", task.request.loaded},
+                 {"options", list_json(options, mode_option_json)}};
+    if (question.station) json["station"] = *question.station;
+    return json;
+}
+
+}  // namespace
+
+FleetAnswer preview_motions(FleetContext& context, const Request& request) {
+    auto question = read_motion_question(request);
+    if (!question) return {problem(400, question.error(), request)};
+    auto task = context.fleet.motion_task(*question);
+    if (!task) return {problem(task.error(), request)};
+    return {{}, [question = std::move(*question), task = std::move(*task)](const HistoryContext&) {
+                return json_response(200,
+                                     answer_json(question, task, fleet::preview_motions(task)));
+            }};
+}
+
+}  // namespace pulseline::api
