@@ -3,6 +3,7 @@
 #include "api/access/access_control.hpp"
 #include "api/http/contexts.hpp"
 #include "api/http/router.hpp"
+#include "core/fleet/motion_preview.hpp"
 #include "server/assets.hpp"
 #include "server/await.hpp"
 #include "server/camera_store.hpp"
@@ -38,6 +39,7 @@ struct Context {
     Quota peers;
     Quota streams;
     std::size_t connections = 0;
+    fleet::MotionPreviewer previewer = {};  // of the history thread
 };
 
 /// A request that asks to become a WebSocket, and what came behind it.

@@ -17,7 +17,7 @@ Response refused(const Error& error, const Request& request) {
 net::awaitable<Response> on_history(Context& context, const Request& request,
                                     std::function<Response(const api::HistoryContext&)> handler) {
     const std::function<Response()> job = [&context, handler = std::move(handler)] {
-        return handler(api::HistoryContext{context.history, context.plant});
+        return handler(api::HistoryContext{context.history, context.plant, context.previewer});
     };
     auto result = co_await on<Response>(context.history_pool, context.io, job);
     co_return result ? std::move(*result) : refused(result.error(), request);

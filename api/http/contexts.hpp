@@ -14,6 +14,9 @@
 namespace pulseline::access {
 class AccessControl;
 }
+namespace pulseline::fleet {
+class MotionPreviewer;
+}
 
 namespace pulseline::api {
 
@@ -70,6 +73,7 @@ struct FleetContext {
 struct HistoryContext {
     fleet::History& history;
     const plant::Plant& plant;
+    fleet::MotionPreviewer& previewer;
 };
 
 /// On the worker pool: may block (password hashing, waiting for a commit).

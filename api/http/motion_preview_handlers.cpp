@@ -28,10 +28,11 @@ FleetAnswer preview_motions(FleetContext& context, const Request& request) {
     if (!question) return {problem(400, question.error(), request)};
     auto task = context.fleet.motion_task(*question);
     if (!task) return {problem(task.error(), request)};
-    return {{}, [question = std::move(*question), task = std::move(*task)](const HistoryContext&) {
-                return json_response(200,
-                                     answer_json(question, task, fleet::preview_motions(task)));
-            }};
+    return {
+        {},
+        [question = std::move(*question), task = std::move(*task)](const HistoryContext& history) {
+            return json_response(200, answer_json(question, task, history.previewer.preview(task)));
+        }};
 }
 
 }  // namespace pulseline::api

@@ -163,7 +163,7 @@ public:
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;
-    /// What preview_motions needs of the fleet. Errors: unknown_vehicle, unknown_station,
+    /// What MotionPreviewer needs of the fleet. Errors: unknown_vehicle, unknown_station,
     /// unknown_hall, other_hall, pose_unknown, outside_hall.
     Result<MotionTask> motion_task(const MotionQuestion& question) const;
     std::optional<JobOrder> order(JobOrderId id) const;

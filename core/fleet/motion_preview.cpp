@@ -101,10 +101,13 @@ Result<MotionTask> Fleet::motion_task(const MotionQuestion& question) const {
     return task;
 }
 
-std::vector<ModeOption> preview_motions(const MotionTask& task) {
-    planning::LegPlanner planner = task.tables->planner.again();
-    planner.set_closures(task.closures);
-    auto options = planner.assess_modes(task.request, task.standing);
+std::vector<ModeOption> MotionPreviewer::preview(const MotionTask& task) {
+    if (tables_ != task.tables) {
+        tables_ = task.tables;
+        planner_ = tables_->planner.again();
+    }
+    planner_->set_closures(task.closures);
+    auto options = planner_->assess_modes(task.request, task.standing);
     if (task.modes.empty()) return options;
     std::vector<ModeOption> asked;
     for (const MotionMode mode : plant::kMotionModes) {

@@ -21,7 +21,7 @@ struct MotionQuestion {
     std::vector<plant::MotionMode> modes;   // none: all of the vehicle's type
 };
 
-/// A question with all that the fleet knows about it, to be answered on any thread.
+/// A question with all that the fleet knows about it, to be answered on another thread.
 struct MotionTask {
     planning::LegRequest request;
     geometry::Pose2 target;
@@ -31,9 +31,18 @@ struct MotionTask {
     std::shared_ptr<const PlantTables> tables;
 };
 
-/// Every mode asked for with its plan or the reason against it, in the order of
-/// plant::kMotionModes; besides the reasons of LegPlanner::assess_modes mode_not_supported for one
-/// that is not the type's. Of all modes of the type the one that kAuto takes is suggested.
-std::vector<planning::ModeOption> preview_motions(const MotionTask& task);
+/// Answers such questions, and keeps its planner, with all that has worked out, for the next one.
+/// Thread safety: none. REQUIRES: the plant outlives it.
+class MotionPreviewer {
+public:
+    /// Every mode asked for with its plan or the reason against it, in the order of
+    /// plant::kMotionModes; besides the reasons of LegPlanner::assess_modes mode_not_supported for
+    /// one that is not the type's. Of all modes of the type the one that kAuto takes is suggested.
+    std::vector<planning::ModeOption> preview(const MotionTask& task);
+
+private:
+    std::shared_ptr<const PlantTables> tables_;
+    std::optional<planning::LegPlanner> planner_;  // made of those
+};
 
 }  // namespace pulseline::fleet

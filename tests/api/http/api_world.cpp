@@ -158,7 +158,7 @@ Answer ApiWorld::call(const std::string& method, const std::string& target, cons
 }
 
 Response ApiWorld::run(const Route& route, const Request& request) {
-    const HistoryContext for_history{history, world.plant};
+    const HistoryContext for_history{history, world.plant, previewer};
     if (const auto* on_fleet = std::get_if<FleetHandler>(&route.handler)) {
         FleetContext context{*world.fleet, world.plant, images, world.now};
         FleetAnswer answer = (*on_fleet)(context, request);

@@ -7,6 +7,7 @@
 #include "api/access/access_control.hpp"
 #include "api/http/documents.hpp"
 #include "api/http/router.hpp"
+#include "core/fleet/motion_preview.hpp"
 #include "tests/api/access/memory_store.hpp"
 #include "tests/api/http/schema_check.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
@@ -76,6 +77,7 @@ public:
     OneImage images;
     FakeService service;
     WorldHistory history;
+    fleet::MotionPreviewer previewer;
     Documents documents;
     AccessPolicy policy{{"http://127.0.0.1:8080"}};
     access::Identity identity;  // who calls when the headers prove nobody: an operator's token

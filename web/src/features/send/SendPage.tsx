@@ -189,7 +189,7 @@ export function SendPage() {
           title={t("mode.title")}
           answer={
             feasible &&
-            t("mode.answer", { mode: words.mode(feasible.mode), time: duration(feasible.duration_s) })
+            t("mode.answer", { mode: words.modeShort(feasible.mode), time: duration(feasible.duration_s) })
           }
           open={current === 3}
           onOpen={() => setOpenStep(3)}
