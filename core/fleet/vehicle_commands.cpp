@@ -15,10 +15,12 @@ tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
 
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {
-    static const char* const kCodes[] = {
-        "server_restarted",   "vehicle_lost_order",       "vehicle_was_lost", "vehicle_paused",
-        "order_not_accepted", "order_rejected",           "foreign_order",    "identity_conflict",
-        "vehicle_withdrawn",  "load_on_withdrawn_vehicle"};
+    static const char* const kCodes[] = {"server_restarted",   "vehicle_lost_order",
+                                         "vehicle_was_lost",   "vehicle_paused",
+                                         "order_not_accepted", "order_rejected",
+                                         "foreign_order",      "identity_conflict",
+                                         "vehicle_withdrawn",  "load_on_withdrawn_vehicle",
+                                         "driven_by_hand"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
