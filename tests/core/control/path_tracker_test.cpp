@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::control {
 namespace {
@@ -37,7 +37,7 @@ void expect_small(const Pose2& off) {
 
 TEST(PathTracker, AnOmnidirectionalVehicleComesBackToItsPathHoweverItMoves) {
     const Pose2 offset{-0.03, 0.05, 0.02};
-    for (const auto& type : {testing::platform(), testing::mecanum()}) {
+    for (const auto& type : {pulseline::testing::platform(), pulseline::testing::mecanum()}) {
         expect_small(left_over(type, {0.6, 0, 0}, offset, 20));
         expect_small(left_over(type, {-0.6, 0, 0}, offset, 20));
         expect_small(left_over(type, {0.2, 0.5, 0}, offset, 20));
@@ -48,14 +48,14 @@ TEST(PathTracker, AnOmnidirectionalVehicleComesBackToItsPathHoweverItMoves) {
 TEST(PathTracker, ADifferentialVehicleComesBackForwardsAndBackwards) {
     const Pose2 offset{-0.03, 0.05, 0.02};
     for (const double vx : {0.8, -0.8}) {
-        expect_small(left_over(testing::differential(), {vx, 0, 0}, offset, 25));
-        expect_small(left_over(testing::differential(), {vx, 0, 0.1}, offset, 25));
+        expect_small(left_over(pulseline::testing::differential(), {vx, 0, 0}, offset, 25));
+        expect_small(left_over(pulseline::testing::differential(), {vx, 0, 0.1}, offset, 25));
     }
 }
 
 TEST(PathTracker, OnTheReferenceItAsksForTheReferencesTwist) {
     const Reference reference{{1, 2, 0.4}, {0.3, 0, 0.1}};
-    for (const auto& type : {testing::platform(), testing::mecanum(), testing::differential()}) {
+    for (const auto& type : {pulseline::testing::platform(), pulseline::testing::mecanum(), pulseline::testing::differential()}) {
         const Twist twist = track(type, reference, reference.pose);
         EXPECT_NEAR(twist.vx_mps, 0.3, 1e-12);
         EXPECT_NEAR(twist.vy_mps, 0, 1e-12);
@@ -66,7 +66,7 @@ TEST(PathTracker, OnTheReferenceItAsksForTheReferencesTwist) {
 TEST(PathTracker, NeverExceedsLimitsNorAsksADifferentialVehicleToMoveSideways) {
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> any(-1, 1);
-    for (const auto& type : {testing::platform(), testing::mecanum(), testing::differential()}) {
+    for (const auto& type : {pulseline::testing::platform(), pulseline::testing::mecanum(), pulseline::testing::differential()}) {
         const bool differential = type.kinematics == plant::Kinematics::kDifferential;
         for (int i = 0; i < 2000; ++i) {
             const Reference reference{
@@ -85,7 +85,7 @@ TEST(PathTracker, NeverExceedsLimitsNorAsksADifferentialVehicleToMoveSideways) {
 }
 
 TEST(PathTracker, DoesNotMoveAStandingVehicle) {
-    const Twist twist = track(testing::mecanum(), {{0.1, 0.1, 0.1}, {}}, {});
+    const Twist twist = track(pulseline::testing::mecanum(), {{0.1, 0.1, 0.1}, {}}, {});
     EXPECT_EQ(twist, Twist{});
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/simulation/vehicle_motion.hpp"
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::simulation {
 namespace {

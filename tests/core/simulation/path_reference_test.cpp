@@ -38,7 +38,8 @@ TEST(PathReference, TwistIsTheDerivativeOfItsPoses) {
 TEST(PathReference, KeepsToSpeedAndAccelerationAndSlowsEvenTurns) {
     const auto type = platform_type();
     PathReference reference(type, 1);
-    reference.append(turn({}, 2.0), 0, 0.5);
+    reference.append(turn({}, 2.0));
+    reference.slow_to(0.5);
     double before = 0;
     double peak = 0;
     while (!reference.empty()) {

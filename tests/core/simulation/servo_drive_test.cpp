@@ -9,7 +9,7 @@
 #include <ctime>
 #include <vector>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::simulation {

@@ -5,7 +5,7 @@
 
 #include "core/simulation/servo_drive.hpp"
 #include "core/simulation/vehicle_executor.hpp"
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::simulation {

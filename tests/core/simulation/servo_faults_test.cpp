@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "core/simulation/servo_drive.hpp"
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::simulation {

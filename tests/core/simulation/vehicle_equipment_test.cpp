@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::simulation {
 namespace {

@@ -16,7 +16,7 @@
 #include "server/agent/outbox.hpp"
 #include "server/agent/truth_log.hpp"
 #include "server/agent/vehicle.hpp"
-#include "tests/core/control/vehicle_types.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::agent {
