@@ -8,6 +8,7 @@
 #include "core/control/adjustment.hpp"
 #include "core/fleet/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
+#include "core/simulation/window_approach.hpp"
 
 namespace pulseline::simulation {
 
@@ -49,19 +50,30 @@ private:
     std::optional<Outcome> take_measurement();
     /// The next pass of `loop`.
     Status begin_pass(control::Adjustment& loop, const Pose2& body_from_target);
+    void drive_approach(double dt_s);
+    void look_on_the_way();
+    bool begin_approach(const Pose2& body_from_target);
     bool look_where_it_should_be();
+    Outcome refuse_late(const Pose2& body_from_target);
     void learn(const fleet::StopMeasurement& after);
     Outcome finish(bool succeeded, std::string why_not);
 
     Drive& motion_;
     StopSensing& sensing_;
     control::AdjustmentLimits limits_;
+    control::AdjustmentLimits target_limits_;  // of this stop
     control::MotionCompensation compensation_;
     control::Adjustment adjustment_;
     fleet::StopTarget target_;
     bool correct_ = false;
     bool running_ = false;
     bool aborting_ = false;
+    std::optional<WindowApproach> approach_;
+    int approaches_ = 0;
+    bool on_the_way_ = false;  // seen on the way where it is
+    bool late_ = false;       // the last approach timed out
+    double tick_s_ = 0;       // own time of the last step
+    double looked_at_m_ = 0;  // left to the target when it last looked on the way
     double settling_s_ = 0;
     int blind_passes_ = 0;
     std::optional<fleet::StopMeasurement> last_;
