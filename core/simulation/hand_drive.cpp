@@ -55,8 +55,7 @@ void HandDrive::step(double dt_s) {
     }
     drive_.release();
     const double factor = drive_.time_factor();
-    drive_.steer(
-        {factor * wanted_.vx_mps, factor * wanted_.vy_mps, factor * wanted_.turn_radps});
+    drive_.steer({factor * wanted_.vx_mps, factor * wanted_.vy_mps, factor * wanted_.turn_radps});
 }
 
 void HandDrive::give_back() {

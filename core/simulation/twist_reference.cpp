@@ -41,9 +41,9 @@ void TwistReference::step(double h_s, double share) {
     const Twist goal = times(share, asked_);
     const Twist change{goal.vx_mps - twist_.vx_mps, goal.vy_mps - twist_.vy_mps,
                        goal.turn_radps - twist_.turn_radps};
-    const double part = std::min(
-        share_of(max_accel_mps2_ * h_s, std::hypot(change.vx_mps, change.vy_mps)),
-        share_of(max_turn_accel_radps2_ * h_s, std::abs(change.turn_radps)));
+    const double part =
+        std::min(share_of(max_accel_mps2_ * h_s, std::hypot(change.vx_mps, change.vy_mps)),
+                 share_of(max_turn_accel_radps2_ * h_s, std::abs(change.turn_radps)));
     if (part >= 1 - kReached) {
         twist_ = goal;
     } else {

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kBlindPasses = 4;
 constexpr int kApproaches = 2;
-constexpr double kSettle_s = 0.4;  // until the chassis no longer swings in the image
+constexpr double kSettle_s = 0.4;      // until the chassis no longer swings in the image
 constexpr double kLookEvery_m = 0.02;  // a third of a code: none is passed unseen
 
 bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& target) {
@@ -71,17 +71,13 @@ std::optional<StopProcedure::Outcome> StopProcedure::step(double dt_s) {
         motion_.clear();
         return finish(false, "cancelled");
     }
-    if (!motion_.idle()) {
+    if (!motion_.idle() || approach_) {
         if (const auto cause = motion_.stop_cause(); cause && motion_.standing()) {
             motion_.clear();
             return finish(false, "drive_stopped: " + cause->code);
         }
         settling_s_ = kSettle_s / motion_.time_factor();
         if (approach_) drive_approach(dt_s);
-        return std::nullopt;
-    }
-    if (approach_) {
-        drive_approach(dt_s);
         return std::nullopt;
     }
     settling_s_ -= dt_s;
@@ -99,8 +95,7 @@ void StopProcedure::drive_approach(double dt_s) {
 
 /// Blind where it began, it sees the codes come into view. It creeps: no image is smeared.
 void StopProcedure::look_on_the_way() {
-    const double left_m =
-        distance(motion_.believed_pose().position(), target_.target.position());
+    const double left_m = distance(motion_.believed_pose().position(), target_.target.position());
     if (on_the_way_ || looked_at_m_ - left_m < kLookEvery_m) return;
     looked_at_m_ = left_m;
     const auto measured = sensing_.measure(target_);
@@ -121,9 +116,8 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     if (!correct_) return finish(true, {});
     const Pose2 off = inverse(measured->pose) * target_.target;
     if (adjustment_.is_good(off)) return finish(true, {});
-    if (std::exchange(late_, false)) return refuse_late(off);
-    if (begin_approach(off)) return std::nullopt;
-    const Status begun = begin_pass(adjustment_, off);
+    if (!late_ && begin_approach(off)) return std::nullopt;
+    const Status begun = late_ ? too_late(off) : begin_pass(adjustment_, off);
     if (begun) return std::nullopt;
     if (adjustment_.is_in_reach(off) && inside(*measured, target_)) return finish(true, {});
     return finish(false, begun.error().reason.code + ": " + begun.error().what);
@@ -152,12 +146,14 @@ bool StopProcedure::begin_approach(const Pose2& body_from_target) {
     return true;
 }
 
-StopProcedure::Outcome StopProcedure::refuse_late(const Pose2& body_from_target) {
+Status StopProcedure::too_late(const Pose2& body_from_target) const {
+    const double left_m = norm(body_from_target.position());
+    const double left_rad = std::abs(body_from_target.heading_rad);
     char text[96];
-    std::snprintf(text, sizeof text, "out_of_time: %.1f mm and %.3f deg left",
-                  1e3 * norm(body_from_target.position()),
-                  degrees(std::abs(body_from_target.heading_rad)));
-    return finish(false, text);
+    std::snprintf(text, sizeof text, "%.1f mm and %.3f deg left when the time was up", 1e3 * left_m,
+                  degrees(left_rad));
+    return fail(Errc::kTimeout, "out_of_time", text, {},
+                {{"left_m", left_m}, {"left_rad", left_rad}});
 }
 
 Status StopProcedure::begin_pass(control::Adjustment& loop, const Pose2& body_from_target) {
@@ -181,6 +177,7 @@ void StopProcedure::learn(const fleet::StopMeasurement& after) {
 
 StopProcedure::Outcome StopProcedure::finish(bool succeeded, std::string why_not) {
     running_ = false;
+    approach_.reset();
     return {succeeded, last_, std::move(why_not)};
 }
 

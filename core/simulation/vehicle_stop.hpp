@@ -12,7 +12,7 @@
 
 namespace pulseline::simulation {
 
-/// Port: what the standing vehicle's cameras make of the codes below it.
+/// Port: what the cameras of a vehicle that stands or creeps make of the codes below it.
 class StopSensing {
 public:
     virtual ~StopSensing() = default;
@@ -21,9 +21,11 @@ public:
     virtual Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) = 0;
 };
 
-/// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker): the loop of
-/// control::Adjustment, whose motion compensation learns from every pass. The believed pose becomes
-/// each measured one.
+/// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker): from some
+/// millimetres away a WindowApproach where that helps, then the loop of control::Adjustment, whose
+/// motion compensation learns from every pass. The believed pose becomes each measured one; when
+/// the first look found nothing, also those that it gets on the way to where the codes should be.
+/// Refused with what was reached: as control::Adjustment does, and out_of_time.
 class StopProcedure {
 public:
     struct Outcome {
@@ -54,7 +56,7 @@ private:
     void look_on_the_way();
     bool begin_approach(const Pose2& body_from_target);
     bool look_where_it_should_be();
-    Outcome refuse_late(const Pose2& body_from_target);
+    Status too_late(const Pose2& body_from_target) const;
     void learn(const fleet::StopMeasurement& after);
     Outcome finish(bool succeeded, std::string why_not);
 
@@ -71,9 +73,9 @@ private:
     std::optional<WindowApproach> approach_;
     int approaches_ = 0;
     bool on_the_way_ = false;  // seen on the way where it is
-    bool late_ = false;       // the last approach timed out
-    double tick_s_ = 0;       // own time of the last step
-    double looked_at_m_ = 0;  // left to the target when it last looked on the way
+    bool late_ = false;        // the last approach timed out
+    double tick_s_ = 0;        // own time of the last step
+    double looked_at_m_ = 0;   // left to the target when it last looked on the way
     double settling_s_ = 0;
     int blind_passes_ = 0;
     std::optional<fleet::StopMeasurement> last_;

@@ -10,8 +10,10 @@ namespace {
 
 using kinematics::Twist;
 
-// Moves one by one end tenths of a millimetre off from nearer, and take no longer.
-constexpr double kFrom_m = 0.02;
+constexpr double kEndsWithin_m = 0.001;  // 0.4 to 0.7 mm off, as it truly is
+constexpr double kFrom_m = 0.005;
+constexpr double kSteeredTo_m = 0.03;
+constexpr double kSteeredTo_rad = radians(0.3);
 constexpr double kTopSpeed_mps = 0.15;
 // The drive takes on a twist within part of the step, so that it is not behind the window's count.
 constexpr double kAccelShare = 0.8;
@@ -38,8 +40,11 @@ control::DynamicWindowOptions options_for(const control::AdjustmentLimits& limit
 bool WindowApproach::helps(const plant::VehicleType& type, const Pose2& body_from_target,
                            const control::AdjustmentLimits& limits) {
     const double off_m = norm(body_from_target.position());
-    return control::moves_sideways(type) && off_m > kFrom_m && off_m <= limits.reach_m &&
-           std::abs(body_from_target.heading_rad) <= limits.reach_rad;
+    const bool steered = std::any_of(type.wheels.begin(), type.wheels.end(),
+                                     [](const plant::Wheel& wheel) { return wheel.steered; });
+    return control::moves_sideways(type) && limits.good_m >= kEndsWithin_m && off_m > kFrom_m &&
+           off_m <= (steered ? kSteeredTo_m : limits.reach_m) &&
+           std::abs(body_from_target.heading_rad) <= (steered ? kSteeredTo_rad : limits.reach_rad);
 }
 
 WindowApproach::WindowApproach(Drive& motion, const Pose2& hall_from_target,
@@ -51,7 +56,8 @@ WindowApproach::WindowApproach(Drive& motion, const Pose2& hall_from_target,
 
 WindowApproach::State WindowApproach::step(double dt_s) {
     const double own_s = dt_s * motion_.time_factor();
-    driven_s_ += own_s;
+    // Paused, or with something in its way, it waits.
+    if (!motion_.standing()) driven_s_ += own_s;
     until_step_s_ -= own_s;
     if (until_step_s_ > kRounding_s) return State::kDriving;
     const double step_s = std::max(kStep_s, own_s);
