@@ -27,17 +27,22 @@ public:
     /// Small moves from the believed pose, driven one after the other at creeping speed; they do
     /// not count as segments done. REQUIRES: idle().
     virtual void correct(std::span<const kinematics::Segment> moves) = 0;
+    /// Drives with this twist from now on (body frame, slowed down to what the wheels can), taking
+    /// it on as acceleration allows, until the next call; a zero one brakes. No segment is done by
+    /// it. Not idle() until it stands with a zero one, or clear() ends it.
+    /// REQUIRES: nothing queued; fixed wheels are not dragged sideways (kinematics::wheels_of).
+    virtual void steer(const kinematics::Twist& twist) = 0;
     /// Brakes and stays; release() drives on.
     virtual void hold() = 0;
     virtual void release() = 0;
     /// From now on at this share of every speed, from 0, which brakes and waits, to 1.
     virtual void slow_to(double share) = 0;
-    /// Drops the queue. REQUIRES: standing().
+    /// Drops the queue, or what it was steered by. REQUIRES: standing().
     virtual void clear() = 0;
     virtual void step(double dt_s) = 0;
 
     virtual bool standing() const = 0;
-    /// Standing with nothing left in the queue.
+    /// Standing with nothing left in the queue, nor steered.
     virtual bool idle() const = 0;
     /// Appended segments driven to their end since construction.
     virtual std::size_t segments_done() const = 0;
@@ -46,11 +51,13 @@ public:
     virtual double braking_m() const = 0;
     /// Way since the current segment began.
     virtual double distance_on_segment_m() const = 0;
-    /// The segment being driven or next to drive; nullptr when there is none.
+    /// The segment being driven or next to drive; steered, what it was last asked for, for a
+    /// second. nullptr when there is none.
     virtual const kinematics::Segment* current() const = 0;
 
     virtual const Pose2& true_pose() const = 0;
     virtual const Pose2& believed_pose() const = 0;
+    /// While it is steered it goes on from there; on segments it returns to them.
     virtual void set_believed(const Pose2& pose) = 0;
     virtual const plant::VehicleType& type() const = 0;
     virtual double time_factor() const = 0;

@@ -33,8 +33,8 @@ public:
 private:
     Drive& drive_;
     kinematics::Twist wanted_;
-    kinematics::Twist driven_;  // what the queue was filled for
-    double asked_for_s_ = 0;    // left of the last command
+    double asked_for_s_ = 0;  // left of the last command
+    bool taking_ = false;     // brakes before it is steered
 };
 
 }  // namespace pulseline::simulation

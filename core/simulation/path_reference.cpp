@@ -64,7 +64,7 @@ kinematics::Twist derivative(const Segment& segment, double s) {
 }
 
 PathReference::PathReference(plant::VehicleType type, double time_factor)
-    : type_(std::move(type)), time_factor_(time_factor) {}
+    : type_(std::move(type)), time_factor_(time_factor), steered_(type_, time_factor) {}
 
 PathReference::Move PathReference::make_move(const Segment& segment, double max_speed_mps) const {
     Move move;
@@ -81,6 +81,7 @@ PathReference::Move PathReference::make_move(const Segment& segment, double max_
 }
 
 void PathReference::append(const Segment& segment, double max_speed_mps) {
+    assert(!steered());
     queue_.push_back(make_move(segment, max_speed_mps));
 }
 
@@ -90,9 +91,24 @@ void PathReference::append_fine(const Segment& segment) {
     queue_.push_back(std::move(move));
 }
 
+void PathReference::steer(const Pose2& from, const kinematics::Twist& twist) {
+    assert(queue_.empty());
+    steered_.ask(from, twist);
+    const auto [vx_mps, vy_mps, turn_radps] = steered_.asked();
+    Segment way;
+    way.start = steered_.pose();
+    way.length_m = std::hypot(vx_mps, vy_mps);
+    way.direction_rad = std::atan2(vy_mps, vx_mps);
+    if (way.length_m <= kDone) way.kind = Kind::kRotate;
+    if (way.kind == Kind::kRotate) way.turn_rad = turn_radps;
+    way.end = way.start * Pose2{vx_mps, vy_mps, way.turn_rad};
+    steered_way_ = way;
+}
+
 void PathReference::clear() {
     assert(standing());
     queue_.clear();
+    steered_.drop();
 }
 
 double PathReference::remaining_m() const {
@@ -104,6 +120,7 @@ double PathReference::remaining_m() const {
 }
 
 double PathReference::braking_m() const {
+    if (steered()) return steered_.braking_m();
     if (queue_.empty() || turns_on_the_spot(queue_.front().segment)) return 0;
     return rate_ * rate_ / (2 * queue_.front().max_accel);
 }
@@ -114,16 +131,22 @@ double PathReference::distance_on_segment_m() const {
 }
 
 const Segment* PathReference::current() const {
+    if (steered()) return &steered_way_;
     return queue_.empty() ? nullptr : &queue_.front().segment;
 }
 
 Pose2 PathReference::pose() const {
+    if (steered()) return steered_.pose();
     const Move& move = queue_.front();
     return move.size > kDone ? kinematics::pose_at(move.segment, move.done / move.size)
                              : move.segment.start;
 }
 
 kinematics::Twist PathReference::twist_at_share(double share) const {
+    if (steered()) {
+        const auto [vx_mps, vy_mps, turn_radps] = steered_.asked();
+        return {share * vx_mps, share * vy_mps, share * turn_radps};
+    }
     return queue_.empty() ? kinematics::Twist{} : twist_at(share * queue_.front().max_rate);
 }
 
@@ -136,6 +159,7 @@ kinematics::Twist PathReference::twist_at(double rate) const {
 }
 
 double PathReference::braking_way() const {
+    if (steered()) return steered_.braking_m();
     return queue_.empty() ? 0 : rate_ * rate_ / (2 * queue_.front().max_accel);
 }
 
@@ -149,6 +173,7 @@ double PathReference::run_ahead() const {
 }
 
 kinematics::Twist PathReference::twist_ahead(double way) const {
+    if (steered()) return steered_.asked();
     std::size_t i = 0;
     double at = queue_[0].done + way;
     while (i + 1 < queue_.size() && at > queue_[i].size) at -= queue_[i++].size;
@@ -159,6 +184,10 @@ kinematics::Twist PathReference::twist_ahead(double way) const {
 }
 
 double PathReference::velocity_mps() const {
+    if (steered()) {
+        const auto& twist = steered_.twist();
+        return std::copysign(std::hypot(twist.vx_mps, twist.vy_mps), twist.vx_mps);
+    }
     const Segment* segment = current();
     if (segment == nullptr || turns_on_the_spot(*segment)) return 0;
     const bool backwards = segment->kind == Kind::kArc
@@ -168,6 +197,7 @@ double PathReference::velocity_mps() const {
 }
 
 double PathReference::turn_rate_radps() const {
+    if (steered()) return steered_.twist().turn_radps;
     const Segment* segment = current();
     if (segment == nullptr || segment->turn_rad == 0) return 0;
     const double share_per_s = rate_ / std::max(size_of(*segment), kDone);
@@ -176,6 +206,7 @@ double PathReference::turn_rate_radps() const {
 
 std::span<const PathReference::Passed> PathReference::step(double h_s) {
     passed_.clear();
+    if (steered()) step_steered(h_s);
     if (queue_.empty()) return passed_;
     if (queue_.front().size - queue_.front().done <= kDone) {
         finish_front({});
@@ -196,6 +227,22 @@ std::span<const PathReference::Passed> PathReference::step(double h_s) {
         passed_.push_back(stop);
     }
     return passed_;
+}
+
+void PathReference::step_steered(double h_s) {
+    const bool stood = steered_.standing();
+    Passed passed;
+    passed.from = steered_.pose();
+    steered_.step(h_s, held_ ? 0 : rate_share_);
+    passed.to = steered_.pose();
+    const auto [vx_mps, vy_mps, turn_radps] = steered_.twist();
+    const double speed_mps = std::hypot(vx_mps, vy_mps);
+    passed.on_the_spot = speed_mps <= kDone && turn_radps != 0;
+    passed.way = h_s * (passed.on_the_spot ? std::abs(turn_radps) : speed_mps);
+    peak_rate_ = std::max(peak_rate_, speed_mps);
+    passed.rests = steered_.standing();
+    if (passed.rests) passed.peak_rate = std::exchange(peak_rate_, 0);
+    if (!stood || !passed.rests) passed_.push_back(passed);
 }
 
 /// Highest rate that still obeys every limit ahead: the end of the run (rate 0) and slower moves.

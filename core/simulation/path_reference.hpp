@@ -8,14 +8,14 @@
 #include "core/kinematics/motion.hpp"
 #include "core/kinematics/wheels.hpp"
 #include "core/plant/plant.hpp"
+#include "core/simulation/twist_reference.hpp"
 
 namespace pulseline::simulation {
 
-using geometry::Pose2;
-
 /// Where a vehicle should be: a point that drives a queue of segments with trapezoidal speed
 /// profile, passing from one to the next without a stop where the motion continues in the same kind
-/// and direction, and always able to stop at the queue's end. Deterministic, without any error.
+/// and direction, and always able to stop at the queue's end. With nothing queued it can be steered
+/// by twists instead. Deterministic, without any error.
 class PathReference {
 public:
     /// What one step covered of one segment.
@@ -37,28 +37,35 @@ public:
     void append(const kinematics::Segment& segment, double max_speed_mps = 0);
     /// The same at creeping speed; it does not count among the segments done.
     void append_fine(const kinematics::Segment& segment);
+    /// Drives with this twist from `from`, or from where it is if it is steered already.
+    /// REQUIRES: nothing is queued.
+    void steer(const Pose2& from, const kinematics::Twist& twist);
+    bool steered() const { return steered_.active(); }
+    /// It has turned out to be elsewhere: `by` times its pose. REQUIRES: steered().
+    void shift(const Pose2& by) { steered_.shift(by); }
     void hold() { held_ = true; }
     void release() { held_ = false; }
     bool held() const { return held_; }
     /// From now on at this share of every rate, 0 to 1; slowing down takes its time.
     void slow_to(double share) { rate_share_ = share; }
-    /// Drops the queue. REQUIRES: standing().
+    /// Drops the queue, or what it is steered by. REQUIRES: standing().
     void clear();
     /// The pieces covered, in their order; valid until the next call.
     std::span<const Passed> step(double h_s);
 
-    bool standing() const { return rate_ == 0; }
-    bool empty() const { return queue_.empty(); }
+    bool standing() const { return rate_ == 0 && steered_.standing(); }
+    bool empty() const { return queue_.empty() && !steered_.active(); }
     std::size_t segments_done() const { return segments_done_; }
     double remaining_m() const;
     double braking_m() const;
     double distance_on_segment_m() const;
     const kinematics::Segment* current() const;
-    /// Where it is now on the current segment. REQUIRES: not empty().
+    /// Where it is now, on the current segment or steered. REQUIRES: not empty().
     Pose2 pose() const;
-    /// Body frame; derivative of the current segment's poses. Zero when empty or standing.
-    kinematics::Twist twist() const { return twist_at(rate_); }
-    /// The twist it would have here at `share` of the current segment's highest rate.
+    /// Body frame; derivative of its poses. Zero when empty or standing.
+    kinematics::Twist twist() const { return steered() ? steered_.twist() : twist_at(rate_); }
+    /// The twist it would have here at `share` of the current segment's highest rate, or of what it
+    /// is steered by.
     kinematics::Twist twist_at_share(double share) const;
 
     /// What is left until it must rest, and the share of it needed to brake now; of the current
@@ -85,11 +92,14 @@ private:
     kinematics::Twist twist_at(double rate) const;
     double allowed_rate(double h_s) const;
     void advance(double way);
+    void step_steered(double h_s);
     void finish_front(Passed passed);
 
     plant::VehicleType type_;
     double time_factor_;
     std::deque<Move> queue_;
+    TwistReference steered_;
+    kinematics::Segment steered_way_;  // asked for, as a segment of one second
     std::vector<Passed> passed_;
     double rate_ = 0;  // of the front move's size
     double peak_rate_ = 0;

@@ -30,6 +30,7 @@ constexpr double kThere_m = 1e-4;
 constexpr double kThere_rad = 2e-5;
 constexpr double kPatience_s = 3;  // then the brake takes what is left
 constexpr double kScrubTurn_rad = 0.1;
+constexpr double kNewDirection_rad = 0.2;  // steered so by twists, it first stands and steers
 
 }  // namespace
 
@@ -62,6 +63,29 @@ void ServoDrive::append(const Segment& segment, double max_speed_mps) {
 void ServoDrive::correct(std::span<const Segment> moves) {
     assert(idle());
     for (const Segment& move : moves) reference_.append_fine(move);
+}
+
+void ServoDrive::steer(const Twist& twist) {
+    const double share = 1 / time_factor_;
+    const Twist own{share * twist.vx_mps, share * twist.vy_mps, share * twist.turn_radps};
+    reference_.steer(believed_, own);
+    if (phase_ == Phase::kBraked || own == Twist{}) return;
+    const auto wheels = kinematics::wheels_of(type_, own, wheels_.present());
+    assert(wheels);
+    for (std::size_t i = 0; wheels && i < wanted_.size(); ++i) {
+        const double change_rad = std::abs((*wheels)[i].angle_rad - wanted_[i].angle_rad);
+        must_steer_ |= type_.wheels[i].steered && change_rad > kNewDirection_rad;
+    }
+}
+
+void ServoDrive::set_believed(const Pose2& pose) {
+    if (reference_.steered()) {
+        const Pose2 by = pose * inverse(believed_);
+        reference_.shift(by);
+        goal_ = by * goal_;
+        for (Pose2& due : due_) due = by * due;
+    }
+    believed_ = pose;
 }
 
 void ServoDrive::slow_to(double share) {
@@ -184,6 +208,7 @@ double ServoDrive::steerable_way(std::size_t wheel, double angle_rad) const {
 }
 
 void ServoDrive::steer_standing() {
+    if (must_steer_ && !reference_.empty()) return begin();
     if (wheels_.aligned(wanted_, budget_.aligned_rad)) {
         phase_ = Phase::kDriving;
         return;

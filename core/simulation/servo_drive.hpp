@@ -33,6 +33,7 @@ public:
 
     void append(const kinematics::Segment& segment, double max_speed_mps = 0) override;
     void correct(std::span<const kinematics::Segment> moves) override;
+    void steer(const kinematics::Twist& twist) override;
     void hold() override { held_ = true; }
     void release() override { held_ = false; }
     void slow_to(double share) override;
@@ -50,7 +51,7 @@ public:
 
     const Pose2& true_pose() const override { return true_; }
     const Pose2& believed_pose() const override { return believed_; }
-    void set_believed(const Pose2& pose) override { believed_ = pose; }
+    void set_believed(const Pose2& pose) override;
     const plant::VehicleType& type() const override { return type_; }
     double time_factor() const override { return time_factor_; }
     double velocity_mps() const override { return time_factor_ * reference_.velocity_mps(); }

@@ -57,6 +57,11 @@ void VehicleMotion::correct(std::span<const kinematics::Segment> moves) {
     }
 }
 
+void VehicleMotion::set_believed(const Pose2& pose) {
+    if (reference_.steered()) reference_.shift(pose * inverse(believed_));
+    believed_ = pose;
+}
+
 void VehicleMotion::step(double dt_s) {
     // Fine enough in the vehicle's own time, however much faster than that it runs.
     const int substeps = std::max(1, static_cast<int>(std::ceil(dt_s * time_factor_ / kSubstep_s)));

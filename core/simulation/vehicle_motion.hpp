@@ -46,6 +46,7 @@ public:
 
     void append(const kinematics::Segment& segment, double max_speed_mps = 0) override;
     void correct(std::span<const kinematics::Segment> moves) override;
+    void steer(const kinematics::Twist& twist) override { reference_.steer(believed_, twist); }
     void hold() override { reference_.hold(); }
     void release() override { reference_.release(); }
     void slow_to(double share) override { reference_.slow_to(share); }
@@ -62,7 +63,7 @@ public:
 
     const Pose2& true_pose() const override { return true_; }
     const Pose2& believed_pose() const override { return believed_; }
-    void set_believed(const Pose2& pose) override { believed_ = pose; }
+    void set_believed(const Pose2& pose) override;
     const plant::VehicleType& type() const override { return type_; }
     double time_factor() const override { return time_factor_; }
     double velocity_mps() const override { return reference_.velocity_mps(); }

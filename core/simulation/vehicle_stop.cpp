@@ -2,13 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace pulseline::simulation {
 namespace {
 
 constexpr int kBlindPasses = 4;
-constexpr double kSettle_s = 0.4;  // until the chassis no longer swings in the image
+constexpr int kApproaches = 2;
+constexpr double kSettle_s = 0.4;      // until the chassis no longer swings in the image
+constexpr double kLookEvery_m = 0.02;  // a third of a code: none is passed unseen
 
 bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& target) {
     return std::abs(measured.pose.x_m - target.target.x_m) <= target.tolerance_x_m &&
@@ -43,7 +46,11 @@ void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
     correct_ = correct;
     running_ = true;
     aborting_ = false;
-    adjustment_ = control::Adjustment(motion_.type(), limits_for(limits_, target));
+    target_limits_ = limits_for(limits_, target);
+    adjustment_ = control::Adjustment(motion_.type(), target_limits_);
+    approach_.reset();
+    late_ = on_the_way_ = false;
+    approaches_ = 0;
     blind_passes_ = 0;
     last_.reset();
     driven_.clear();
@@ -58,22 +65,43 @@ void StopProcedure::abort() {
 
 std::optional<StopProcedure::Outcome> StopProcedure::step(double dt_s) {
     if (!running_) return std::nullopt;
+    tick_s_ = dt_s * motion_.time_factor();
     if (aborting_) {
         if (!motion_.standing()) return std::nullopt;
         motion_.clear();
         return finish(false, "cancelled");
     }
-    if (!motion_.idle()) {
+    if (!motion_.idle() || approach_) {
         if (const auto cause = motion_.stop_cause(); cause && motion_.standing()) {
             motion_.clear();
             return finish(false, "drive_stopped: " + cause->code);
         }
         settling_s_ = kSettle_s / motion_.time_factor();
+        if (approach_) drive_approach(dt_s);
         return std::nullopt;
     }
     settling_s_ -= dt_s;
     if (settling_s_ > 0) return std::nullopt;
     return take_measurement();
+}
+
+void StopProcedure::drive_approach(double dt_s) {
+    if (!last_) look_on_the_way();
+    const auto state = approach_->step(dt_s);
+    if (state == WindowApproach::State::kDriving) return;
+    late_ = state == WindowApproach::State::kTimedOut;
+    approach_.reset();
+}
+
+/// Blind where it began, it sees the codes come into view. It creeps: no image is smeared.
+void StopProcedure::look_on_the_way() {
+    const double left_m = distance(motion_.believed_pose().position(), target_.target.position());
+    if (on_the_way_ || looked_at_m_ - left_m < kLookEvery_m) return;
+    looked_at_m_ = left_m;
+    const auto measured = sensing_.measure(target_);
+    if (!measured) return;
+    on_the_way_ = true;
+    motion_.set_believed(measured->pose);
 }
 
 std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
@@ -88,7 +116,8 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     if (!correct_) return finish(true, {});
     const Pose2 off = inverse(measured->pose) * target_.target;
     if (adjustment_.is_good(off)) return finish(true, {});
-    const Status begun = begin_pass(adjustment_, off);
+    if (!late_ && begin_approach(off)) return std::nullopt;
+    const Status begun = late_ ? too_late(off) : begin_pass(adjustment_, off);
     if (begun) return std::nullopt;
     if (adjustment_.is_in_reach(off) && inside(*measured, target_)) return finish(true, {});
     return finish(false, begun.error().reason.code + ": " + begun.error().what);
@@ -99,8 +128,32 @@ bool StopProcedure::look_where_it_should_be() {
     const Pose2 off = inverse(motion_.believed_pose()) * target_.target;
     if (blind_passes_ == kBlindPasses || adjustment_.is_good(off)) return false;
     ++blind_passes_;
+    if (begin_approach(off)) return true;
     control::Adjustment blind(motion_.type(), limits_);
     return begin_pass(blind, off).has_value();
+}
+
+/// An approach that ended elsewhere than it believed is not tried again for ever.
+bool StopProcedure::begin_approach(const Pose2& body_from_target) {
+    if (tick_s_ > WindowApproach::kLongest_s || approaches_ == kApproaches ||
+        !WindowApproach::helps(motion_.type(), body_from_target, target_limits_)) {
+        return false;
+    }
+    ++approaches_;
+    looked_at_m_ = norm(body_from_target.position());
+    settling_s_ = kSettle_s / motion_.time_factor();
+    approach_.emplace(motion_, target_.target, target_limits_);
+    return true;
+}
+
+Status StopProcedure::too_late(const Pose2& body_from_target) const {
+    const double left_m = norm(body_from_target.position());
+    const double left_rad = std::abs(body_from_target.heading_rad);
+    char text[96];
+    std::snprintf(text, sizeof text, "%.1f mm and %.3f deg left when the time was up", 1e3 * left_m,
+                  degrees(left_rad));
+    return fail(Errc::kTimeout, "out_of_time", text, {},
+                {{"left_m", left_m}, {"left_rad", left_rad}});
 }
 
 Status StopProcedure::begin_pass(control::Adjustment& loop, const Pose2& body_from_target) {
@@ -124,6 +177,7 @@ void StopProcedure::learn(const fleet::StopMeasurement& after) {
 
 StopProcedure::Outcome StopProcedure::finish(bool succeeded, std::string why_not) {
     running_ = false;
+    approach_.reset();
     return {succeeded, last_, std::move(why_not)};
 }
 

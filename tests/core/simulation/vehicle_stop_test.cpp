@@ -18,13 +18,13 @@ constexpr double kStep_s = 0.05;
 
 class TruePose : public StopSensing {
 public:
-    explicit TruePose(const VehicleMotion& motion) : motion_(motion) {}
+    explicit TruePose(const Drive& motion) : motion_(motion) {}
     Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
         return fleet::StopMeasurement{motion_.true_pose(), 5e-5, 5e-5, "test", {"ST01-F"}};
     }
 
 private:
-    const VehicleMotion& motion_;
+    const Drive& motion_;
 };
 
 fleet::StopTarget target_at(const Pose2& pose) {
@@ -33,7 +33,7 @@ fleet::StopTarget target_at(const Pose2& pose) {
 
 /// `look` sees the true pose after each step.
 template <class Look>
-StopProcedure::Outcome adjusted(StopProcedure& procedure, VehicleMotion& motion,
+StopProcedure::Outcome adjusted(StopProcedure& procedure, Drive& motion,
                                 const fleet::StopTarget& target, Look look) {
     procedure.start(target, true);
     for (int i = 0; i < 20'000; ++i) {
