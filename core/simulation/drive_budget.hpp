@@ -42,9 +42,10 @@ struct DriveBudget {
     // Supervision.
     double slip_limit = 0.07;  // share between rim and floor: one wheel of two losing 20 % shows 10
     double slip_time_s = 0.25;
-    double slip_speed_mps = 0.05;            // slower says nothing
-    double following_limit_m = 0.04;         // of a wheel; 0.01 is usual
-    double lag_m = 0.015;                    // while wheels and floor disagree: the encoder
+    double slip_speed_mps = 0.05;     // slower says nothing
+    double following_limit_m = 0.04;  // of a wheel; 0.01 is usual
+    // Of the way of slip_time_s: a wheel that lags so far is blamed on its encoder, not the floor.
+    double lag_share = 0.5;
     double steering_limit_rad = radians(8);  // of following: half a degree is usual
     double path_limit_m = 0.12;              // an order may begin 0.05 m from its first node
     double path_limit_rad = radians(4);

@@ -20,13 +20,17 @@ bool inside(const fleet::StopMeasurement& measured, const fleet::StopTarget& tar
                target.tolerance_heading_rad;
 }
 
-/// Adjusting ends well inside the tolerance: what is left must not be decided by the next look.
+/// Adjusting ends well inside the tolerance, where one is stated: what is left must not be decided
+/// by the next look.
 control::AdjustmentLimits limits_for(control::AdjustmentLimits limits,
                                      const fleet::StopTarget& target) {
     constexpr double kShare = 0.4;
-    limits.good_m =
-        std::min({limits.good_m, kShare * target.tolerance_x_m, kShare * target.tolerance_y_m});
-    limits.good_rad = std::min(limits.good_rad, kShare * target.tolerance_heading_rad);
+    const auto tighten = [](double& good, double tolerance) {
+        if (tolerance > 0) good = std::min(good, kShare * tolerance);
+    };
+    tighten(limits.good_m, target.tolerance_x_m);
+    tighten(limits.good_m, target.tolerance_y_m);
+    tighten(limits.good_rad, target.tolerance_heading_rad);
     return limits;
 }
 

@@ -129,6 +129,7 @@ void WheelSet::steer(Wheel& wheel, double wanted_rad) {
 double WheelSet::roll(Wheel& wheel, double wanted_mps, double grade_force_n) {
     constexpr double h = ServoAxis::kCycle_s;
     const double before_mps = wheel.speed_mps;
+    wheel.wanted_mps = wanted_mps;
     double measured_mps = wanted_mps;
     double rim_mps = wanted_mps;
     if (wheel.roll && (wheel.broken || wheel.blind)) {
@@ -198,8 +199,10 @@ std::optional<std::string> WheelSet::fault() const {
 
 std::optional<std::string> WheelSet::lagging() const {
     for (const Wheel& wheel : wheels_) {
-        if (wheel.roll && std::abs(wheel.roll->following_error()) > budget_.lag_m)
-            return wheel.plan.name;
+        if (!wheel.roll) continue;
+        const double missed_m = std::abs(wheel.wanted_mps) * budget_.slip_time_s;
+        const double behind_m = std::abs(wheel.roll->following_error());
+        if (behind_m > budget_.lag_share * missed_m) return wheel.plan.name;
     }
     return std::nullopt;
 }

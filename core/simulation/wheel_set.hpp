@@ -62,7 +62,8 @@ private:
         plant::Wheel plan;
         std::optional<ServoAxis> roll;
         std::optional<ServoAxis> steer;
-        double roll_m = 0;     // commanded
+        double roll_m = 0;  // commanded
+        double wanted_mps = 0;
         double steer_rad = 0;  // commanded
         double diameter_scale = 1;
         double zero_rad = 0;
