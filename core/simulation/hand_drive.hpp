@@ -25,6 +25,7 @@ public:
     /// and a turn together the way wins, but for an arc forwards or backwards. Fails with
     /// cannot_move_so {wheel, sideways_mps} and leaves the vehicle braking.
     Status command(const kinematics::Twist& wanted);
+    /// REQUIRES: taken and not given back.
     void step(double dt_s);
     bool standing() const { return drive_.standing(); }
     /// REQUIRES: standing().

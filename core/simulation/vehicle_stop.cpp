@@ -139,8 +139,8 @@ bool StopProcedure::look_where_it_should_be() {
 
 /// An approach that ended elsewhere than it believed is not tried again for ever.
 bool StopProcedure::begin_approach(const Pose2& body_from_target) {
-    if (tick_s_ > WindowApproach::kLongest_s || approaches_ == kApproaches ||
-        !WindowApproach::helps(motion_.type(), body_from_target, target_limits_)) {
+    if (approaches_ == kApproaches ||
+        !WindowApproach::helps(motion_.type(), body_from_target, target_limits_, tick_s_)) {
         return false;
     }
     ++approaches_;

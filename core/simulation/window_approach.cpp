@@ -11,7 +11,8 @@ namespace {
 using kinematics::Twist;
 
 constexpr double kEndsWithin_m = 0.001;  // 0.4 to 0.7 mm off, as it truly is
-constexpr double kFrom_m = 0.005;
+constexpr double kFrom_m = 0.005;        // nearer, most stops are good or nearly so
+// Steered wheels, farther: see the figures in the header.
 constexpr double kSteeredTo_m = 0.03;
 constexpr double kSteeredTo_rad = radians(0.3);
 constexpr double kTopSpeed_mps = 0.15;
@@ -38,11 +39,13 @@ control::DynamicWindowOptions options_for(const control::AdjustmentLimits& limit
 }  // namespace
 
 bool WindowApproach::helps(const plant::VehicleType& type, const Pose2& body_from_target,
-                           const control::AdjustmentLimits& limits) {
+                           const control::AdjustmentLimits& limits, double tick_s) {
+    const double from_m = std::max(kFrom_m, kTopSpeed_mps * tick_s);
     const double off_m = norm(body_from_target.position());
     const bool steered = std::any_of(type.wheels.begin(), type.wheels.end(),
                                      [](const plant::Wheel& wheel) { return wheel.steered; });
-    return control::moves_sideways(type) && limits.good_m >= kEndsWithin_m && off_m > kFrom_m &&
+    return tick_s <= kLongest_s && control::moves_sideways(type) &&
+           limits.good_m >= kEndsWithin_m && off_m > from_m &&
            off_m <= (steered ? kSteeredTo_m : limits.reach_m) &&
            std::abs(body_from_target.heading_rad) <= (steered ? kSteeredTo_rad : limits.reach_rad);
 }

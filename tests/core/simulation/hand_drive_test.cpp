@@ -70,6 +70,27 @@ TEST(HandDrive, TurnsAndGoesAside) {
     EXPECT_GT(held.motion.velocity_mps(), 0);
 }
 
+TEST(HandDrive, TakesAVehicleOffItsWayAndGivesItBackIdle) {
+    Held held(testing::differential());
+    held.hand.give_back();
+    kinematics::Segment way;
+    way.end = {20, 0, 0};
+    way.length_m = 20;
+    held.motion.append(way);
+    for (int i = 0; i < 200; ++i) held.motion.step(kTick_s);
+    held.motion.slow_to(0.1);  // something is beside it
+    held.hand.take();
+    EXPECT_FALSE(held.hand.standing());
+    held.drive({-0.2, 0, 0}, 8);
+    EXPECT_NEAR(held.motion.velocity_mps(), -0.2, 1e-9);
+    held.drive({0.2, 0, 0}, 0.2);  // braking, not jumping
+    EXPECT_LT(held.motion.velocity_mps(), 0);
+    held.wait(3);
+    held.hand.give_back();
+    EXPECT_TRUE(held.motion.idle());
+    EXPECT_EQ(held.motion.segments_done(), 0u);
+}
+
 TEST(HandDrive, RefusesWhatTheWheelsCannotDo) {
     Held held(testing::differential());
     held.drive({0.3, 0, 0}, 2);

@@ -87,7 +87,9 @@ TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
     errors.fine_scale = 0.05;
     VehicleMotion motion(mecanum_vehicle(), {}, 3, 1, errors);
     TruePose sensing(motion);
-    StopProcedure procedure(motion, sensing);
+    control::AdjustmentLimits fine;
+    fine.good_m = 0.0008;  // finer than a window ends: moves only
+    StopProcedure procedure(motion, sensing, fine);
     for (int i = 0; i < 12; ++i) {
         const Pose2 target = motion.true_pose() * Pose2{i % 2 == 0 ? 0.05 : -0.04, 0.03, 0.01};
         EXPECT_TRUE(adjusted(procedure, motion, target_at(target), [](const Pose2&) {}).succeeded);

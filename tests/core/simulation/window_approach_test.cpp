@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <random>
 
@@ -105,7 +106,7 @@ TEST(WindowApproach, FromAnywhereInReachEveryVehicleEndsInsideTheTolerance) {
 
                 ASSERT_TRUE(stop.outcome.succeeded) << type.name << ": " << stop.outcome.why_not;
                 const Pose2 off = inverse(drive->true_pose()) * target;
-                EXPECT_LE(norm(off.position()), sideways ? limits.good_m : 0.005) << type.name;
+                EXPECT_LE(norm(off.position()), 0.0045) << type.name;
                 EXPECT_LE(std::abs(off.heading_rad), radians(0.2)) << type.name;
                 EXPECT_LE(stop.farthest_m, limits.reach_m + 0.003) << type.name;
                 EXPECT_LE(stop.farthest_rad, limits.reach_rad + radians(0.1)) << type.name;
@@ -119,11 +120,11 @@ TEST(WindowApproach, IsFasterThanCreepingMovesWhereItIsUsed) {
         plant::VehicleType type;
         double from_m;
         double turn_rad;
-        double most_s;  // with moves only it was 1.2 times as much
+        double most_s;  // moves only: 3.16, 2.08 and 5.92 s
     };
     for (const Case& c :
-         {Case{mecanum(), 0.095, radians(0.9), 2.6}, Case{mecanum(), 0.03, radians(0.3), 1.85},
-          Case{platform(), 0.02, radians(0.2), 4.8}}) {
+         {Case{mecanum(), 0.095, radians(0.9), 2.6}, Case{mecanum(), 0.03, radians(0.3), 1.95},
+          Case{platform(), 0.02, radians(0.2), 4.9}}) {
         std::mt19937_64 random(7);
         double time_s = 0;
         for (std::uint64_t seed = 1; seed <= 50; ++seed) {
@@ -132,22 +133,26 @@ TEST(WindowApproach, IsFasterThanCreepingMovesWhereItIsUsed) {
             time_s +=
                 adjusted(*drive, eyes, somewhere(random, c.from_m, c.from_m, c.turn_rad)).time_s;
         }
+        std::printf("[ stops    ] %s: %.2f s\n", c.type.name.c_str(), time_s / 50);
         EXPECT_LT(time_s / 50, c.most_s) << c.type.name << " from " << c.from_m;
     }
 }
 
 TEST(WindowApproach, IsNotUsedWhereMovesAreBetter) {
     const control::AdjustmentLimits limits;
-    EXPECT_TRUE(WindowApproach::helps(mecanum(), {0.05, -0.05, 0.01}, limits));
-    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.004, 0, 0}, limits));
-    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.08, 0.08, 0}, limits));
-    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, 0, radians(1.1)}, limits));
-    EXPECT_TRUE(WindowApproach::helps(platform(), {0.02, 0.01, 0.001}, limits));
-    EXPECT_FALSE(WindowApproach::helps(platform(), {0.05, 0.01, 0.001}, limits));
-    EXPECT_FALSE(WindowApproach::helps(differential(), {0.05, 0, 0}, limits));
+    EXPECT_TRUE(WindowApproach::helps(mecanum(), {0.05, -0.05, 0.01}, limits, kTick_s));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.004, 0, 0}, limits, kTick_s));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.08, 0.08, 0}, limits, kTick_s));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, 0, radians(1.1)}, limits, kTick_s));
+    EXPECT_TRUE(WindowApproach::helps(platform(), {0.02, 0.01, 0.001}, limits, kTick_s));
+    EXPECT_FALSE(WindowApproach::helps(platform(), {0.05, 0.01, 0.001}, limits, kTick_s));
+    EXPECT_FALSE(WindowApproach::helps(differential(), {0.05, 0, 0}, limits, kTick_s));
+    EXPECT_TRUE(WindowApproach::helps(mecanum(), {0.05, 0, 0}, limits, 0.1));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.012, 0, 0}, limits, 0.1));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, 0, 0}, limits, 0.2));
     control::AdjustmentLimits fine;
     fine.good_m = 0.0005;
-    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, -0.05, 0.01}, fine));
+    EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, -0.05, 0.01}, fine, kTick_s));
 }
 
 TEST(WindowApproach, ALookOnTheWayCorrectsWhereItBelievesToBe) {
