@@ -31,6 +31,8 @@ constexpr auto kSettle = 300ms;
 constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 // Pictures of standing vehicles may cost this share of the processor, all together.
 constexpr int kLookShare = 10;
+constexpr double kOwnStep_s = 0.1;
+constexpr double kRounding = 1e-9;
 constexpr double kRangeSigmas = 3;  // what deviationRange covers
 
 Time utc_now() {
@@ -110,7 +112,10 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
     // Whoever drives it by hand looks out.
     if (look_out_ && !executor_.in_hand()) look_out_->step(dt_s);
-    executor_.step(dt_s);
+    // Near a goal it is steered by steps of its own time, however fast that runs.
+    const int parts = std::max(
+        1, static_cast<int>(std::ceil(dt_s * settings_.time_factor / kOwnStep_s - kRounding)));
+    for (int i = 0; i < parts; ++i) executor_.step(dt_s / parts);
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
     if (const auto fix = sensing_.take_fix()) {
