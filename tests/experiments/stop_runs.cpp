@@ -181,8 +181,8 @@ public:
         if (!plan) throw std::runtime_error(plan.error().what);
         eyes_.forget();
         const std::string id = "leg-" + std::to_string(++legs_);
-        executor_.handle(
-            order_to(id, hall_.str(), plan->segments, target_at(plant_, station, family_.tolerance_m)));
+        executor_.handle(order_to(id, hall_.str(), plan->segments,
+                                  target_at(plant_, station, family_.tolerance_m)));
         double left_s = kPatience_s / drive_.time_factor();
         while (stop.why_not.empty() && !done(id, stop)) {
             executor_.step(kTick_s);

@@ -13,9 +13,9 @@ namespace pulseline::experiments {
 
 struct StopFamily {
     std::string name;
-    std::string vehicle;        // of the plant final-assembly
-    std::vector<int> stations;  // driven to in turn
-    bool igps = false;          // four receivers instead of the cameras
+    std::string vehicle;         // of the plant final-assembly
+    std::vector<int> stations;   // driven to in turn
+    bool igps = false;           // four receivers instead of the cameras
     double tolerance_m = 0.025;  // either way, along both axes
 };
 /// Tang 2020, Wang and Li 2020.

@@ -150,7 +150,9 @@ const Case kCases[] = {
     {"CameraWithoutFocus", [](Plant& p) { p.vehicle_types[0].cameras[0].f_px = 0; },
      "/vehicle_types/0/cameras/0/f_px", "not_positive"},
     {"LoadedCameraInTheFloor",
-     [](Plant& p) { p.vehicle_types[0].cameras[0].loaded = CameraMounting{{}, 0, 0, 0}; },
+     [](Plant& p) {
+         p.vehicle_types[0].cameras[0].loaded = CameraMounting{{}, 0, 0, 0};
+     },
      "/vehicle_types/0/cameras/0/loaded/height_m", "not_positive"},
     {"DifferentialGoesSideways",
      [](Plant& p) {
