@@ -111,5 +111,20 @@ TEST(VehicleEquipment, AVehicleWithoutBracketsHasNoneOfTheirActions) {
     EXPECT_FALSE(equipment.bracket_height_m("front left"));
 }
 
+TEST(VehicleEquipment, CarriesEveryLoadEvenlyEnoughToDrive) {
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        VehicleEquipment equipment(pulseline::testing::platform(), {}, 50, 1, 18200, seed);
+        fleet::StateMessage state;
+        equipment.write_state(state);
+        double sum_n = 0;
+        for (const auto& bracket : state.brackets) sum_n += bracket.force_a_n + bracket.force_b_n;
+        EXPECT_NEAR(sum_n, 18200 * 9.80665, 0.01 * 18200 * 9.80665);
+        for (const auto& bracket : state.brackets) {
+            const double share = 4 * (bracket.force_a_n + bracket.force_b_n) / sum_n;
+            EXPECT_NEAR(share, 1, 0.08) << bracket.name << ", seed " << seed;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace pulseline::simulation
