@@ -129,9 +129,16 @@ void leave_place(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
+/// It is wanted away and has just found no way.
+bool leaves_in_vain(const VehicleRun& run, Time now) {
+    return run.floor.next_leave && now < *run.floor.next_leave + kLeaveAgain;
+}
+
 }  // namespace
 
 void park_idle(FleetState& fleet, Time now) {
+    const auto in_vain = std::ranges::count_if(
+        fleet.vehicles, [&](const auto& entry) { return leaves_in_vain(entry.second, now); });
     std::optional<std::set<traffic::VehicleIndex>> wanted_away;
     const auto is_wanted_away = [&](const VehicleRun& run) {
         if (!wanted_away) wanted_away = waited_for(fleet);
@@ -155,7 +162,11 @@ void park_idle(FleetState& fleet, Time now) {
             // Its own order's way from here may be barred for ever where the roads' is not.
             const bool stuck = long_idle && fleet.orders.of(id);
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
-            if (soon || (!stuck && !is_wanted_away(run))) continue;
+            // What bars another's way is said to be who rests at its end; it may be this one, who
+            // stands on the way.
+            const bool others_in_vain = in_vain > (leaves_in_vain(run, now) ? 1 : 0);
+            const bool clears = long_idle && others_in_vain;
+            if (soon || (!stuck && !clears && !is_wanted_away(run))) continue;
             if (ends_charging(fleet, run, now)) continue;
             if (plan.place == traffic::kNoPlace) {
                 leave_from_anywhere(fleet, run, now);
