@@ -9,6 +9,7 @@
 #include <ctime>
 #include <vector>
 
+#include "core/kinematics/primitives.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
@@ -127,6 +128,22 @@ TEST(ServoDrive, ABendIsNoFasterThanItsOuterWheels) {
         }
     }
     EXPECT_FALSE(drive.stop_cause());
+}
+
+TEST(ServoDrive, TurnsOnItsWayOnMecanumWheels) {
+    for (const double turn_rad : {1.4, -2.6}) {
+        ServoDrive drive(mecanum(), {}, 3);
+        std::vector<kinematics::Segment> segments;
+        kinematics::append_combined(segments, {}, {5, 2}, turn_rad);
+        for (const auto& segment : segments) drive.append(segment);
+        drive_to_end(drive);
+        ASSERT_FALSE(drive.stop_cause()) << drive.stop_cause()->code;
+        EXPECT_EQ(drive.segments_done(), segments.size());
+        EXPECT_NEAR(drive.believed_pose().x_m, 5, 3e-3);
+        EXPECT_NEAR(drive.believed_pose().y_m, 2, 3e-3);
+        EXPECT_NEAR(wrap(drive.believed_pose().heading_rad - turn_rad), 0, radians(0.1));
+        EXPECT_LT(distance(drive.true_pose().position(), {5, 2}), 0.03);
+    }
 }
 
 TEST(ServoDrive, SteersStandingBeforeItMovesInANewDirectionAndNotTooFast) {
