@@ -6,9 +6,9 @@
 #include "core/base/result.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/planning/footprint_check.hpp"
-#include "core/planning/leg_planner.hpp"
 #include "core/planning/obstacles.hpp"
 #include "core/planning/roadmap_index.hpp"
+#include "core/planning/standing_body.hpp"
 
 /// Free manoeuvres (motion mode `free`): from pose to pose where no single motion primitive fits.
 namespace pulseline::planning {

@@ -12,15 +12,10 @@
 #include "core/kinematics/trajectory.hpp"
 #include "core/planning/leg_roads.hpp"
 #include "core/planning/motion_graph.hpp"
+#include "core/planning/standing_body.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::planning {
-
-/// A vehicle (or what it carries) that stands in the way.
-struct StandingBody {
-    plant::VehicleId vehicle;
-    std::vector<geometry::Polygon> outline;  // hall frame, convex pieces
-};
 
 struct LegRequest {
     const plant::VehicleType* type = nullptr;

@@ -18,21 +18,6 @@ constexpr double kLeaving_m = 0.010;
 constexpr double kLeast_m = 0.10;
 constexpr double kRounding_m = 1e-9;
 
-double distance_to(const StandingBody& other, const std::vector<Polygon>& pieces, double stop_m) {
-    double least = stop_m;
-    for (const Polygon& outline : other.outline) {
-        const auto box = geometry::bounding_box(outline);
-        for (const Polygon& piece : pieces) {
-            const auto own = geometry::bounding_box(piece);
-            const double dx = std::max(box.min.x_m - own.max.x_m, own.min.x_m - box.max.x_m);
-            const double dy = std::max(box.min.y_m - own.max.y_m, own.min.y_m - box.max.y_m);
-            if (std::max(dx, dy) >= least) continue;
-            least = std::min(least, geometry::distance(piece, outline));
-        }
-    }
-    return least;
-}
-
 Point2 middle_of(const StandingBody& body) {
     Point2 sum;
     double count = 0;

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/planning/footprint_check.hpp"
-#include "core/planning/leg_planner.hpp"
 #include "core/planning/obstacles.hpp"
 #include "core/planning/roadmap_index.hpp"
+#include "core/planning/standing_body.hpp"
 #include "core/planning/steering.hpp"
 
 namespace pulseline::planning {

@@ -1,8 +1,9 @@
+#include "server/agent/hand_held.hpp"
+
 #include <algorithm>
 
 #include "api/json/object_reader.hpp"
 #include "api/json/parse.hpp"
-#include "server/agent/hand_held_link.hpp"
 
 namespace pulseline::agent {
 namespace {

@@ -8,6 +8,8 @@
 #include <boost/asio/read_until.hpp>
 #include <utility>
 
+#include "server/agent/hand_held.hpp"
+
 namespace pulseline::agent {
 
 using namespace server;

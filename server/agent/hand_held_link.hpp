@@ -38,7 +38,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// The answer to one line.
-std::string answer_hand_held(const std::vector<Vehicle*>& vehicles, const std::string& line);
-
 }  // namespace pulseline::agent

@@ -152,10 +152,10 @@ bool bench_scanner(const plant::VehicleType& type, nlohmann::json& out) {
 }  // namespace
 
 nlohmann::json measure_control(bool& passed) {
-    using namespace control::testing;
+    using namespace pulseline::testing;
     nlohmann::json out;
     std::printf("%-22s %-20s %9s  %8s %8s %8s\n", "", "", "times", "p50 us", "mean us", "p99 us");
-    for (const auto& type : {differential_vehicle(), mecanum_vehicle(), steered_platform()}) {
+    for (const auto& type : {differential(), mecanum(), platform()}) {
         passed &= bench_window(type, false, out);
         passed &= bench_window(type, true, out);
         passed &= bench_scanner(type, out);

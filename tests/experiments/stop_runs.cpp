@@ -227,9 +227,19 @@ private:
 }  // namespace
 
 std::vector<StopFamily> stop_families() {
-    return {{"platform, QR", "TP-01", {2, 3, 1}},
-            {"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.0004},
-            {"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002}};
+    StopFamily platform{"platform, QR", "TP-01", {2, 3, 1}};
+    platform.demand.words = "Tang: +-10 mm, +-0.15 deg always, mean < 1 mm";
+    platform.demand.most_axis_mm = 10;
+    platform.demand.most_deg = 0.15;
+    platform.demand.mean_mm = 1;
+    StopFamily mecanum{"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.0004};
+    mecanum.demand.words = "Wang: +-0.5 mm always";
+    mecanum.demand.most_axis_mm = 0.5;
+    StopFamily differential{"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002};
+    differential.demand.words = "Li 2020: ten times better than 7.58 mm, 2.39 deg";
+    differential.demand.mean_mm = 0.758;
+    differential.demand.mean_deg = 0.239;
+    return {platform, mecanum, differential};
 }
 
 std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file, int count,

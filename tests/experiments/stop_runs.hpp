@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,23 @@
 /// and adjusts. What counts is where it truly stands.
 namespace pulseline::experiments {
 
+/// What the true stops of a family are held to; infinite: nothing.
+struct StopDemand {
+    static constexpr double kAny = std::numeric_limits<double>::infinity();
+    const char* words = "";
+    double most_axis_mm = kAny;  // of each stop, along either axis of the station
+    double most_deg = kAny;
+    double mean_mm = kAny;
+    double mean_deg = kAny;
+};
+
 struct StopFamily {
     std::string name;
     std::string vehicle;         // of the plant final-assembly
     std::vector<int> stations;   // driven to in turn
     bool igps = false;           // four receivers instead of the cameras
     double tolerance_m = 0.025;  // either way, along both axes
+    StopDemand demand = {};
 };
 /// Tang 2020, Wang and Li 2020.
 std::vector<StopFamily> stop_families();

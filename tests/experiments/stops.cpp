@@ -13,7 +13,7 @@ namespace {
 constexpr int kStops = 200;
 constexpr double kTimeFactor = 10;
 
-double sideways_mm(const Stop& stop) {
+double along_axis_mm(const Stop& stop) {
     return 1e3 * std::max(std::abs(stop.off.x_m), std::abs(stop.off.y_m));
 }
 double away_mm(const Stop& stop) { return 1e3 * norm(stop.off.position()); }
@@ -31,20 +31,10 @@ double most(const std::vector<Stop>& stops, const std::function<double(const Sto
     return most;
 }
 
-/// What each paper has, and what is asked of us.
-bool keeps(const std::string& vehicle, const std::vector<Stop>& stops) {
-    if (vehicle == "TP-01") {
-        return most(stops, sideways_mm) <= 10 && most(stops, turned_deg) <= 0.15 &&
-               mean(stops, away_mm) < 1;
-    }
-    if (vehicle == "OM-01") return most(stops, sideways_mm) <= 0.5;
-    return mean(stops, away_mm) <= 0.758 && mean(stops, turned_deg) <= 0.239;
-}
-
-const char* asked(const std::string& vehicle) {
-    if (vehicle == "TP-01") return "Tang: +-10 mm, +-0.15 deg always, mean < 1 mm";
-    if (vehicle == "OM-01") return "Wang: +-0.5 mm always";
-    return "Li 2020: ten times better than 7.58 mm, 2.39 deg";
+bool keeps(const StopDemand& demand, const std::vector<Stop>& stops) {
+    return most(stops, along_axis_mm) <= demand.most_axis_mm &&
+           most(stops, turned_deg) <= demand.most_deg && mean(stops, away_mm) <= demand.mean_mm &&
+           mean(stops, turned_deg) <= demand.mean_deg;
 }
 
 }  // namespace
@@ -59,14 +49,14 @@ bool stops(const Options& options) {
         const auto made = run_stops(family, options.folder + "/../../db/plants/final-assembly.json",
                                     count, options.seed, kTimeFactor);
         const bool kept = static_cast<int>(made.size()) == count && made.back().why_not.empty() &&
-                          keeps(family.vehicle, made);
+                          keeps(family.demand, made);
         good &= kept;
         fmt::print(
             "{:<24}{:>9.2f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.4f}{:>9.4f}{:>7.2f}{:>8.1f}  {}: {}\n",
-            family.name, mean(made, arrived_mm), mean(made, away_mm), most(made, sideways_mm),
+            family.name, mean(made, arrived_mm), mean(made, away_mm), most(made, along_axis_mm),
             most(made, away_mm), mean(made, turned_deg), most(made, turned_deg),
             mean(made, [](const Stop& stop) { return double(stop.looks); }),
-            mean(made, [](const Stop& stop) { return stop.time_s; }), asked(family.vehicle),
+            mean(made, [](const Stop& stop) { return stop.time_s; }), family.demand.words,
             kept ? "yes" : "NO");
         if (!made.back().why_not.empty()) {
             fmt::print("  refused at station {}: {}\n", made.back().station, made.back().why_not);

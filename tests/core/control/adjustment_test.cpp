@@ -12,9 +12,9 @@ namespace pulseline::control {
 namespace {
 
 using kinematics::Segment;
-using testing::differential_vehicle;
-using testing::mecanum_vehicle;
-using testing::tricycle;
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
+using pulseline::testing::tricycle;
 using Kind = Segment::Kind;
 
 /// Drives segments with a scale and some noise of its own.
@@ -70,7 +70,7 @@ TEST(Segments, AndMovesAreTheSameThing) {
 }
 
 TEST(Adjustment, AnOmnidirectionalVehicleShiftsAndTurnsAtOnce) {
-    const auto type = mecanum_vehicle();
+    const auto type = mecanum();
     Adjustment loop(type);
     const auto moves = loop.next({0.02, -0.01, radians(0.3)}, {});
     ASSERT_TRUE(moves);
@@ -81,7 +81,7 @@ TEST(Adjustment, AnOmnidirectionalVehicleShiftsAndTurnsAtOnce) {
 }
 
 TEST(Adjustment, WithRoomADifferentialVehicleRotatesAdvancesAndRotates) {
-    const auto type = differential_vehicle();
+    const auto type = differential();
     AdjustmentLimits wide;
     wide.reach_m = 0.5;
     wide.reach_rad = kPi;
@@ -98,7 +98,7 @@ TEST(Adjustment, WithRoomADifferentialVehicleRotatesAdvancesAndRotates) {
 TEST(Adjustment, NeitherDifferentialVehiclesNorTricyclesEverMoveSideways) {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> share(-1, 1);
-    for (const auto& type : {differential_vehicle(), tricycle()}) {
+    for (const auto& type : {differential(), tricycle()}) {
         EXPECT_FALSE(moves_sideways(type));
         for (int i = 0; i < 300; ++i) {
             Adjustment loop(type);
@@ -108,15 +108,15 @@ TEST(Adjustment, NeitherDifferentialVehiclesNorTricyclesEverMoveSideways) {
             for (const Move& move : moves_of(*moves)) EXPECT_NE(move.kind, MoveKind::kLateral);
         }
     }
-    EXPECT_TRUE(moves_sideways(mecanum_vehicle()));
-    EXPECT_TRUE(moves_sideways(testing::steered_platform()));
+    EXPECT_TRUE(moves_sideways(mecanum()));
+    EXPECT_TRUE(moves_sideways(pulseline::testing::platform()));
 }
 
 TEST(Adjustment, StaysWithinReachAtEveryMoment) {
     std::mt19937_64 random(6);
     std::uniform_real_distribution<double> share(-1, 1);
     const AdjustmentLimits limits;
-    for (const auto& type : {differential_vehicle(), mecanum_vehicle()}) {
+    for (const auto& type : {differential(), mecanum()}) {
         int moved = 0;
         for (int i = 0; i < 500; ++i) {
             const Pose2 target{0.07 * share(random), 0.07 * share(random),
@@ -136,7 +136,7 @@ TEST(Adjustment, StaysWithinReachAtEveryMoment) {
 }
 
 TEST(Adjustment, FiveMillimetresSidewaysAreMendedWithAlmostNoRoom) {
-    const auto type = differential_vehicle();
+    const auto type = differential();
     for (const double sideways_m : {0.005, -0.005}) {
         for (std::uint64_t seed = 1; seed <= 20; ++seed) {
             SimpleVehicle vehicle{1.02, 2e-4, radians(0.004)};
@@ -157,7 +157,7 @@ TEST(Adjustment, FiveMillimetresSidewaysAreMendedWithAlmostNoRoom) {
 }
 
 TEST(Adjustment, TheCompensationLearnedInTheLoopSavesPasses) {
-    const auto type = differential_vehicle();
+    const auto type = differential();
     AdjustmentLimits limits;
     limits.reach_m = 0.4;
     limits.reach_rad = kPi;
@@ -193,7 +193,7 @@ TEST(Adjustment, TheCompensationLearnedInTheLoopSavesPasses) {
 }
 
 TEST(Adjustment, NothingIsMovedWhereItIsGood) {
-    const auto type = differential_vehicle();
+    const auto type = differential();
     Adjustment loop(type);
     const auto moves = loop.next({0.001, -0.001, radians(0.02)}, {});
     ASSERT_TRUE(moves);
@@ -202,7 +202,7 @@ TEST(Adjustment, NothingIsMovedWhereItIsGood) {
 }
 
 TEST(Adjustment, RefusesWhatIsOutOfReach) {
-    const auto type = mecanum_vehicle();
+    const auto type = mecanum();
     for (const Pose2& far : {Pose2{0.11, 0, 0}, Pose2{0.01, 0, radians(1.1)}}) {
         Adjustment loop(type);
         const auto moves = loop.next(far, {});
@@ -212,7 +212,7 @@ TEST(Adjustment, RefusesWhatIsOutOfReach) {
 }
 
 TEST(Adjustment, GivesUpAtItsBestWhenAVehicleComesNoNearer) {
-    const auto type = mecanum_vehicle();
+    const auto type = mecanum();
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         SimpleVehicle vehicle{1, 3e-3, radians(0.04)};  // far worse than it is taken for
         vehicle.random.seed(seed);
@@ -242,7 +242,7 @@ TEST(Adjustment, GivesUpAtItsBestWhenAVehicleComesNoNearer) {
 }
 
 TEST(Adjustment, DoesNotMoveWhenNoMoveIsExactEnoughToHelp) {
-    const auto type = mecanum_vehicle();
+    const auto type = mecanum();
     AdjustmentLimits limits;
     limits.good_m = 1e-5;  // finer than any move repeats
     limits.good_rad = radians(1);

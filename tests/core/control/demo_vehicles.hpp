@@ -56,7 +56,8 @@ inline plant::VehicleType differential() {
     type.id = plant::VehicleTypeId("differential");
     type.name = "Differential";
     type.kinematics = plant::Kinematics::kDifferential;
-    type.footprint = geometry::rectangle(1.6, 1.1);
+    type.footprint = {{-0.8, -0.55}, {0.35, -0.55}, {0.66, -0.4}, {0.8, 0},
+                      {0.66, 0.4},   {0.35, 0.55},  {-0.8, 0.55}};
     type.max_speed_mps = 1.5;
     type.max_accel_mps2 = 0.6;
     type.max_turn_rate_radps = 0.9;
@@ -64,59 +65,6 @@ inline plant::VehicleType differential() {
     type.mass_kg = 180;
     type.max_load_kg = 250;
     type.wheels = {{"left", {0, 0.42}, true, false, 0.2}, {"right", {0, -0.42}, true, false, 0.2}};
-    return type;
-}
-
-}  // namespace pulseline::testing
-
-/// Vehicles as the demo plants have them.
-namespace pulseline::control::testing {
-
-inline plant::VehicleType differential_vehicle() {
-    plant::VehicleType type;
-    type.id = plant::VehicleTypeId("delivery-vehicle");
-    type.kinematics = plant::Kinematics::kDifferential;
-    type.footprint = {{-0.8, -0.55}, {0.35, -0.55}, {0.66, -0.4}, {0.8, 0},
-                      {0.66, 0.4},   {0.35, 0.55},  {-0.8, 0.55}};
-    type.max_speed_mps = 1.5;
-    type.max_accel_mps2 = 0.6;
-    type.max_turn_rate_radps = 0.9;
-    type.max_turn_accel_radps2 = 0.8;
-    type.wheels = {{"left", {0, 0.42}, true, false, 0.2}, {"right", {0, -0.42}, true, false, 0.2}};
-    return type;
-}
-
-inline plant::VehicleType mecanum_vehicle() {
-    plant::VehicleType type;
-    type.id = plant::VehicleTypeId("measuring-vehicle");
-    type.kinematics = plant::Kinematics::kMecanum;
-    type.footprint = geometry::rectangle(2.4, 1.4);
-    type.max_speed_mps = 1.2;
-    type.max_accel_mps2 = 0.4;
-    type.max_turn_rate_radps = 0.6;
-    type.max_turn_accel_radps2 = 0.4;
-    type.wheels = {{"FL", {0.85, 0.55}, true, false, 0.3},
-                   {"FR", {0.85, -0.55}, true, false, 0.3},
-                   {"BL", {-0.85, 0.55}, true, false, 0.3},
-                   {"BR", {-0.85, -0.55}, true, false, 0.3}};
-    return type;
-}
-
-inline plant::VehicleType steered_platform() {
-    plant::VehicleType type;
-    type.id = plant::VehicleTypeId("transport-platform");
-    type.kinematics = plant::Kinematics::kSteeredPlatform;
-    type.footprint = geometry::rectangle(10.5, 2.5);
-    type.max_speed_mps = 1.67;
-    type.max_accel_mps2 = 0.2;
-    type.max_turn_rate_radps = 0.12;
-    type.max_turn_accel_radps2 = 0.04;
-    for (const double x_m : {4.97, -4.97}) {
-        for (const double y_m : {0.925, -0.925}) {
-            type.wheels.push_back({"corner", {x_m, y_m}, false, true, 0.3});
-        }
-        type.wheels.push_back({"drive", {x_m > 0 ? 4.815 : -4.815, 0}, true, true, 0.5});
-    }
     return type;
 }
 
@@ -131,4 +79,4 @@ inline plant::VehicleType tricycle() {
     return type;
 }
 
-}  // namespace pulseline::control::testing
+}  // namespace pulseline::testing

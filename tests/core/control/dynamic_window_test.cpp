@@ -13,9 +13,9 @@
 namespace pulseline::control {
 namespace {
 
-using testing::differential_vehicle;
-using testing::mecanum_vehicle;
-using testing::steered_platform;
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
+using pulseline::testing::platform;
 using State = WindowCommand::State;
 
 constexpr double kStep_s = 0.05;
@@ -228,14 +228,13 @@ TEST_P(EveryFamily, BrakesAsHardAsItMayWhenItComesTooFast) {
 }
 
 INSTANTIATE_TEST_SUITE_P(DynamicWindow, EveryFamily,
-                         ::testing::Values(differential_vehicle(), mecanum_vehicle(),
-                                           steered_platform()),
+                         ::testing::Values(differential(), mecanum(), platform()),
                          [](const auto& tested) {
                              return plant::to_string(tested.param.kinematics);
                          });
 
 TEST(DynamicWindow, AVehicleInsideTheMarginMayLeaveIt) {
-    Approach approach{differential_vehicle()};
+    Approach approach{differential()};
     approach.obstacles = {{-0.82 - 0.3, 0}};  // 2 cm behind it
     approach.run({-0.3, 0, 0});
     EXPECT_EQ(approach.state, State::kReached);

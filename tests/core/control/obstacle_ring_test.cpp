@@ -18,8 +18,8 @@ using geometry::Pose2;
 TEST(ObstacleRing, NeverPromisesMoreRoomThanThereIs) {
     std::mt19937_64 random(8);
     std::uniform_real_distribution<double> share(-1, 1);
-    for (const auto& type : {testing::differential_vehicle(), testing::mecanum_vehicle(),
-                             testing::steered_platform()}) {
+    for (const auto& type : {pulseline::testing::differential(), pulseline::testing::mecanum(),
+                             pulseline::testing::platform()}) {
         ObstacleRing ring(type.footprint);
         const auto box = geometry::bounding_box(type.footprint);
         for (int run = 0; run < 400; ++run) {

@@ -13,8 +13,8 @@ namespace {
 
 using geometry::Point2;
 using geometry::Pose2;
-using testing::differential_vehicle;
-using testing::mecanum_vehicle;
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
 using Verdict = FieldAnswer::Verdict;
 
 constexpr Pose2 kMount{0.5, 0.2, 0.3};
@@ -34,7 +34,7 @@ Scan scan_of(std::initializer_list<Point2> places) {
 
 class ProtectiveFieldsTest : public ::testing::Test {
 protected:
-    plant::VehicleType type = mecanum_vehicle();  // 2.4 m x 1.4 m, 0.4 m/s^2
+    plant::VehicleType type = mecanum();  // 2.4 m x 1.4 m, 0.4 m/s^2
     ProtectiveFields fields{type, type.footprint};
     FieldOptions options;
 
@@ -122,7 +122,7 @@ TEST_F(ProtectiveFieldsTest, InsideTheOutlineIsAlwaysAStop) {
 TEST_F(ProtectiveFieldsTest, AgreesWithTheSweptOutline) {
     std::mt19937_64 random(4);
     std::uniform_real_distribution<double> share(-1, 1);
-    for (const auto& vehicle : {differential_vehicle(), mecanum_vehicle()}) {
+    for (const auto& vehicle : {differential(), mecanum()}) {
         ProtectiveFields own(vehicle, vehicle.footprint);
         const ObstacleRing outline(vehicle.footprint);
         int stops = 0;

@@ -11,8 +11,8 @@
 namespace pulseline::simulation {
 namespace {
 
-using control::testing::differential_vehicle;
-using control::testing::mecanum_vehicle;
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
 
 constexpr double kStep_s = 0.05;
 
@@ -46,7 +46,7 @@ StopProcedure::Outcome adjusted(StopProcedure& procedure, Drive& motion,
 }
 
 TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
-    const auto type = differential_vehicle();
+    const auto type = differential();
     VehicleMotion motion(type, {}, 1, 1, testing::exact());
     TruePose sensing(motion);
     StopProcedure procedure(motion, sensing);
@@ -63,7 +63,7 @@ TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
 }
 
 TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
-    for (const auto& type : {differential_vehicle(), mecanum_vehicle()}) {
+    for (const auto& type : {differential(), mecanum()}) {
         int steps = 0;
         for (std::uint64_t seed = 1; seed <= 60; ++seed) {
             VehicleMotion motion(type, {}, seed);
@@ -85,7 +85,7 @@ TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
 TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
     MotionErrors errors = testing::exact();
     errors.fine_scale = 0.05;
-    VehicleMotion motion(mecanum_vehicle(), {}, 3, 1, errors);
+    VehicleMotion motion(mecanum(), {}, 3, 1, errors);
     TruePose sensing(motion);
     control::AdjustmentLimits fine;
     fine.good_m = 0.0008;  // finer than a window ends: moves only
@@ -110,7 +110,7 @@ TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
 }
 
 TEST(StopProcedure, SaysWhatWasReachedWhenTheTargetIsTooFar) {
-    VehicleMotion motion(mecanum_vehicle(), {}, 1);
+    VehicleMotion motion(mecanum(), {}, 1);
     TruePose sensing(motion);
     StopProcedure procedure(motion, sensing);
     const auto outcome = adjusted(procedure, motion, target_at({0.15, 0, 0}), [](const Pose2&) {});

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <fstream>
 
+#include "api/json/parse.hpp"
 #include "api/vehicle/factsheet.hpp"
 #include "api/vehicle/frame.hpp"
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
 #include "api/vehicle/state.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/hand_held.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
 #include "server/agent/truth_log.hpp"
@@ -332,6 +334,37 @@ TEST_F(ServoVehicleTest, ADeadEncoderIsReportedAsAFaultOfItsWheel) {
     EXPECT_EQ(state.errors[0].type, "wheelFault");
     EXPECT_EQ(state.wheels[4].fault, "drive_fault");
     EXPECT_FALSE(state.driving);
+}
+
+json::Json hand_held(Vehicle& vehicle, const std::string& line) {
+    const auto answer = json::parse_json(answer_hand_held({&vehicle}, line));
+    EXPECT_TRUE(answer) << "an answer is a line of JSON";
+    return answer.value_or(json::Json());
+}
+
+TEST_F(VehicleTest, AHandHeldControlIsAnsweredAndRefusedInWords) {
+    EXPECT_EQ(hand_held(vehicle, R"({"do":"where"})")["operating_mode"], "AUTOMATIC");
+    const struct {
+        const char* line;
+        const char* reason;
+    } bad[] = {{R"({"do":"drive","vx_mps":0.1})", "not_in_hand"},
+               {R"({"do":"give_back"})", "not_in_hand"},
+               {R"({"do":"dance"})", "not_one_of"},
+               {R"({"do":"take","vehicle":"Nobody/X"})", "unknown_vehicle"}};
+    for (const auto& [line, reason] : bad) {
+        const auto answer = hand_held(vehicle, line);
+        EXPECT_EQ(answer["ok"], false) << line;
+        EXPECT_EQ(answer["reason"], reason) << line;
+        EXPECT_FALSE(answer["why"].get<std::string>().empty());
+    }
+    for (const char* line : {"", "[", "{}", R"({"do":7})", R"({"do":"drive","vx_mps":1e9})",
+                             R"({"do":"drive","vx_mps":"fast"})", R"({"do":"take","more":1})"}) {
+        EXPECT_EQ(hand_held(vehicle, line)["ok"], false) << line;
+    }
+    EXPECT_FALSE(vehicle.in_hand()) << "nothing of that took it";
+    EXPECT_EQ(hand_held(vehicle, R"({"do":"take"})")["operating_mode"], "MANUAL");
+    run(100ms);
+    EXPECT_EQ(hand_held(vehicle, R"({"do":"give_back"})")["operating_mode"], "AUTOMATIC");
 }
 
 TEST(Outbox, NewestStateAndPictureWinAndEventsGoFirst) {
