@@ -163,16 +163,25 @@ Segment decode_segment(const Json& j) {
 }
 
 Json encode(const OrderEdge& e) {
-    return {{"id", e.edge_id},
-            {"seq", e.sequence_id},
-            {"released", e.released},
-            {"segment", encode(e.segment)},
-            {"max_speed", number(e.max_speed_mps)}};
+    Json json{{"id", e.edge_id},
+              {"seq", e.sequence_id},
+              {"released", e.released},
+              {"segment", encode(e.segment)},
+              {"max_speed", number(e.max_speed_mps)}};
+    if (e.corridor) {
+        json["corridor"] = {{"left", number(e.corridor->left_m)},
+                            {"right", number(e.corridor->right_m)}};
+    }
+    return json;
 }
 
 OrderEdge decode_edge(const Json& j) {
-    return {j.at("id"), j.at("seq"), j.at("released"), decode_segment(j.at("segment")),
-            j.at("max_speed")};
+    OrderEdge edge{j.at("id"), j.at("seq"), j.at("released"), decode_segment(j.at("segment")),
+                   j.at("max_speed")};
+    if (const auto corridor = j.find("corridor"); corridor != j.end()) {
+        edge.corridor = {corridor->at("left"), corridor->at("right")};
+    }
+    return edge;
 }
 
 Leg decode_leg(const Json& j) {

@@ -45,8 +45,24 @@ Json encode_edge(const OrderEdge& edge, const OrderNode& from, const OrderNode& 
              {"released", edge.released}, {"startNodeId", from.node_id},
              {"endNodeId", to.node_id},   {"actions", Json::array()}};
     if (edge.max_speed_mps > 0) out["maxSpeed"] = finite(edge.max_speed_mps);
+    if (edge.corridor) {
+        out["corridor"] = {{"leftWidth", finite(edge.corridor->left_m)},
+                           {"rightWidth", finite(edge.corridor->right_m)},
+                           {"corridorRefPoint", "CONTOUR"}};
+    }
     encode_motion(out, edge.segment);
     return out;
+}
+
+/// Boundaries for the centre alone say nothing of the room for the body: that is none to us.
+std::optional<plant::Corridor> decode_corridor(json::ObjectReader& edge) {
+    if (!edge.has("corridor")) return std::nullopt;
+    auto in = edge.object("corridor");
+    const plant::Corridor corridor{in.number("leftWidth", {0, 1e3}),
+                                   in.number("rightWidth", {0, 1e3})};
+    const auto about = in.text_or("corridorRefPoint", "KINEMATICCENTER", {0, 32});
+    if (about != "CONTOUR") return std::nullopt;
+    return corridor;
 }
 
 OrderNode decode_node(const Json& value, const std::string& pointer, json::FieldErrors& errors) {
@@ -79,6 +95,7 @@ OrderEdge decode_edge(const Json& value, const std::string& pointer, const Order
     edge.sequence_id = in.integer("sequenceId", kSequence);
     edge.released = in.boolean("released");
     edge.max_speed_mps = in.number_or("maxSpeed", 0, {0, 1e3});
+    edge.corridor = decode_corridor(in);
     in.items("actions", {0, 100}, [&](const Json&, const std::string& at) {
         errors.add(at, {"action_not_supported", {}},
                    "actions on edges are not supported; put them on a node");

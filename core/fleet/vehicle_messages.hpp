@@ -72,6 +72,8 @@ struct OrderEdge {
     bool released = false;
     kinematics::Segment segment;
     double max_speed_mps = 0;  // 0: vehicle's own limit
+    /// Room to go round something, on straight edges; none: the vehicle keeps to its path.
+    std::optional<plant::Corridor> corridor = {};
 };
 
 struct OrderMessage {

@@ -186,6 +186,14 @@ struct RoadmapNode {
     Point2 position;
 };
 
+/// Room beside a lane's line, seen along the way, in which a vehicle may leave the line to go round
+/// something. All of it stays inside, load included (VDA 5050: corridorRefPoint CONTOUR).
+struct Corridor {
+    double left_m = 0;
+    double right_m = 0;
+    bool operator==(const Corridor&) const = default;
+};
+
 /// Directed edge; a two-way lane is two edges.
 struct RoadmapEdge {
     EdgeId id;
@@ -193,6 +201,7 @@ struct RoadmapEdge {
     NodeId to;
     double max_speed_mps = 0;                  // 0: the vehicle's own limit
     std::vector<VehicleTypeId> vehicle_types;  // empty: everybody whose footprint fits
+    std::optional<Corridor> corridor = {};     // none: vehicles keep to the line
 };
 
 /// Direction penalty (Li 2022 eq. 10 as corrected): cost = k_same x length +

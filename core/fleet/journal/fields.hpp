@@ -28,7 +28,7 @@ PULSELINE_FIELDS(Param, name, value)
 PULSELINE_FIELDS(Reason, code, params)
 PULSELINE_LAST(plant::MotionMode, kFree)
 PULSELINE_LAST(plant::Tolerance::Shape, kEllipse)
-PULSELINE_LAST(kinematics::Segment::Kind, kArc)
+PULSELINE_LAST(kinematics::Segment::Kind, kCombined)
 PULSELINE_LAST(fleet::BlockingType, kHard)
 PULSELINE_LAST(fleet::ActionStatus, kFailed)
 PULSELINE_LAST(fleet::JobState, kAborted)
@@ -49,6 +49,7 @@ PULSELINE_FIELDS(Segment, kind, start, end, turn_rad, length_m, direction_rad, c
 }  // namespace kinematics
 
 namespace plant {
+PULSELINE_FIELDS(Corridor, left_m, right_m)
 PULSELINE_FIELDS(Tolerance, shape, dx_m, dy_m, dheading_rad)
 }  // namespace plant
 
@@ -62,7 +63,7 @@ PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id)
 PULSELINE_FIELDS(Action, type, id, blocking, stop_target, init_position, params)
 PULSELINE_FIELDS(OrderNode, node_id, sequence_id, released, pose, has_heading,
                  allowed_deviation_xy_m, allowed_deviation_theta_rad, map_id, actions)
-PULSELINE_FIELDS(OrderEdge, edge_id, sequence_id, released, segment, max_speed_mps)
+PULSELINE_FIELDS(OrderEdge, edge_id, sequence_id, released, segment, max_speed_mps, corridor)
 PULSELINE_FIELDS(OrderMessage, order_id, order_update_id, nodes, edges)
 PULSELINE_FIELDS(InstantActionsMessage, actions)
 PULSELINE_FIELDS(StopMeasurement, pose, sigma_xy_m, sigma_heading_rad, method, markers)

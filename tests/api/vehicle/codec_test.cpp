@@ -45,6 +45,8 @@ TEST(Order, RoundTripKeepsNodesAndActions) {
     EXPECT_EQ(read->nodes[1].sequence_id, 6);
     EXPECT_FALSE(read->nodes.back().released);
     EXPECT_EQ(read->edges[0].max_speed_mps, 0.4);
+    EXPECT_EQ(read->edges[0].corridor, (plant::Corridor{1.4, 0.9}));
+    EXPECT_FALSE(read->edges[1].corridor);
     const auto& action = read->nodes.back().actions.at(1);
     EXPECT_EQ(action.type, "measureStop");
     ASSERT_TRUE(action.stop_target);
@@ -54,6 +56,14 @@ TEST(Order, RoundTripKeepsNodesAndActions) {
     EXPECT_EQ(action.stop_target->tolerance_heading_rad, 0.0035);
     ASSERT_EQ(action.stop_target->markers.size(), 2u);
     EXPECT_EQ(action.stop_target->markers[1].pose, expected.markers[1].pose);
+}
+
+TEST(Order, ACorridorOfTheCentreAloneIsNone) {
+    auto message = parsed(encode_order(testing::order(), header()));
+    message["edges"][0]["corridor"]["corridorRefPoint"] = "KINEMATICCENTER";
+    const auto read = decode_order(message);
+    ASSERT_TRUE(read);
+    EXPECT_FALSE(read->edges[0].corridor);
 }
 
 TEST(InstantActions, RoundTripAndNumbersAsText) {

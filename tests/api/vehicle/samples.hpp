@@ -93,6 +93,7 @@ inline fleet::OrderMessage order() {
         add_node(at, released);
     };
     add(straight(at, 6, 0), true);
+    message.edges.back().corridor = {1.4, 0.9};
     add(straight(at, 2, kPi), true);
     add(turn(at, -1.3), true);
     add(turn(at, -kPi), true);
