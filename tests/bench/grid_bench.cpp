@@ -105,33 +105,48 @@ struct Figures {
     }
 };
 
-using Query = std::function<SearchEnd(const GridRequest&, GridRoute&)>;
+struct Contender {
+    std::string name;
+    std::function<SearchEnd(const GridRequest&, GridRoute&)> query;
+};
 
-// The slow searches on the big maps get one run a problem, the fast ones many.
-constexpr double kBudget_us = 3e6;
-constexpr int kMostRuns = 30;
+// The slow searches on the big maps get one run a problem and round, the fast ones many.
+constexpr double kBudget_us = 1e6;
+constexpr int kMostRuns = 10;
 
-Figures measure(const BenchMap& map, const std::string& name, const Query& query) {
-    Figures figures;
-    figures.name = name;
+/// One round over all problems; a problem's time is the least of all rounds.
+void measure(const BenchMap& map, const Contender& contender, Figures& figures) {
+    figures.us.resize(map.problems.size(), std::numeric_limits<double>::infinity());
+    figures.cost.clear();
+    figures.expanded = 0;
     GridRoute route;
-    for (const auto& problem : map.problems) {
-        GridRequest request{problem.start, problem.goal};
+    for (std::size_t p = 0; p < map.problems.size(); ++p) {
+        GridRequest request{map.problems[p].start, map.problems[p].goal};
         request.cost = *unit_cell_cost(10, 20);
-        double least = std::numeric_limits<double>::infinity();
         const double share = kBudget_us / static_cast<double>(map.problems.size());
         double spent = 0;
         SearchEnd end = SearchEnd::kNoRoute;
         for (int i = 0; i < kMostRuns && (i == 0 || spent < share); ++i) {
             const auto begin = Timer::now();
-            end = query(request, route);
+            end = contender.query(request, route);
             const double time = us_since(begin);
-            least = std::min(least, time);
+            figures.us[p] = std::min(figures.us[p], time);
             spent += time;
         }
-        figures.us.push_back(least);
         figures.cost.push_back(end == SearchEnd::kFound ? route.cost : -1);
         figures.expanded += route.expanded;
+    }
+}
+
+/// In turns, so that what else the machine does for a while spoils no comparison.
+std::vector<Figures> measure(const BenchMap& map, const std::vector<Contender>& contenders,
+                             int rounds) {
+    std::vector<Figures> figures;
+    for (const Contender& contender : contenders) figures.push_back({contender.name, {}, {}, 0});
+    for (int round = 0; round < rounds; ++round) {
+        for (std::size_t i = 0; i < contenders.size(); ++i) {
+            measure(map, contenders[i], figures[i]);
+        }
     }
     return figures;
 }
@@ -173,19 +188,27 @@ nlohmann::json bench_map(const BenchMap& bench_map) {
         std::fflush(stdout);
         all.push_back(std::move(figures));
     };
+    const auto compare = [&](const std::vector<Algorithm>& algorithms, int rounds) {
+        std::vector<GridSearch> searches(algorithms.size());
+        std::vector<Contender> contenders;
+        for (std::size_t i = 0; i < algorithms.size(); ++i) {
+            const Algorithm algorithm = algorithms[i];
+            searches[i].prepare(map, algorithm);
+            contenders.push_back({std::string(to_string(algorithm)),
+                                  [&map, &search = searches[i], algorithm](const auto& q, auto& r) {
+                                      return search.run(map, q, algorithm, r);
+                                  }});
+        }
+        auto figures = measure(bench_map, contenders, rounds);
+        for (std::size_t i = 0; i < figures.size(); ++i) {
+            show(std::move(figures[i]), searches[i].bytes());  // what it has grown to
+        }
+    };
     CellSearch cells(map);
-    show(measure(bench_map, "astar-no-turns",
-                 [&](const GridRequest& q, GridRoute& r) { return cells.run(q, r); }),
-         0);
-    for (const auto algorithm :
-         {Algorithm::kDijkstra, Algorithm::kAstar, Algorithm::kBucket, Algorithm::kTurnJump}) {
-        GridSearch search;
-        search.prepare(map, algorithm);
-        auto figures = measure(
-            bench_map, std::string(to_string(algorithm)),
-            [&](const GridRequest& q, GridRoute& r) { return search.run(map, q, algorithm, r); });
-        show(std::move(figures), search.bytes());  // what it has grown to
-    }
+    const Contender yard{"astar-no-turns", [&](const auto& q, auto& r) { return cells.run(q, r); }};
+    show(measure(bench_map, {yard}, 3).front(), 0);
+    compare({Algorithm::kDijkstra, Algorithm::kAstar}, 1);
+    compare({Algorithm::kBucket, Algorithm::kTurnJump}, 5);
     for (std::size_t i = 2; i < all.size(); ++i) {
         if (all[i].cost == all[1].cost) continue;
         std::fprintf(stderr, "%s and %s disagree on a cost\n", all[i].name.c_str(),
