@@ -57,11 +57,14 @@ void EdgeRow::set(const plant::RoadmapEdge& edge) {
     to = edge.to.str();
     max_speed_mps = edge.max_speed_mps;
     vehicle_types = keys_to_json(edge.vehicle_types);
+    corridor = edge.corridor.value_or(plant::Corridor{});
 }
 
 plant::RoadmapEdge EdgeRow::get() const {
-    return {plant::EdgeId(id), plant::NodeId(from), plant::NodeId(to), max_speed_mps,
-            keys_from_json<plant::VehicleTypeId>(vehicle_types)};
+    plant::RoadmapEdge edge{plant::EdgeId(id), plant::NodeId(from), plant::NodeId(to),
+                            max_speed_mps, keys_from_json<plant::VehicleTypeId>(vehicle_types)};
+    if (corridor != plant::Corridor{}) edge.corridor = corridor;
+    return edge;
 }
 
 void VehicleTypeRow::set(const plant::VehicleType& type) {

@@ -61,12 +61,17 @@ struct NodeRow {
 struct EdgeRow {
     static constexpr const char* kTable = "edges";
     static constexpr const char* kColumns =
-        "position, id, from_node, to_node, max_speed_mps, vehicle_types";
+        "position, id, from_node, to_node, max_speed_mps, vehicle_types, corridor_left_m, "
+        "corridor_right_m";
     std::int64_t position = 0;
     std::string id, from, to, vehicle_types;
     double max_speed_mps = 0;
+    plant::Corridor corridor;  // 0 on both sides: none
 
-    auto fields() { return std::tie(position, id, from, to, max_speed_mps, vehicle_types); }
+    auto fields() {
+        return std::tie(position, id, from, to, max_speed_mps, vehicle_types, corridor.left_m,
+                        corridor.right_m);
+    }
     void set(const plant::RoadmapEdge& edge);
     plant::RoadmapEdge get() const;
 };

@@ -130,6 +130,9 @@ Json edge_json(const plant::RoadmapEdge& edge) {
                  {"to", edge.to.str()},
                  {"vehicle_types", keys_json(edge.vehicle_types)}};
     if (edge.max_speed_mps > 0) json["max_speed_mps"] = edge.max_speed_mps;
+    if (edge.corridor) {
+        json["corridor"] = {{"left_m", edge.corridor->left_m}, {"right_m", edge.corridor->right_m}};
+    }
     return json;
 }
 

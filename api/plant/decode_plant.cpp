@@ -257,6 +257,11 @@ RoadmapEdge decode_edge(ObjectReader& in) {
     edge.to = decode_key<NodeId>(in, "to");
     edge.max_speed_mps = in.number_or("max_speed_mps", 0, kQuantity);
     edge.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
+    if (in.has("corridor")) {
+        auto corridor = in.object("corridor");
+        edge.corridor = {corridor.number("left_m", kMetres), corridor.number("right_m", kMetres)};
+        corridor.refuse_unknown();
+    }
     return edge;
 }
 

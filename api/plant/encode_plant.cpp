@@ -155,10 +155,13 @@ Json encode(const RoadmapNode& n) {
     return {{"id", n.id.str()}, {"hall", n.hall.str()}, {"position", encode(n.position)}};
 }
 
+Json encode(const Corridor& c) { return {{"left_m", c.left_m}, {"right_m", c.right_m}}; }
+
 Json encode(const RoadmapEdge& e) {
     Json json = {{"id", e.id.str()}, {"from", e.from.str()}, {"to", e.to.str()}};
     if (e.max_speed_mps != 0) json["max_speed_mps"] = e.max_speed_mps;
     if (!e.vehicle_types.empty()) json["vehicle_types"] = encode(e.vehicle_types);
+    if (e.corridor) json["corridor"] = encode(*e.corridor);
     return json;
 }
 

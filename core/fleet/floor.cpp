@@ -78,8 +78,8 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     run.floor.moves_before_leg = -static_cast<std::int64_t>(leg.passed_nodes - 1);
     for (std::size_t i = leg.passed_nodes; i < leg.released_nodes; ++i) {
         traffic::MoveRecord move;
-        move.swept = floor_of_edge(fleet, run, leg.edges[i - 1].segment);
-        move.stand = floor_under(fleet, run, leg.nodes[i].pose);
+        move.swept = floor_of_edge(fleet, run, leg.edges[i - 1]);
+        move.stand = floor_at_node(fleet, run, i);
         move.place = place_at(fleet, run, leg.nodes[i].pose);
         if (move.place != traffic::kNoPlace) {
             move.stand = fleet.floor.classes[run.floor.of_class].stands[move.place];

@@ -51,9 +51,13 @@ void open_floor(FleetState& fleet, Time now);
 
 /// Floor under the vehicle's outline at a pose, position error included.
 traffic::TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);
-/// Floor that the vehicle sweeps on an edge of its leg.
+/// Floor of an edge of the vehicle's leg: what it sweeps there, and the edge's corridor.
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
-                               const kinematics::Segment& segment);
+                               const OrderEdge& edge);
+/// Floor in which the vehicle stands when it stops at node `i` of its leg.
+traffic::TileSet floor_at_node(const FleetState& fleet, const VehicleRun& run, std::size_t i);
+/// Says of each node behind the leg's base how far beside it the vehicle may pass.
+void widen_nodes(Leg& leg);
 
 /// A vehicle without a leg stands where its record says. It keeps its plan when that is where the
 /// plan has it, unless `give_up_plan`.

@@ -51,13 +51,12 @@ traffic::Sequence sequence_of(const FleetState& fleet, const VehicleRun& run) {
     const FloorClass& of_class = class_of(fleet, run);
     traffic::Sequence sequence;
     for (std::size_t i = leg.released_nodes; i < leg.nodes.size(); ++i) {
-        const auto& segment = leg.edges[i - 1].segment;
         traffic::Sequence::Step step;
-        step.swept = floor_of_edge(fleet, run, segment);
+        step.swept = floor_of_edge(fleet, run, leg.edges[i - 1]);
         step.place = exact_place(of_class, leg.hall, leg.nodes[i].pose);
-        step.stand = step.place != kNoPlace ? of_class.stands[step.place]
-                                            : floor_under(fleet, run, leg.nodes[i].pose);
-        step.duration_s = std::max(0.1, segment.duration_s);
+        step.stand =
+            step.place != kNoPlace ? of_class.stands[step.place] : floor_at_node(fleet, run, i);
+        step.duration_s = std::max(0.1, leg.edges[i - 1].segment.duration_s);
         sequence.steps.push_back(std::move(step));
     }
     return sequence;
@@ -73,13 +72,12 @@ OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
     return node;
 }
 
-OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment, double max_speed_mps) {
+OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment) {
     OrderEdge edge;
     const std::size_t index = leg.nodes.size();
     edge.edge_id = "e" + std::to_string(index);
     edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
     edge.segment = std::move(segment);
-    edge.max_speed_mps = max_speed_mps;
     return edge;
 }
 
@@ -103,17 +101,17 @@ void append_move(const FloorClass& of_class, Leg& leg, traffic::PlaceIndex place
         segment.end = segments.back().end;
         segment.turn_rad += segments.back().turn_rad;
     }
-    double max_speed_mps = 0;
+    OrderEdge edge = horizon_edge(leg, std::move(segment));
     if (from) {
         const auto way = of_class.way_between.find({*from, place});
         if (way != of_class.way_between.end()) {
-            max_speed_mps = of_class.motion.ways[way->second].max_speed_mps;
-            segment.duration_s = of_class.motion.ways[way->second].duration_s;
+            edge.max_speed_mps = of_class.motion.ways[way->second].max_speed_mps;
+            edge.segment.duration_s = of_class.motion.ways[way->second].duration_s;
+            edge.corridor = of_class.corridors[way->second];
         }
     }
-    const Pose2 end = segment.end;
-    leg.edges.push_back(horizon_edge(leg, std::move(segment), max_speed_mps));
-    leg.nodes.push_back(horizon_node(leg, end));
+    leg.nodes.push_back(horizon_node(leg, edge.segment.end));
+    leg.edges.push_back(std::move(edge));
 }
 
 /// Makes the leg's horizon that of the plan; true when it changed.
@@ -169,6 +167,7 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, run, *station, leg)
                                                      : stop_actions(fleet, run, *station, leg.id);
     }
+    widen_nodes(leg);
     leg.duration_s = 0;
     for (const auto& edge : leg.edges) leg.duration_s += edge.segment.duration_s;
     return true;
@@ -177,19 +176,46 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
 }  // namespace
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
-                               const kinematics::Segment& segment) {
+                               const OrderEdge& edge) {
     const bool loaded = is_loaded(run);
     const std::string& hall = run.leg().hall;
     for (const auto& known : run.swept) {
-        if (known.segment == segment && known.loaded == loaded && known.hall == hall)
+        if (known.segment == edge.segment && known.corridor == edge.corridor &&
+            known.loaded == loaded && known.hall == hall) {
             return known.tiles;
+        }
     }
     if (run.swept.size() >= kMostSwept) run.swept.clear();
-    const auto body = plant::outline_with_load(*run.type, loaded);
-    run.swept.push_back({segment, loaded, hall,
-                         traffic::tiles_under(hall_index(fleet, hall),
-                                              kinematics::sweep(body, {segment}), kFloorMargin_m)});
+    const auto floor =
+        floor_along(plant::outline_with_load(*run.type, loaded), edge.segment, edge.corridor);
+    run.swept.push_back({edge.segment, edge.corridor, loaded, hall,
+                         traffic::tiles_under(hall_index(fleet, hall), floor, kFloorMargin_m)});
     return run.swept.back().tiles;
+}
+
+traffic::TileSet floor_at_node(const FleetState& fleet, const VehicleRun& run, std::size_t i) {
+    const Leg& leg = run.leg();
+    const auto under = floor_under(fleet, run, leg.nodes[i].pose);
+    if (i == 0 || i >= leg.edges.size()) return under;
+    const OrderEdge& next = leg.edges[i];
+    const auto room = room_between(leg.edges[i - 1].segment, leg.edges[i - 1].corridor,
+                                   next.segment, next.corridor);
+    if (!room) return under;
+    const auto about =
+        room_about(plant::outline_with_load(*run.type, is_loaded(run)), next.segment, *room);
+    return traffic::merge(
+        under, traffic::tiles_under(hall_index(fleet, leg.hall), {about}, kFloorMargin_m));
+}
+
+void widen_nodes(Leg& leg) {
+    for (std::size_t i = std::max<std::size_t>(1, leg.released_nodes); i < leg.edges.size(); ++i) {
+        const OrderEdge& edge = leg.edges[i - 1];
+        const OrderEdge& next = leg.edges[i];
+        const auto room = room_between(edge.segment, edge.corridor, next.segment, next.corridor);
+        leg.nodes[i].allowed_deviation_xy_m = room && leg.nodes[i].actions.empty()
+                                                  ? std::max(room->left_m, room->right_m)
+                                                  : OrderNode{}.allowed_deviation_xy_m;
+    }
 }
 
 std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now) {

@@ -73,6 +73,13 @@ double accel_of(const VehicleRun& run) {
                : run.type->max_accel_mps2;
 }
 
+/// Barred where it may leave its line, it asks for more of the lane to go round what stands there.
+bool wants_room(const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    return run.state.field_violation && run.state.new_base_request &&
+           leg.edges[leg.released_nodes - 1].corridor.has_value();
+}
+
 /// Standing at the end of its base, it waits for somebody; still driving, it does not.
 void tell_wait(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.leg().passed_nodes < run.leg().released_nodes) return;
@@ -146,13 +153,15 @@ Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::Le
     leg.hall = station.hall.str();
     leg.duration_s = plan.duration_s;
     leg.nodes.push_back(start_node(start, leg.hall));
-    for (const auto& segment : plan.segments) {
-        for (const auto& piece : split(*run.type, segment)) {
+    for (std::size_t i = 0; i < plan.segments.size(); ++i) {
+        for (const auto& piece : split(*run.type, plan.segments[i])) {
             const std::size_t index = leg.nodes.size();
             OrderEdge edge;
             edge.edge_id = "e" + std::to_string(index);
             edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
             edge.segment = piece;
+            if (!plan.max_speed_mps.empty()) edge.max_speed_mps = plan.max_speed_mps[i];
+            edge.corridor = fleet.tables->lanes.along(station.hall, piece).corridor;
             leg.edges.push_back(std::move(edge));
             leg.nodes.push_back(node_at("p" + std::to_string(index), index, piece.end, leg.hall));
         }
@@ -160,6 +169,7 @@ Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::Le
     auto& last = leg.nodes.back();
     last.node_id = station.id.str();
     last.actions = stop_actions(fleet, run, station, id);
+    widen_nodes(leg);
     return leg;
 }
 
@@ -227,7 +237,8 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
         ahead_m += std::abs(leg.edges[i - 1].segment.length_m);
     }
     std::size_t wanted = leg.released_nodes;
-    while (wanted < leg.nodes.size() && (wanted == 1 || ahead_m < wanted_m)) {
+    const std::size_t least = wanted + (wants_room(run) ? 1 : 0);
+    while (wanted < leg.nodes.size() && (wanted == 1 || wanted < least || ahead_m < wanted_m)) {
         // A turn on the spot ends standing anyway: released with the move behind it.
         ahead_m += std::abs(leg.edges[wanted - 1].segment.length_m);
         ++wanted;

@@ -13,9 +13,10 @@
 namespace pulseline::fleet {
 
 struct PlantTables {
-    explicit PlantTables(const plant::Plant& plant) : planner(plant) {}
+    explicit PlantTables(const plant::Plant& plant) : planner(plant), lanes(plant) {}
 
     planning::LegPlanner planner;
+    planning::LaneLines lanes;
     std::vector<FloorClass> classes;     // of all vehicles; classes[i].graph is i
     traffic::Traffic empty_floor{true};  // the classes' graphs without a vehicle; for the monitor
 };

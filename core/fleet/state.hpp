@@ -36,6 +36,7 @@ struct PlannedLeg {
 /// Floor of a move that is not of the class's roads; costs a sweep, and is asked for at every try.
 struct SweptSegment {
     kinematics::Segment segment;
+    std::optional<plant::Corridor> corridor;
     bool loaded = false;
     std::string hall;
     traffic::TileSet tiles;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 
 #include "core/fleet/state.hpp"
@@ -19,18 +20,18 @@ void update_areas(const VehicleRun& run) {
         areas.released == leg.released_nodes) {
         return;
     }
-    std::vector<kinematics::Segment> granted;
-    std::vector<kinematics::Segment> horizon;
-    for (std::size_t i = leg.passed_nodes - 1; i < leg.edges.size(); ++i) {
-        (i + 1 < leg.released_nodes ? granted : horizon).push_back(leg.edges[i].segment);
-    }
+    std::vector<geometry::Polygon> granted;
+    std::vector<geometry::Polygon> horizon;
     const auto body = plant::outline_with_load(*run.type, is_loaded(run));
-    const auto outline = [&](const std::vector<kinematics::Segment>& segments) {
-        return geometry::union_outline(
-            kinematics::sweep(body, segments, kinematics::kOutlineDetail));
-    };
-    areas.granted = outline(granted);
-    areas.horizon = outline(horizon);
+    for (std::size_t i = leg.passed_nodes - 1; i < leg.edges.size(); ++i) {
+        auto floor = floor_along(body, leg.edges[i].segment, leg.edges[i].corridor,
+                                 kinematics::kOutlineDetail);
+        auto& area = i + 1 < leg.released_nodes ? granted : horizon;
+        area.insert(area.end(), std::make_move_iterator(floor.begin()),
+                    std::make_move_iterator(floor.end()));
+    }
+    areas.granted = geometry::union_outline(granted);
+    areas.horizon = geometry::union_outline(horizon);
     areas.leg = leg.id;
     areas.passed = leg.passed_nodes;
     areas.released = leg.released_nodes;

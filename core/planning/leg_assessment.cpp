@@ -45,12 +45,30 @@ LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion)
     draft.segments = motion.segments;
     draft.turns = turns_of(task, motion);
     draft.cost = arc_cost(task.cost, motion.length_m, draft.turns > 0);
+    for (const Segment& segment : draft.segments) {
+        draft.max_speed_mps.push_back(
+            task.roads.lines().along(task.request.hall, segment).max_speed_mps);
+    }
+    kinematics::set_durations(*task.request.type, draft.segments, draft.max_speed_mps);
     return draft;
 }
 
 kinematics::ExpectedDeviation expected_of(const plant::VehicleType& type,
                                           const std::vector<Segment>& segments) {
     return kinematics::expected_deviation(segments, kinematics::usual_noise(type.kinematics));
+}
+
+/// Of a direct motion. Floor closed in a lane's corridor closes the lane, here too.
+std::vector<std::size_t> closed_floor_on(const LegTask& task, const std::vector<Segment>& segments,
+                                         std::vector<Polygon> swept) {
+    const double reach_m = plant::reach_m(task.passage.body.pieces);
+    for (const Segment& segment : segments) {
+        const auto corridor = task.roads.lines().along(task.request.hall, segment).corridor;
+        if (!corridor) continue;
+        swept.push_back(plant::corridor_band(segment.start.position(), segment.end.position(),
+                                             *corridor, reach_m));
+    }
+    return driven_over(task.closures, task.request.hall, swept);
 }
 
 /// The plan of a draft that keeps clear; `pieces` are its swept area.
@@ -67,7 +85,7 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     plan.cost = draft.cost;
     plan.duration_s = sums.duration_s;
     plan.expected = expected_of(*task.request.type, plan.segments);
-    if (plan.route.empty()) draft.closures = driven_over(task.closures, task.request.hall, pieces);
+    if (plan.route.empty()) draft.closures = closed_floor_on(task, plan.segments, pieces);
     for (const std::size_t closure : draft.closures) {
         const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
         auto& ids = plan.closures;

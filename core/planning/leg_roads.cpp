@@ -58,12 +58,18 @@ bool meets(const ClosedFloor& closure, const std::vector<geometry::Polygon>& swe
     return false;
 }
 
-double reach_of(const Body& body) {
-    double reach_m = 0;
-    for (const auto& piece : body.pieces) {
-        for (const auto& corner : piece) reach_m = std::max(reach_m, norm(corner));
+/// The floor of a lane: what the body sweeps on it, and its corridor.
+std::vector<geometry::Polygon> floor_of_arc(const RoadmapIndex& roads, const Passage& passage,
+                                            int arc, double reach_m) {
+    auto floor = roads.swept(passage.body, arc);
+    if (const auto& corridor = roads.edge_of_arc(arc).corridor) {
+        const auto& nodes = roads.graph().nodes;
+        const RoadArc& lane = roads.graph().arcs[static_cast<std::size_t>(arc)];
+        floor.push_back(plant::corridor_band(nodes[static_cast<std::size_t>(lane.from)],
+                                             nodes[static_cast<std::size_t>(lane.to)], *corridor,
+                                             reach_m));
     }
-    return reach_m;
+    return floor;
 }
 
 /// Whether a body could touch any of them between two points: spares most lanes their sweep.
@@ -94,15 +100,17 @@ std::vector<std::vector<std::size_t>> closures_over_arcs(const RoadmapIndex& roa
                                                          const Passage& passage,
                                                          const std::vector<ClosedFloor>& closures) {
     const RoadGraph& graph = roads.graph();
-    const double reach_m = reach_of(passage.body);
+    const double reach_m = plant::reach_m(passage.body.pieces);
     std::vector<std::vector<std::size_t>> over(graph.arcs.size());
     for (std::size_t i = 0; i < over.size(); ++i) {
         const int arc = static_cast<int>(i);
         const auto& hall = roads.node(graph.arcs[i].from).hall;
         const auto& from = graph.nodes[static_cast<std::size_t>(graph.arcs[i].from)];
         const auto& to = graph.nodes[static_cast<std::size_t>(graph.arcs[i].to)];
-        if (!roads.usable(passage, arc) || !any_near(closures, hall, from, to, reach_m)) continue;
-        over[i] = driven_over(closures, hall, roads.swept(passage.body, arc));
+        const auto room = roads.edge_of_arc(arc).corridor.value_or(plant::Corridor{});
+        const double within_m = std::max({reach_m, room.left_m, room.right_m});
+        if (!roads.usable(passage, arc) || !any_near(closures, hall, from, to, within_m)) continue;
+        over[i] = driven_over(closures, hall, floor_of_arc(roads, passage, arc, reach_m));
     }
     return over;
 }

@@ -15,14 +15,6 @@ constexpr double kSameHeading_rad = 1e-6;
 // Breaks ties towards driving forwards; far below any turn it could save.
 constexpr double kBackwardsBurden = 0.01;
 
-double reach_of(const Body& body) {
-    double reach = 0;
-    for (const Polygon& piece : body.pieces) {
-        for (const auto& p : piece) reach = std::max(reach, norm(p));
-    }
-    return reach;
-}
-
 Polygon circle_around(geometry::Point2 centre, double radius_m) {
     constexpr int kCorners = 24;
     const double r = radius_m / std::cos(kPi / kCorners);
@@ -40,7 +32,7 @@ Body body_of(const plant::VehicleType& type, bool loaded) {
     return {plant::outline_with_load(type, loaded), type.clearance_m};
 }
 
-RoadmapIndex::RoadmapIndex(const plant::Plant& plant) : plant_(plant) {
+RoadmapIndex::RoadmapIndex(const plant::Plant& plant) : plant_(plant), lines_(plant) {
     for (const plant::Hall& hall : plant.halls) obstacles_.emplace(hall.id, Obstacles(plant, hall));
     for (const plant::RoadmapNode& node : plant.nodes) {
         node_by_id_.emplace(node.id, graph_.add_node(node.position));
@@ -124,7 +116,7 @@ std::vector<char> RoadmapIndex::free_turns(const Passage& passage, int node) con
     if (!obstacles) return free;
     const auto limits = obstacles->limits(body.clearance_m);
     const auto& at = graph_.nodes[static_cast<std::size_t>(node)];
-    if (obstacles->keeps({circle_around(at, reach_of(body))}, limits)) return free;
+    if (obstacles->keeps({circle_around(at, plant::reach_m(body.pieces))}, limits)) return free;
     const auto used = headings_in_use(passage, node);
     for (std::size_t a = 0; a < count; ++a) {
         for (std::size_t b = 0; b < count; ++b) {

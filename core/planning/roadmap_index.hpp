@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/planning/lane_lines.hpp"
 #include "core/planning/obstacles.hpp"
 #include "core/planning/road_search.hpp"
 
@@ -36,6 +37,7 @@ public:
     int node(const plant::NodeId& id) const;  // -1: none
     const plant::RoadmapNode& node(int index) const;
     const plant::RoadmapEdge& edge_of_arc(int arc) const;
+    const LaneLines& lines() const { return lines_; }
     const Obstacles* obstacles(const plant::HallId& hall) const;
     const Obstacles* obstacles_of_node(int node) const;
 
@@ -58,6 +60,7 @@ private:
     std::vector<char> free_turns(const Passage& passage, int node) const;
 
     const plant::Plant& plant_;
+    LaneLines lines_;
     RoadGraph graph_;
     std::unordered_map<plant::NodeId, int> node_by_id_;
     std::vector<int> edge_by_arc_;

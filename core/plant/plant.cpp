@@ -65,6 +65,23 @@ std::vector<Camera> cameras_of(const VehicleType& type, bool loaded) {
     return cameras;
 }
 
+double reach_m(const std::vector<Polygon>& outline) {
+    double reach_m = 0;
+    for (const Polygon& piece : outline) {
+        for (const Point2 corner : piece) reach_m = std::max(reach_m, norm(corner));
+    }
+    return reach_m;
+}
+
+Polygon corridor_band(Point2 from, Point2 to, const Corridor& corridor, double beyond_m) {
+    const Point2 ahead = (1 / geometry::distance(from, to)) * (to - from);
+    const Point2 left{-ahead.y_m, ahead.x_m};
+    const Point2 begin = from - beyond_m * ahead;
+    const Point2 end = to + beyond_m * ahead;
+    return {begin - corridor.right_m * left, end - corridor.right_m * left,
+            end + corridor.left_m * left, begin + corridor.left_m * left};
+}
+
 std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded) {
     std::vector<Polygon> pieces = geometry::convex_pieces(type.footprint);
     if (loaded && !type.load_footprint.empty()) {

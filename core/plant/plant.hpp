@@ -243,8 +243,13 @@ const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
 bool is_loaded(const Vehicle& vehicle);
 /// The cameras as they hang with or without load.
 std::vector<Camera> cameras_of(const VehicleType& type, bool loaded);
+/// The floor of a corridor along a straight way, `beyond_m` longer at both ends; convex. REQUIRES:
+/// the ends differ.
+Polygon corridor_band(Point2 from, Point2 to, const Corridor& corridor, double beyond_m);
 /// Footprint of vehicle and load together (convex pieces, body frame).
 std::vector<Polygon> outline_with_load(const VehicleType& type, bool loaded);
+/// Greatest distance of a point of an outline from the body's origin.
+double reach_m(const std::vector<Polygon>& outline);
 
 const char* to_string(MotionMode mode);  // "self_rotation"
 std::optional<MotionMode> parse_motion_mode(const std::string& text);

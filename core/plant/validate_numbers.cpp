@@ -156,8 +156,11 @@ void check_numbers(const Plant& plant, Faults& faults) {
         Numbers(at("roadmap/nodes", i), faults).point("/position", plant.nodes[i].position);
     }
     for (std::size_t i = 0; i < plant.edges.size(); ++i) {
-        Numbers(at("roadmap/edges", i), faults)
-            .not_negative("/max_speed_mps", plant.edges[i].max_speed_mps);
+        Numbers n(at("roadmap/edges", i), faults);
+        n.not_negative("/max_speed_mps", plant.edges[i].max_speed_mps);
+        if (!plant.edges[i].corridor) continue;
+        n.positive("/corridor/left_m", plant.edges[i].corridor->left_m);
+        n.positive("/corridor/right_m", plant.edges[i].corridor->right_m);
     }
     check_routing(plant.routing, {"/routing", faults});
 }

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/geometry/convex.hpp"
 #include "core/plant/validate_parts.hpp"
 
 namespace pulseline::plant::detail {
@@ -20,6 +21,26 @@ void check_nodes(const Plant& plant, const Index& index, Faults& faults) {
             faults.add(at("roadmap/nodes", i, "/position"), "outside_hall",
                        "The node lies outside its hall.", "Correct the position or the hall.");
         }
+    }
+}
+
+/// A vehicle sees walls and obstacles when it leaves its lane, but nobody sees a no-go area.
+void check_corridor(const Plant& plant, std::size_t i, const RoadmapNode& from,
+                    const RoadmapNode& to, Faults& faults) {
+    const auto& corridor = plant.edges[i].corridor;
+    if (!corridor || !(corridor->left_m > 0) || !(corridor->right_m > 0)) return;
+    const Polygon band = corridor_band(from.position, to.position, *corridor, 0);
+    for (const Area& area : plant.areas) {
+        if (area.kind != AreaKind::kNoGo || area.hall != from.hall) continue;
+        const auto pieces = geometry::convex_pieces(area.outline);
+        if (std::none_of(pieces.begin(), pieces.end(),
+                         [&](const Polygon& p) { return geometry::intersects(p, band); })) {
+            continue;
+        }
+        faults.add(
+            at("roadmap/edges", i, "/corridor"), "corridor_over_no_go",
+            "The corridor reaches into area " + quoted(area.id.str()) + ", where nobody may drive.",
+            "Make it narrower there, or cut the lane into several.");
     }
 }
 
@@ -57,6 +78,8 @@ std::vector<std::vector<std::size_t>> check_edges(const Plant& plant, const Inde
         if (geometry::distance(plant.nodes[*from].position, plant.nodes[*to].position) < 1e-6) {
             faults.add(at("roadmap/edges", i), "no_length", "The edge has no length.",
                        "Remove it or move a node.");
+        } else {
+            check_corridor(plant, i, plant.nodes[*from], plant.nodes[*to], faults);
         }
         if (!seen.emplace(*from, *to).second) {
             faults.add(at("roadmap/edges", i), "duplicate_edge",

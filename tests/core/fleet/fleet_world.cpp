@@ -222,7 +222,7 @@ void FakeVehicle::tell_what_is_left() {
 }
 
 bool FakeVehicle::step() {
-    if (!order_ || state.paused) {
+    if (!order_ || state.paused || stands) {
         see_codes();
         return false;
     }

@@ -42,12 +42,15 @@ public:
     bool step();
     /// Power cycle: forgets order and pose.
     void restart();
+    /// What it was told. REQUIRES: it has an order.
+    const OrderMessage& order() const { return *order_; }
 
     StateMessage state;
     Pose2 stop_error;  // added to the next measured stops
     std::optional<std::string> measure_fails;
     std::string action_fails;               // type of the action that fails
     std::vector<std::string> actions_done;  // types in the order in which they finished
+    bool stands = false;                    // does not move, whatever it is told
     bool sees_codes = true;  // reports the codes below its cameras while standing on them
     int orders_received = 0;
     int node_steps = 0;
