@@ -63,6 +63,7 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     settings.time_factor = options.time_factor;
     settings.battery_percent = options.battery_percent;
     settings.rendered = options.rendered;
+    settings.learned = options.learned;
     settings.servo_drive = options.servo_drive;
     settings.vehicles = static_cast<int>(options.vehicles.size());
     settings.faults = options.faults;

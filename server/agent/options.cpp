@@ -251,6 +251,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     app.add_option("--hand-held", options.hand_held,
                    "socket for a hand-held control beside the vehicle (Unix, JSON lines)");
+    app.add_option("--learned", options.learned,
+                   "folder in which vehicles keep what they learn of their small moves");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
     app.add_option("--fault", raw.faults,

@@ -36,6 +36,7 @@ struct Options {
     std::vector<Identity> vehicles;
     std::string world_file;
     std::string truth_log;  // empty: none
+    std::string learned;    // folder for what the vehicles learn; empty: none
     std::string hand_held;  // socket of a hand-held control; empty: none
     std::uint64_t seed = 1;
     double time_factor = 1;

@@ -61,6 +61,14 @@ plant::VehicleType as_loaded(plant::VehicleType type, const plant::Vehicle& vehi
     return type;
 }
 
+control::MotionCompensation learned_before(const std::optional<LearnedMoves>& learned) {
+    if (!learned) return {};
+    auto before = learned->load();
+    if (before) return std::move(*before);
+    spdlog::warn("{}", before.error().what);
+    return {};
+}
+
 /// Somebody left a box standing there.
 geometry::Polygon thing_at(geometry::Point2 place) {
     constexpr double kBox_m = 0.5;
@@ -94,8 +102,11 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
+      learned_(settings.learned.empty() ? std::nullopt
+                                        : std::optional<LearnedMoves>(
+                                              std::in_place, settings.learned, vehicle.id.str())),
       executor_(*drive_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
-                &equipment_),
+                &equipment_, learned_before(learned_)),
       body_(*drive_),
       estimate_(true_pose),
       truth_(truth),
@@ -116,6 +127,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     const int parts = std::max(
         1, static_cast<int>(std::ceil(dt_s * settings_.time_factor / kOwnStep_s - kRounding)));
     for (int i = 0; i < parts; ++i) executor_.step(dt_s / parts);
+    keep_learned();
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
     if (const auto fix = sensing_.take_fix()) {
@@ -180,6 +192,16 @@ void Vehicle::apply(const Fault& fault) {
             break;
     }
     if (!known) spdlog::warn("{}: no drive {} can fail so", vehicle_.id.str(), fault.wheel);
+}
+
+void Vehicle::keep_learned() {
+    const bool ended = stopping_ && !executor_.acting();
+    stopping_ = executor_.acting();
+    if (!ended || !learned_) return;
+    if (const auto saved = learned_->save(executor_.compensation()); !saved) {
+        spdlog::warn("{}: what it has learned is not kept: {}", vehicle_.id.str(),
+                     saved.error().what);
+    }
 }
 
 /// What the cameras see lets the server confirm where the vehicle stands.

@@ -13,6 +13,7 @@
 #include "core/simulation/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/learned_moves.hpp"
 #include "server/agent/look_out.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
@@ -29,6 +30,7 @@ struct VehicleSettings {
     int vehicles = 1;  // in this process: they share one processor for rendering
     std::vector<Fault> faults;
     bool servo_drive = false;  // wheel by wheel; a type without driven wheels stays statistical
+    std::string learned = {};  // folder for what it learns; empty: forgotten at the end
 };
 
 /// One vehicle: its simulated machine and what it says. Frames come in by receive() and go out
@@ -72,6 +74,7 @@ private:
     void apply_faults(double dt_s);
     void apply(const Fault& fault);
     void write_truth(Steady::time_point now);
+    void keep_learned();
 
     const plant::Vehicle& vehicle_;
     const plant::VehicleType type_;  // its cameras as they hang under its load
@@ -79,6 +82,7 @@ private:
     std::unique_ptr<simulation::Drive> drive_;
     CameraSensing sensing_;
     simulation::VehicleEquipment equipment_;
+    std::optional<LearnedMoves> learned_;
     simulation::VehicleExecutor executor_;
     BodyStatus body_;
     std::optional<LookOut> look_out_;
@@ -86,6 +90,7 @@ private:
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;
+    bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;
     double age_s_ = 0;

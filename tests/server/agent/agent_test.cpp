@@ -20,6 +20,7 @@
 #include "server/agent/vehicle.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
+#include "tests/db/temp_folder.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -325,6 +326,39 @@ TEST_F(ServoVehicleTest, SetsItsBracketsAtANodeAndReportsTheirLoads) {
     double force_n = 0;
     for (const auto& bracket : state.brackets) force_n += bracket.force_a_n + bracket.force_b_n;
     EXPECT_NEAR(force_n, 18000 * 9.80665, 2000);
+}
+
+TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
+    const db::TempFolder folder;
+    std::vector<std::size_t> learned;
+    for (int start = 0; start < 2; ++start) {
+        VehicleSettings settings{1, 10, false, {}, 1, {}, true};
+        settings.learned = folder.path();
+        servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20.04, 9.985, 0.003},
+                      settings, nullptr);
+        servo->link_up();
+        tell("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+        fleet::Action adjust;
+        adjust.type = "adjustToMarker";
+        adjust.id = "adjust";
+        adjust.stop_target = target_of(world.plant);
+        auto order = straight_order({20, 10, 0}, 12);
+        order.nodes.resize(1);
+        order.edges.clear();
+        order.nodes[0].actions = {adjust};
+        servo->receive(vda5050::encode_frame(
+            vda5050::Topic::kOrder, false,
+            vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
+        drive(20000ms);
+        ASSERT_EQ(state.action_states.size(), 2u);  // the other one is initPosition
+        EXPECT_EQ(state.action_states[0].status, fleet::ActionStatus::kFinished)
+            << state.action_states[0].result_description;
+        const auto kept = LearnedMoves(folder.path(), "TP-01").load();
+        ASSERT_TRUE(kept);
+        learned.push_back(kept->passes().size());
+    }
+    EXPECT_GT(learned[0], 0u);
+    EXPECT_GT(learned[1], learned[0]);
 }
 
 TEST_F(ServoVehicleTest, ADeadEncoderIsReportedAsAFaultOfItsWheel) {
