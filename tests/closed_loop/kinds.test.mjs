@@ -12,11 +12,12 @@ let system, client;
 
 before(async () => {
   system = await System.create("final-assembly");
-  system.prepareVehicles(Object.keys(VEHICLES));
+  system.prepareVehicles([...Object.keys(VEHICLES), "OM-03"]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
   for (const [i, id] of Object.keys(VEHICLES).entries()) system.startAgent(id, { seed: 21 + i });
-  for (const id of Object.keys(VEHICLES)) await client.untilReady(id);
+  system.startAgent("OM-03", { seed: 23 });
+  for (const id of [...Object.keys(VEHICLES), "OM-03"]) await client.untilReady(id);
 });
 after(() => system?.stop());
 
@@ -35,3 +36,12 @@ for (const [id, { kind, stations }] of Object.entries(VEHICLES)) {
     assert.ok(Math.abs(angleBetween(stop.dheading_rad, angleBetween(truth.heading_rad, pose.heading_rad))) <= 0.1 * DEG);
   });
 }
+
+test("OM-03 drives combined and oblique moves to measured stops", async () => {
+  // Across and half round on the way; back across, and half round at the end.
+  const modes = { 26: "combined", 30: "oblique" };
+  const order = await client.order("OM-03", Object.entries(modes).map(([station, motion_mode]) => ({ station: Number(station), motion_mode })));
+  assert.equal((await client.untilEnded(order.id, 150)).state, "Ended");
+  const inside = (await client.stops(order.id)).filter((stop) => stop.inside);
+  assert.deepEqual(inside.map((stop) => [stop.number, stop.mode]), Object.entries(modes).map(([station, mode]) => [Number(station), mode]));
+});
