@@ -9,6 +9,7 @@
 
 #include "core/kinematics/primitives.hpp"
 #include "core/planning/detour_ground.hpp"
+#include "core/planning/seen_things.hpp"
 #include "core/planning/side_step.hpp"
 
 namespace pulseline::planning {
@@ -221,6 +222,31 @@ Result<Detour> plan_detour(const DetourRequest& request) {
         return none("no_corridor", "The edge being driven has no corridor.");
     }
     return Planning(request).run();
+}
+
+bool keeps_clear(const plant::VehicleType& type, bool loaded, const Pose2& now,
+                 const std::vector<Segment>& way, const std::vector<geometry::Point2>& seen,
+                 double kept_m) {
+    const auto body = plant::outline_with_load(type, loaded);
+    const auto swept = kinematics::sweep(body, way);
+    std::vector<geometry::Point2> corners;
+    for (const auto& piece : swept) corners.insert(corners.end(), piece.begin(), piece.end());
+    if (corners.empty()) return true;
+    const auto box = geometry::bounding_box(corners);
+    std::vector<geometry::Point2> near;
+    for (const auto& p : seen) {
+        if (p.x_m > box.min.x_m - kept_m && p.x_m < box.max.x_m + kept_m &&
+            p.y_m > box.min.y_m - kept_m && p.y_m < box.max.y_m + kept_m) {
+            near.push_back(p);
+        }
+    }
+    std::vector<geometry::Polygon> standing;
+    for (const auto& piece : body) standing.push_back(geometry::transformed(now, piece));
+    const auto things = seen_things(std::move(near));
+    return std::all_of(things.begin(), things.end(), [&](const StandingBody& thing) {
+        return distance_to(thing, swept, kept_m) >= kept_m ||
+               distance_to(thing, standing, kept_m) < kept_m;
+    });
 }
 
 }  // namespace pulseline::planning

@@ -65,4 +65,11 @@ constexpr double kBandMargin_m = 0.1;
 /// REQUIRES: request.type; outlines as plant::outline_with_load gives them.
 Result<Detour> plan_detour(const DetourRequest& request);
 
+/// Whether a body that stands at `now` and drives `way` (hall frame) keeps `kept_m` to all that is
+/// seen: of a thing more is seen on the way than there was when the way was planned. What it is
+/// already nearer to does not count: that is for its fields.
+bool keeps_clear(const plant::VehicleType& type, bool loaded, const geometry::Pose2& now,
+                 const std::vector<kinematics::Segment>& way,
+                 const std::vector<geometry::Point2>& seen, double kept_m);
+
 }  // namespace pulseline::planning

@@ -15,7 +15,7 @@ using geometry::Polygon;
 using geometry::Pose2;
 
 constexpr double kFarAhead_m = 40;      // of the start: no detour is that long
-constexpr double kUnseenDepth_m = 0.3;  // of a thing of which only the front is seen
+constexpr double kUnseenDepth_m = 0.5;  // of a thing of which only the front is seen
 constexpr double kStep_m = 0.1;         // along the line, looking for what bars it
 
 double heading_along(const kinematics::Point2& from, const kinematics::Point2& to) {

@@ -14,6 +14,6 @@ std::vector<StandingBody> seen_things(std::vector<geometry::Point2> points);
 /// Small enough that the hull of a bent thing takes little floor that is free; a body with a
 /// clearance of 0.2 m does not get in between two points of one wall anyway.
 constexpr double kPiece_m = 0.6;
-constexpr double kPoint_m = 0.05;
+constexpr double kPoint_m = 0.03;
 
 }  // namespace pulseline::planning
