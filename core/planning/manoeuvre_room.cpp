@@ -79,6 +79,8 @@ void ManoeuvreRoom::map_standing() {
     if (standing_in_field_) return;
     for (const StandingBody& other : standing_) field_.add(other.outline);
     standing_in_field_ = true;
+    // The field is stricter than the exact distances that have passed the ends.
+    tight_ends_ |= !floor_.check.is_free(field_, start_) || !floor_.check.is_free(field_, goal_);
 }
 
 double ManoeuvreRoom::standing_slack_m(const Pose2& pose, double enough_m) const {

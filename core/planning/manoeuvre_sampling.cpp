@@ -180,6 +180,8 @@ bool append_edge(const ManoeuvreTask& task, const Pose2& from, const Pose2& to, 
 
 Moves sampling_search(const ManoeuvreTask& task, SamplingPlanner planner, std::uint64_t seed,
                       long work_limit) {
+    // OMPL would wait for another goal for ever, and do no work that ends it.
+    if (!task.room.is_free(task.start) || !task.room.is_free(task.goal)) return {};
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
     const auto space = std::make_shared<SteeringSpace>(task, seed);
     const geometry::Box box = task.room.field().box();

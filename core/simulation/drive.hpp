@@ -49,6 +49,9 @@ public:
     /// Way of the body left in the queue, and the share of it needed to brake now.
     virtual double remaining_m() const = 0;
     virtual double braking_m() const = 0;
+    /// Way of the body until it has to rest next: at the end of the queue, or before a move that it
+    /// cannot go on into. 0 in a turn on the spot.
+    virtual double run_ahead_m() const = 0;
     /// Way since the current segment began.
     virtual double distance_on_segment_m() const = 0;
     /// The segment being driven or next to drive; steered, what it was last asked for, for a

@@ -125,6 +125,11 @@ double PathReference::braking_m() const {
     return rate_ * rate_ / (2 * queue_.front().max_accel);
 }
 
+double PathReference::run_ahead_m() const {
+    if (queue_.empty() || turns_on_the_spot(queue_.front().segment)) return 0;
+    return run_ahead();
+}
+
 double PathReference::distance_on_segment_m() const {
     if (queue_.empty() || turns_on_the_spot(queue_.front().segment)) return 0;
     return queue_.front().done;

@@ -58,6 +58,7 @@ public:
     std::size_t segments_done() const { return segments_done_; }
     double remaining_m() const;
     double braking_m() const;
+    double run_ahead_m() const;
     double distance_on_segment_m() const;
     const kinematics::Segment* current() const;
     /// Where it is now, on the current segment or steered. REQUIRES: not empty().

@@ -46,6 +46,7 @@ public:
     std::size_t segments_done() const override { return reference_.segments_done(); }
     double remaining_m() const override { return reference_.remaining_m(); }
     double braking_m() const override { return reference_.braking_m(); }
+    double run_ahead_m() const override { return reference_.run_ahead_m(); }
     double distance_on_segment_m() const override { return reference_.distance_on_segment_m(); }
     const kinematics::Segment* current() const override { return reference_.current(); }
 

@@ -23,9 +23,8 @@ VehicleExecutor::VehicleExecutor(Drive& motion, StopSensing& sensing, std::strin
       procedure_(motion, sensing, {}, std::move(compensation)),
       equipment_(equipment),
       map_id_(std::move(map_id)),
-      hand_(motion) {
-    segments_seen_ = motion.segments_done();
-}
+      way_(motion),
+      hand_(motion) {}
 
 OrderContext VehicleExecutor::context() const {
     OrderContext context;
@@ -85,7 +84,11 @@ void VehicleExecutor::start_order(const fleet::OrderMessage& order) {
 void VehicleExecutor::extend_order(const fleet::OrderMessage& order) {
     order_update_id_ = order.order_update_id;
     errors_.clear();
-    drop_horizon();
+    for (const auto& node : way_.drop_horizon()) {
+        for (const auto& action : node.actions) {
+            std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
+        }
+    }
     append(order);
     changed_ = true;
 }
@@ -94,20 +97,9 @@ void VehicleExecutor::extend_order(const fleet::OrderMessage& order) {
 void VehicleExecutor::append(const fleet::OrderMessage& order) {
     for (std::size_t i = 1; i < order.nodes.size(); ++i) {
         const auto& node = order.nodes[i];
-        edges_.push_back(order.edges[i - 1]);
-        nodes_.push_back(node);
+        way_.append(order.edges[i - 1], node);
         for (const auto& action : node.actions) add_action(action, ActionStatus::kWaiting);
         if (node.released) base_end_ = {node.node_id, node.sequence_id, true};
-    }
-}
-
-void VehicleExecutor::drop_horizon() {
-    while (!nodes_.empty() && !nodes_.back().released) {
-        for (const auto& action : nodes_.back().actions) {
-            std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
-        }
-        nodes_.pop_back();
-        edges_.pop_back();
     }
 }
 
@@ -135,27 +127,24 @@ void VehicleExecutor::step(double dt_s) {
 }
 
 void VehicleExecutor::take_traversals() {
-    for (; segments_seen_ < motion_.segments_done(); ++segments_seen_) {
-        const fleet::OrderNode node = std::move(nodes_.front());
-        nodes_.pop_front();
-        edges_.pop_front();
-        --queued_edges_;
-        traverse(node);
-    }
+    for (const auto& node : way_.take_passed()) traverse(node);
 }
 
-/// Hands the motion all released edges up to the next node where it has to stop for actions.
 void VehicleExecutor::queue_edges() {
     if (!waiting_.empty() || procedure_.running() || !cancel_id_.empty()) return;
     if (equipment_ != nullptr && equipment_->holds_vehicle()) return;
-    const auto stops_at = [&](std::size_t i) { return !nodes_[i].actions.empty(); };
-    if (queued_edges_ > 0 && stops_at(queued_edges_ - 1)) return;
-    while (queued_edges_ < edges_.size() && edges_[queued_edges_].released) {
-        const auto& edge = edges_[queued_edges_];
-        motion_.append(edge.segment, edge.max_speed_mps);
-        ++queued_edges_;
-        if (stops_at(queued_edges_ - 1)) return;
-    }
+    way_.hand_over();
+}
+
+bool VehicleExecutor::may_go_round() const {
+    const bool at_work = procedure_.running() || !waiting_.empty() || !cancel_id_.empty();
+    return motion_.standing() && !motion_.stop_cause() && !way_.empty() && !at_work && !paused_ &&
+           !in_hand_;
+}
+
+void VehicleExecutor::go_round(const planning::Detour& detour) {
+    way_.go_round(detour);
+    changed_ = true;
 }
 
 /// Node actions one after the other, standing: all that we announce are HARD or treated so.
@@ -212,11 +201,8 @@ void VehicleExecutor::finish_cancel() {
 }
 
 void VehicleExecutor::drop_order() {
-    motion_.clear();
-    nodes_.clear();
-    edges_.clear();
+    way_.clear();
     waiting_.clear();  // of nodes passed while braking
-    queued_edges_ = 0;
 }
 
 void VehicleExecutor::finish_pause() {
@@ -227,10 +213,9 @@ void VehicleExecutor::finish_pause() {
 
 void VehicleExecutor::note_motion() {
     const bool driving = !motion_.standing();
-    const bool horizon = !nodes_.empty() && !nodes_.back().released;
     const double ask_m = motion_.braking_m() + std::abs(motion_.velocity_mps()) * kAskForBase_s;
-    const bool base_queued = queued_edges_ == edges_.size() || !edges_[queued_edges_].released;
-    const bool ask = horizon && base_queued && motion_.remaining_m() <= ask_m;
+    const bool ends = way_.base_handed_over() && motion_.remaining_m() <= ask_m;
+    const bool ask = way_.has_horizon() && (ends || base_wanted_);
     const bool stopped = motion_.stop_cause().has_value();
     changed_ |= driving != driving_ || ask != new_base_request_ || stopped != stopped_;
     driving_ = driving;
@@ -248,7 +233,7 @@ void VehicleExecutor::take_by_hand() {
 
 /// Nodes it brakes past still count as passed; then its order is gone.
 void VehicleExecutor::step_in_hand(double dt_s) {
-    if (!nodes_.empty() || procedure_.running()) {
+    if (!way_.empty() || procedure_.running()) {
         motion_.hold();
         motion_.step(dt_s);
         take_traversals();
@@ -280,11 +265,11 @@ Status VehicleExecutor::give_back() {
     if (!in_hand_) {
         return fail(Errc::kConflict, "not_in_hand", "Nobody has taken the vehicle by hand.");
     }
-    if (!motion_.standing() || !nodes_.empty()) {
+    if (!motion_.standing() || !way_.empty()) {
         return fail(Errc::kConflict, "still_moving", "The vehicle still moves. Let go first.");
     }
     hand_.give_back();
-    segments_seen_ = motion_.segments_done();
+    way_.skip();
     in_hand_ = false;
     changed_ = true;
     return {};
@@ -303,17 +288,17 @@ void VehicleExecutor::write_state(fleet::StateMessage& state) const {
     state.last_node_sequence_id = last_node_sequence_id_;
     state.node_states.clear();
     state.edge_states.clear();
-    for (const auto& node : nodes_) {
+    for (const auto& node : way_.nodes()) {
         state.node_states.push_back({node.node_id, node.sequence_id, node.released});
     }
-    for (const auto& edge : edges_) {
+    for (const auto& edge : way_.edges()) {
         state.edge_states.push_back({edge.edge_id, edge.sequence_id, edge.released});
     }
     state.operating_mode = in_hand_ ? "MANUAL" : "AUTOMATIC";
     state.driving = driving_;
     state.paused = paused_;
     state.new_base_request = new_base_request_;
-    state.distance_since_last_node_m = motion_.distance_on_segment_m();
+    state.distance_since_last_node_m = way_.distance_since_last_node_m();
     state.position_initialized = position_initialized_;
     state.map_id = map_id_;
     state.pose.reset();

@@ -11,6 +11,7 @@
 #include "core/simulation/vehicle_acceptance.hpp"
 #include "core/simulation/vehicle_equipment.hpp"
 #include "core/simulation/vehicle_stop.hpp"
+#include "core/simulation/way_ahead.hpp"
 
 namespace pulseline::simulation {
 
@@ -43,6 +44,15 @@ public:
     Status give_back();
     bool in_hand() const { return in_hand_; }
 
+    // Going round something that stands on its line; who looks out plans it.
+    /// It stands in an order with nothing else to do than to drive on.
+    bool may_go_round() const;
+    const WayAhead& way_ahead() const { return way_; }
+    /// As WayAhead says, which see. REQUIRES: may_go_round().
+    void go_round(const planning::Detour& detour);
+    /// Asks for a longer base while `wanted`, where there is a horizon to take it from.
+    void ask_for_base(bool wanted) { base_wanted_ = wanted; }
+
     /// Order, action, drive and pose fields of the state.
     void write_state(fleet::StateMessage& state) const;
     /// True once after anything happened that must be reported at once.
@@ -62,7 +72,6 @@ private:
     void start_order(const fleet::OrderMessage& order);
     void extend_order(const fleet::OrderMessage& order);
     void append(const fleet::OrderMessage& order);
-    void drop_horizon();
     void traverse(const fleet::OrderNode& node);
     void take_traversals();
     void queue_edges();
@@ -84,7 +93,7 @@ private:
     void instant_equipment(const fleet::Action& action);
 
     OrderContext context() const;
-    bool order_done() const { return nodes_.empty() && waiting_.empty(); }
+    bool order_done() const { return way_.empty() && waiting_.empty(); }
     fleet::ActionState* find_action(const std::string& id);
     void add_action(const fleet::Action& action, fleet::ActionStatus status,
                     std::string result = {});
@@ -98,11 +107,7 @@ private:
 
     std::string order_id_;
     std::int64_t order_update_id_ = 0;
-    // What is still ahead, horizon included; edges_[i] leads to nodes_[i].
-    std::deque<fleet::OrderNode> nodes_;
-    std::deque<fleet::OrderEdge> edges_;
-    std::size_t queued_edges_ = 0;  // first of edges_ that the motion already has
-    std::size_t segments_seen_ = 0;
+    WayAhead way_;
     std::string last_node_id_;
     std::int64_t last_node_sequence_id_ = 0;
     fleet::NodeState base_end_;
@@ -122,7 +127,8 @@ private:
     std::vector<fleet::VehicleError> errors_;
     bool position_initialized_ = false;
     bool driving_ = false;
-    bool stopped_ = false;  // by the drive itself
+    bool stopped_ = false;      // by the drive itself
+    bool base_wanted_ = false;  // to go round something
     bool new_base_request_ = false;
     bool changed_ = true;
     bool factsheet_requested_ = false;

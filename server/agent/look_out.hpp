@@ -19,6 +19,8 @@ namespace pulseline::agent {
 /// fields are.
 class LookOut {
 public:
+    static constexpr const char* kObstacle = "obstacle";  // type of the error it reports
+
     /// Two scanners at opposite corners of the vehicle that see the walls and obstacles of its hall
     /// and what put() places. `drive` is slowed down by it and must outlive it.
     LookOut(const simulation::World& world, const plant::Vehicle& vehicle,
@@ -28,14 +30,26 @@ public:
     void put(geometry::Polygon obstacle) { others_.push_back(std::move(obstacle)); }
     void take_away() { others_.clear(); }
 
+    /// Before what bars its run it stops with room to swing out, instead of driving up to it as
+    /// near as the fields let it: for a vehicle that may go round.
+    void keep_room(bool keeps) { keeps_room_ = keeps; }
+    /// Bars the way as the fields do, while somebody knows of something that they do not see.
+    void bar(bool bars) { told_to_bar_ = bars; }
     void step(double dt_s);
+    bool barred() const { return barred_; }
+    /// The last look, one scan a scanner, and how many there have been. While nothing moves nor
+    /// wants to, it does not look.
+    const std::vector<control::Scan>& scans() const { return scans_; }
+    std::size_t looks() const { return looks_; }
     /// True once after it began or ended to bar the way.
     bool take_changed();
     /// Field, and what is in the way.
     void write_state(fleet::StateMessage& state) const;
 
 private:
+    kinematics::Twist start_twist() const;
     kinematics::Twist intended() const;
+    control::FieldAnswer check(const kinematics::Twist& twist);
     control::FieldAnswer look();
 
     simulation::Drive& drive_;
@@ -45,8 +59,11 @@ private:
     std::vector<geometry::Polygon> others_;
     std::mt19937_64 random_;
     control::FieldAnswer last_;
+    std::size_t looks_ = 0;
     double until_scan_s_ = 0;
     double free_for_s_ = 0;
+    bool keeps_room_ = false;
+    bool told_to_bar_ = false;
     bool barred_ = false;
     bool changed_ = false;
 };

@@ -116,13 +116,17 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
         look_out_.emplace(world, vehicle, plant::find_station(world.plant, vehicle.home)->hall,
                           *drive_,
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
+        going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
     }
 }
 
 void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
     // Whoever drives it by hand looks out.
-    if (look_out_ && !executor_.in_hand()) look_out_->step(dt_s);
+    if (look_out_ && !executor_.in_hand()) {
+        look_out_->step(dt_s);
+        going_round_->step(dt_s);
+    }
     // Near a goal it is steered by steps of its own time, however fast that runs.
     const int parts = std::max(
         1, static_cast<int>(std::ceil(dt_s * settings_.time_factor / kOwnStep_s - kRounding)));
@@ -145,7 +149,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     look_while_standing(now);
     if (executor_.take_factsheet_request()) send_factsheet();
     state_due_ |= executor_.take_changed();
-    if (look_out_) state_due_ |= look_out_->take_changed();
+    if (look_out_) state_due_ |= look_out_->take_changed() | going_round_->take_changed();
     if (!linked_) return;
     const auto since = now - last_state_;
     if ((state_due_ && since >= kMinStateInterval) || since >= kStateInterval) send_state(now);
@@ -225,7 +229,10 @@ fleet::StateMessage Vehicle::state() {
     executor_.write_state(state);
     body_.write_state(state);
     equipment_.write_state(state);
-    if (look_out_ && !executor_.in_hand()) look_out_->write_state(state);
+    if (look_out_ && !executor_.in_hand()) {
+        look_out_->write_state(state);
+        going_round_->write_state(state);
+    }
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();

@@ -13,6 +13,7 @@
 #include "core/simulation/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/going_round.hpp"
 #include "server/agent/learned_moves.hpp"
 #include "server/agent/look_out.hpp"
 #include "server/agent/options.hpp"
@@ -86,6 +87,7 @@ private:
     simulation::VehicleExecutor executor_;
     BodyStatus body_;
     std::optional<LookOut> look_out_;
+    std::optional<GoingRound> going_round_;  // with a look-out
     PoseEstimate estimate_;
     TruthLog* truth_;
     vda5050::HeaderSource headers_;

@@ -285,6 +285,21 @@ TEST(FreeManoeuvre, GivesUpWithinItsWork) {
     EXPECT_EQ(param(found.error(), "time_limit_s"), 0.05);
 }
 
+TEST(FreeManoeuvre, EndsAlsoWhereAStandingBodyLeavesTheGoalJustItsClearance) {
+    World world;
+    world.area("left", {{44, 4}, {46, 4}, {46, 13}, {44, 13}});
+    world.area("right", {{49.4, 4}, {51.4, 4}, {51.4, 13}, {49.4, 13}});
+    world.area("top", {{44, 11.8}, {51.4, 11.8}, {51.4, 13}, {44, 13}});
+    auto request = world.request(0, {10, 20, 0}, {47.7, 8, kPi / 2});
+    // The exact distance at the goal is 0.513 m: enough, but not to the lattice of the field.
+    request.standing = {
+        {plant::VehicleId("P1"), {{{46, 7}, {46.187, 7}, {46.187, 7.5}, {46, 7.5}}}}};
+    request.time_limit_s = 0.05;
+    const auto found = plan_free_manoeuvre(world.floor(), request);
+    ASSERT_FALSE(found);
+    EXPECT_EQ(found.error().reason.code, "no_free_way");
+}
+
 TEST(FreeManoeuvre, RefusesAClearanceLargerThanTheFloorWasBuiltFor) {
     const World world;
     auto type = world.plant.vehicle_types.front();

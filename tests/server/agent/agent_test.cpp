@@ -307,6 +307,42 @@ TEST_F(ServoVehicleTest, ASlippingWheelIsAFatalErrorUntilThePersonsCancelIsOver)
     EXPECT_TRUE(state.errors.empty());
 }
 
+TEST_F(ServoVehicleTest, GoesRoundABoxInTheCorridorOfItsEdgesAndTellsSo) {
+    start({{Fault::Kind::kObstacle, "", 0, {34, 10.1}, 0}});
+    tell("cancelOrder");
+    drive(500ms);
+    auto order = straight_order(state.pose.value(), 4);
+    order.order_id = "round";
+    order.edges[0].corridor = plant::Corridor{4, 4};
+    for (int i = 1; i < 9; ++i) {
+        auto edge = order.edges[0];
+        edge.sequence_id = 2 * i + 1;
+        edge.segment = simulation::testing::straight(order.nodes.back().pose, 4);
+        auto node = order.nodes.back();
+        node.node_id = "n" + std::to_string(i + 1);
+        node.sequence_id = 2 * i + 2;
+        node.pose = edge.segment.end;
+        order.edges.push_back(edge);
+        order.nodes.push_back(node);
+    }
+    servo->receive(vda5050::encode_frame(
+        vda5050::Topic::kOrder, false,
+        vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
+    bool told = false;
+    for (int i = 0; i < 300 && state.last_node_id != "n9"; ++i) {
+        drive(100ms);
+        for (const auto& error : state.errors) {
+            told |= error.type == "going_round";
+            EXPECT_FALSE(error.fatal) << error.type;
+        }
+    }
+    EXPECT_TRUE(told);
+    drive(1000ms);
+    EXPECT_EQ(state.last_node_id, "n9");
+    EXPECT_LT(distance(state.pose->position(), order.nodes.back().pose.position()), 0.01);
+    EXPECT_TRUE(state.errors.empty());
+}
+
 TEST_F(ServoVehicleTest, SetsItsBracketsAtANodeAndReportsTheirLoads) {
     const auto set = [](const std::string& id, const std::string& bracket, double height_m) {
         fleet::Action action;
