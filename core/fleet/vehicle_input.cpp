@@ -346,6 +346,10 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
     }
 }
 
+bool waits_for_person(const VehicleRun& run) {
+    return run.record.needs_resume || (run.record.paused && !mutated(Mutation::kPauseNotKept));
+}
+
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
     hear(fleet, run, now);
     if (is_overtaken(run, state)) return;

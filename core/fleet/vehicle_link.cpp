@@ -92,7 +92,8 @@ void update_links(FleetState& fleet, Time now) {
 void resend(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
         if (!run.connected || !run.reconciled) continue;
-        if (run.has_leg() && run.update_sent && now - *run.update_sent >= kResendEvery) {
+        const bool unseen = run.has_leg() && run.update_sent && !waits_for_person(run);
+        if (unseen && now - *run.update_sent >= kResendEvery) {
             if (run.update_sends >= kOrderSends) {
                 run.update_sent.reset();
                 require_person(fleet, run, {"order_not_accepted", {}}, now);
