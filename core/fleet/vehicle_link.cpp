@@ -40,6 +40,8 @@ void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.order_sent.reset();  // what was under way on the old connection is lost
     add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
     hear(fleet, run, now);
+    // Without order and pose, nothing tells a cut line from a vehicle that was switched off and on.
+    if (run.gave_up) require_person(fleet, run, {"vehicle_lost_order", {}}, now);
 }
 
 void disconnect(FleetState& fleet, VehicleRun& run, Time now) {

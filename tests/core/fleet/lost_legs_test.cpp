@@ -263,6 +263,34 @@ TEST(LostLegs, AVehicleThatRestartsBeforeItShowedItsOrderWaitsForAPerson) {
     EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
 }
 
+TEST(LostLegs, AVehicleThatRestartsAgainBeforeItKnowsItsPoseWaitsForAPersonAgain) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(0.8);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    const auto restart = [&] {
+        vehicle.restart();
+        world.fleet->vehicle_connected(kV1, world.now);
+        world.run(2);
+    };
+    vehicle.sees_codes = false;
+    restart();
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(2);
+    const int steps = vehicle.node_steps;
+
+    restart();
+    ASSERT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    world.run(10);
+
+    EXPECT_EQ(vehicle.node_steps, steps) << "a position moves nothing";
+    EXPECT_EQ(world.only_order().state, JobState::kInterrupted);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
 TEST(LostLegs, OneOfAVehicleWithoutPoseIsKeptUntilItIsKnownWhereItStands) {
     World world;
     world.connect_all();
