@@ -18,8 +18,7 @@ bool is_first_grant(const VehicleRun& run) {
 bool may_extend_base(const VehicleRun& run, Time now) {
     if (!run.has_leg() || run.update_sent) return false;
     if (!run.leg_seen && !is_first_grant(run)) return false;
-    if (run.record.needs_resume) return false;
-    if (run.record.paused && !mutated(Mutation::kPauseNotKept)) return false;
+    if (waits_for_person(run)) return false;
     const bool linked = run.connected && run.reconciled;
     if (!run.state_at || (!linked && !mutated(Mutation::kSilentIsExtended))) return false;
     const bool old = run.state.driving && now - *run.state_at > kPoseTooOld;

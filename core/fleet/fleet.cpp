@@ -16,6 +16,13 @@ constexpr Duration kKeepFinal = std::chrono::hours(24 * 7);
 // A walk over all keys of a week, so not at every tick.
 constexpr Duration kSweepKeys = std::chrono::hours(1);
 
+/// Decided in the same batch before their vehicles came to wait for a person.
+void withhold_orders(FleetState& fleet) {
+    std::erase_if(fleet.out.messages, [&](const VehicleMessage& message) {
+        return message.order && waits_for_person(*fleet.find(message.vehicle));
+    });
+}
+
 }  // namespace
 
 GuardedState::GuardedState(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
@@ -130,6 +137,7 @@ void Fleet::tick(Time now) {
 Outputs Fleet::take_outputs(Time now) {
     FleetState& fleet = input<&Fleet::take_outputs>(now);
     for (const auto& id : fleet.orders.take_bound()) fleet.store(*fleet.find(id));
+    withhold_orders(fleet);
     Outputs out = std::exchange(fleet.out, {});
     take_standing(fleet, out.records);
     for (const auto& id : std::exchange(fleet.stored_orders, {})) {

@@ -335,7 +335,7 @@ void follow_replans(FleetState& fleet, Time now) {
             cancel_leg(fleet, *run, now);
             continue;
         }
-        if (leg.released_nodes > 1 && !run->record.needs_resume && run->leg_seen) {
+        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->leg_seen) {
             ++leg.update_id;
             send_order_update(fleet, *run, leg.released_nodes - 1, now);
         }

@@ -82,7 +82,7 @@ Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time
                     {}, {{"state", to_string(order.state)}});
     }
     VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (run && (run->record.needs_resume || run->record.paused)) {
+    if (run && waits_for_person(*run)) {
         return fail(Errc::kConflict, "needs_person",
                     "Vehicle " + run->record.id.str() +
                         " waits for a person to let it move again: POST /api/v1/fleet/resume.",

@@ -212,6 +212,8 @@ void disconnect(FleetState& fleet, VehicleRun& run, Time now);
 void hear(FleetState& fleet, VehicleRun& run, Time now);
 /// The vehicle stops taking new floor until a person allows it; its order is interrupted.
 void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
+/// Until a person lets it go on, no order and no update of one goes to it, new or again.
+bool waits_for_person(const VehicleRun& run);
 /// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Sends startPause or stopPause; the newest wish counts.

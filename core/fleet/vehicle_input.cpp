@@ -224,7 +224,9 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     }
     const bool makes_way = leg.order.empty();
     const bool idle = has_nothing_left(state);
-    if (idle && leg.passed_nodes < leg.released_nodes && state.order_update_id == leg.update_id) {
+    // Who takes it by hand takes the rest away, too, that it waited for at the end of its base.
+    const std::size_t owed = is_automatic(run) ? leg.released_nodes : leg.nodes.size();
+    if (idle && leg.passed_nodes < owed && state.order_update_id == leg.update_id) {
         return lose_order(fleet, run, now);
     }
     if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
@@ -344,6 +346,10 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted, std::move(reason), {}, now);
     }
+}
+
+bool waits_for_person(const VehicleRun& run) {
+    return run.record.needs_resume || (run.record.paused && !mutated(Mutation::kPauseNotKept));
 }
 
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {

@@ -40,6 +40,8 @@ void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.order_sent.reset();  // what was under way on the old connection is lost
     add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
     hear(fleet, run, now);
+    // Without order and pose, nothing tells a cut line from a vehicle that was switched off and on.
+    if (run.gave_up) require_person(fleet, run, {"vehicle_lost_order", {}}, now);
 }
 
 void disconnect(FleetState& fleet, VehicleRun& run, Time now) {
@@ -92,7 +94,8 @@ void update_links(FleetState& fleet, Time now) {
 void resend(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
         if (!run.connected || !run.reconciled) continue;
-        if (run.has_leg() && run.update_sent && now - *run.update_sent >= kResendEvery) {
+        const bool unseen = run.has_leg() && run.update_sent && !waits_for_person(run);
+        if (unseen && now - *run.update_sent >= kResendEvery) {
             if (run.update_sends >= kOrderSends) {
                 run.update_sent.reset();
                 require_person(fleet, run, {"order_not_accepted", {}}, now);

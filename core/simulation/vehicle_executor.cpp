@@ -226,6 +226,7 @@ void VehicleExecutor::note_motion() {
 void VehicleExecutor::take_by_hand() {
     if (in_hand_) return;
     in_hand_ = true;
+    cancelled_ = true;  // an update would lead on from where it may not stand any more
     changed_ = true;
     abort_actions("taken by hand");
     hand_.take();

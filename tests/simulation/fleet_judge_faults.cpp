@@ -228,7 +228,7 @@ void World::end_faults() {
         vehicle.restart();
         line.server_knows = false;
         const auto record = store_.vehicles.find(id);
-        watch.restarted_on_leg = record != store_.vehicles.end() && record->second.has_leg;
+        watch.restarted_on_leg |= record != store_.vehicles.end() && record->second.has_leg;
     }
     if (unstored_ || now_s_ < stalled_until_s_) return;
     for (std::size_t i = 0; i < closed_.size();) {

@@ -105,6 +105,9 @@ void World::check_sent(const fleet::VehicleMessage& message) {
         if (node.released) base = std::max(base, node.sequence_id);
     }
     check_way(message);
+    const auto& record = store_.vehicles[message.vehicle];
+    if (record.needs_resume || record.paused || watch_[message.vehicle].needs_person)
+        violate(message.vehicle.str() + " is sent an order while it waits for a person");
     auto& known = watch_[message.vehicle].base;
     const auto before = known.find(message.order->order_id);
     const bool extends = before == known.end() || before->second < base;
@@ -128,14 +131,10 @@ void World::check_way(const fleet::VehicleMessage& message) {
     }
 }
 
-/// Nobody gets floor who waits for a person, cannot drive or is not heard, as far as the server had
-/// been told when it decided.
+/// Nobody gets floor who cannot drive or is not heard, as far as the server had been told when it
+/// decided.
 void World::check_given_floor(const plant::VehicleId& id) {
-    const auto& record = store_.vehicles[id];
     const Watch& watch = watch_[id];
-    if (record.needs_resume || record.paused || watch.needs_person) {
-        violate(id.str() + " is given floor while it waits for a person");
-    }
     // Before and after what was heard last: it may have become fit in between.
     if (watch.counted.unfit && watch.told.unfit)
         violate(id.str() + " is given floor and says that it cannot drive");

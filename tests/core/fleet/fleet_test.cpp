@@ -408,6 +408,23 @@ TEST(Fleet, PausedFleetStandsUntilResumed) {
     EXPECT_EQ(world.only_order().state, JobState::kEnded);
 }
 
+TEST(Fleet, AnOrderThatDidNotReachAPausedVehicleIsNotSentAgainUntilItIsResumed) {
+    World world;
+    world.connect_all();
+    world.connected[kV1] = false;
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+    ASSERT_TRUE(world.fleet->pause_vehicle(kV1, "op", world.now));
+
+    world.connected[kV1] = true;
+    world.run(5);
+
+    EXPECT_EQ(world.vehicle("V1").orders_received, 0);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
 TEST(Fleet, ADryRunStoresNothing) {
     World world;
     world.connect_all();

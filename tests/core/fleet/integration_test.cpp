@@ -267,5 +267,51 @@ TEST(ManualMode, GivenBackNothingMovesUntilAPersonSaysSo) {
     EXPECT_EQ(world.stored(order->order.id).state, JobState::kEnded);
 }
 
+TEST(ManualMode, AnUpdateDecidedJustBeforeItIsKnownIsNotSentUntilAPersonSaysSo) {
+    World world(resting_plant());
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(2);
+    FakeVehicle& v1 = world.vehicle("V1");
+    const int released = world.count_events("leg.released");
+    const int received = v1.orders_received;
+
+    // Both reports come in one batch, as after a standstill of the server.
+    ASSERT_TRUE(v1.step());
+    world.fleet->vehicle_state(kV1, v1.state, world.now);
+    v1.state.operating_mode = "MANUAL";
+    world.fleet->vehicle_state(kV1, v1.state, world.now);
+    world.settle();
+    ASSERT_GT(world.count_events("leg.released"), released);
+    world.run(5);
+    v1.state.operating_mode = "AUTOMATIC";
+    world.run(5);
+
+    EXPECT_EQ(v1.orders_received, received);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
+TEST(ManualMode, AnOrderThatDidNotReachItIsNotSentAgainUntilAPersonSaysSo) {
+    World world(resting_plant());
+    world.connect_all();
+    FakeVehicle& v1 = world.vehicle("V1");
+    world.connected[kV1] = false;
+    ASSERT_TRUE(world.order("V1", {3}));
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+
+    world.connected[kV1] = true;
+    v1.state.operating_mode = "MANUAL";
+    world.run(5);
+    v1.state.operating_mode = "AUTOMATIC";
+    world.run(5);
+
+    EXPECT_EQ(v1.orders_received, 0);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing

@@ -263,6 +263,60 @@ TEST(LostLegs, AVehicleThatRestartsBeforeItShowedItsOrderWaitsForAPerson) {
     EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
 }
 
+TEST(LostLegs, AVehicleThatRestartsAgainBeforeItKnowsItsPoseWaitsForAPersonAgain) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(0.8);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    const auto restart = [&] {
+        vehicle.restart();
+        world.fleet->vehicle_connected(kV1, world.now);
+        world.run(2);
+    };
+    vehicle.sees_codes = false;
+    restart();
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(2);
+    const int steps = vehicle.node_steps;
+
+    restart();
+    ASSERT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    world.run(10);
+
+    EXPECT_EQ(vehicle.node_steps, steps) << "a position moves nothing";
+    EXPECT_EQ(world.only_order().state, JobState::kInterrupted);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
+TEST(LostLegs, OneThatAVehicleGaveUpByHandAtTheEndOfItsBaseIsBegunAnew) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(1);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    const auto& record = world.store.vehicles.at(kV1);
+    const LegId leg = record.leg;
+    while (vehicle.step()) {
+    }
+    ASSERT_FALSE(vehicle.state.node_states.empty()) << "it waits for the rest";
+
+    vehicle.state.operating_mode = "MANUAL";
+    give_up_order(vehicle);
+    vehicle.state.pose->y_m += 2;
+    world.run(1);
+    vehicle.state.operating_mode = "AUTOMATIC";
+    world.run(1);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    ASSERT_FALSE(world.store.stops.empty());
+    EXPECT_NE(world.store.stops.at(0).leg, leg) << "it led on from where the vehicle stood before";
+}
+
 TEST(LostLegs, OneOfAVehicleWithoutPoseIsKeptUntilItIsKnownWhereItStands) {
     World world;
     world.connect_all();

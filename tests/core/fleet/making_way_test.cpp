@@ -162,6 +162,36 @@ TEST(MakingWay, OneOnTheRoadThatCannotGoOnLeavesItForTheOneItKeepsIn) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
 }
 
+TEST(MakingWay, AnIdleOneThatKeepsAnotherFromLeavingGoesToRestThoughNobodyNamesIt) {
+    plant::Plant plant = plant_of({{"east", 80, 40, 1},
+                                   {"lay-by", 35, 56, 2},
+                                   {"north", 20, 52, 3},
+                                   {"south", 20, 28, 4},
+                                   {"west", 20, 40, 5},
+                                   {"middle", 65, 40},
+                                   {"fork", 50, 40}},
+                                  {{"east", "middle"},
+                                   {"middle", "fork"},
+                                   {"fork", "west"},
+                                   {"fork", "lay-by"},
+                                   {"lay-by", "west"},
+                                   {"west", "north"},
+                                   {"west", "south"}},
+                                  4);
+    plant.stations[4].resting_place = false;
+    plant.vehicles[1].load_name = "A-101";  // stays in the lay-by
+    World world(plant);
+    // Of V3's two ways to the free places V4 stands on one, V2 on the other: only V2 is named.
+    world.vehicle("V3").state.pose = {65, 40, 0};
+    world.vehicle("V4").state.pose = {44, 40, 0};
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {5}));
+    world.run(100);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
 TEST(MakingWay, TwoHeadOnBetweenPlacesAfterARestartFindAWayApart) {
     for (const std::size_t passed : {2, 4, 6}) {
         World world(corridor());

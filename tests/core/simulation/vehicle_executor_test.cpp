@@ -403,6 +403,20 @@ TEST_F(VehicleExecutorTest, TakenByHandItBrakesGivesUpItsOrderAndTakesNone) {
     EXPECT_EQ(motion.true_pose().x_m, stood_at) << "nobody asks it to move";
 }
 
+TEST_F(VehicleExecutorTest, TakenByHandAndGivenBackItTakesNoUpdateOfTheOrderBefore) {
+    executor.handle(order("leg", 4, 2));
+    run(20);
+    executor.take_by_hand();
+    run(1);
+    ASSERT_TRUE(executor.give_back());
+    const double stood_at = motion.true_pose().x_m;
+
+    executor.handle(update("leg", 1, 1, 4, 4));
+    run(20);
+    EXPECT_EQ(last_error(), "orderUpdateError");
+    EXPECT_EQ(motion.true_pose().x_m, stood_at);
+}
+
 TEST_F(VehicleExecutorTest, DrivenByHandAndGivenBackItWaitsForAnOrder) {
     ASSERT_FALSE(executor.drive_by_hand({0.2, 0, 0})) << "not taken yet";
     ASSERT_FALSE(executor.give_back());
