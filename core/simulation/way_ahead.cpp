@@ -100,12 +100,19 @@ bool WayAhead::continues_line(std::size_t edge) const {
            std::abs(turn_rad) <= kSameDirection_rad && std::abs(bend_rad) <= kSameDirection_rad;
 }
 
+/// Its node has no actions and lets a vehicle pass anywhere in the corridor.
+bool WayAhead::may_be_passed_beside(std::size_t edge) const {
+    const plant::Corridor& corridor = *edges_[edge].corridor;
+    return nodes_[edge].actions.empty() &&
+           nodes_[edge].allowed_deviation_xy_m >= std::max(corridor.left_m, corridor.right_m);
+}
+
 std::vector<planning::DetourEdge> WayAhead::stretch(bool horizon) const {
     std::vector<planning::DetourEdge> stretch;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const fleet::OrderEdge& edge = edges_[i];
         if (!may_be_left(edge) || (!edge.released && !horizon)) break;
-        if (i > 0 && (!continues_line(i) || !nodes_[i - 1].actions.empty())) break;
+        if (i > 0 && (!continues_line(i) || !may_be_passed_beside(i - 1))) break;
         stretch.push_back({edge.segment.start, edge.segment.end, *edge.corridor});
     }
     return stretch;

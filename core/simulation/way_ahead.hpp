@@ -42,7 +42,8 @@ public:
     double distance_since_last_node_m() const;
 
     /// Edges that may be left to go round something, the one being driven first: straight ones with
-    /// a corridor on one line with one heading, up to a node with actions. Released ones, and with
+    /// a corridor on one line with one heading, up to a node with actions or one that must be
+    /// reached more exactly than the corridor is wide. Released ones, and with
     /// `horizon` those behind them, too. Empty: the edge being driven has no corridor.
     std::vector<planning::DetourEdge> stretch(bool horizon) const;
     /// Drives the detour instead of the edges it goes round, then goes on with those behind it.
@@ -55,6 +56,7 @@ public:
 
 private:
     bool continues_line(std::size_t edge) const;
+    bool may_be_passed_beside(std::size_t edge) const;
 
     Drive& drive_;
     std::deque<fleet::OrderNode> nodes_;

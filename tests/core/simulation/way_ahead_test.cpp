@@ -24,6 +24,7 @@ protected:
         edge.released = node.released = released;
         edge.segment = straight({2 * number, 0, 0}, 2);
         edge.corridor = plant::Corridor{4, 3};
+        node.allowed_deviation_xy_m = 4;
         node.sequence_id = 2 * (static_cast<std::int64_t>(number) + 1);
         node.pose = edge.segment.end;
         way.append(edge, node);
@@ -80,6 +81,7 @@ TEST_F(WayAheadTest, TheStretchEndsAtABendAtATurnAtANodeWithActionsAndWithTheCor
     other.corridor = plant::Corridor{4, 3};
     fleet::OrderNode node;
     node.released = true;
+    node.allowed_deviation_xy_m = 4;
 
     other.segment = straight({2, 0, 0}, 2, kPi / 2);
     way.append(other, node);
@@ -97,6 +99,13 @@ TEST_F(WayAheadTest, TheStretchEndsAtABendAtATurnAtANodeWithActionsAndWithTheCor
     way.append(other, node);
     add();
     EXPECT_EQ(way.stretch(false).size(), 1u) << "a node with actions";
+    way.clear();
+
+    node.actions.clear();
+    node.allowed_deviation_xy_m = 1;
+    way.append(other, node);
+    add();
+    EXPECT_EQ(way.stretch(false).size(), 1u) << "a node that is not to be passed so far beside it";
     way.clear();
 
     other.corridor.reset();

@@ -67,6 +67,8 @@ public:
             node.released = i <= released;
             node.pose = kBegin * Pose2{kEdge_m * i, 0, 0};
             node.map_id = "hall";
+            if (corridor)
+                node.allowed_deviation_xy_m = std::max(corridor->left_m, corridor->right_m);
             order.nodes.push_back(node);
             if (i == from) continue;
             fleet::OrderEdge edge;
