@@ -28,9 +28,9 @@ struct Planted {
 };
 constexpr Planted kPlanted[] = {{"none", 1},
                                 {"repeat makes another", 1},
-                                {"key not stored", 10},
+                                {"key not stored", 2},
                                 {"restart needs nobody", 2},
-                                {"pause not kept", 4},
+                                {"pause not kept", 2},
                                 {"manual is driven", 9},
                                 {"safety stop ignored", 0},
                                 {"silent is extended", 0},
