@@ -85,6 +85,26 @@ TEST(Journal, EveryCallComesBackAsItWas) {
     EXPECT_EQ(second.take(), written);
 }
 
+TEST(Journal, EveryKindOfMotionComesBack) {
+    using Kind = kinematics::Segment::Kind;
+    for (const Kind kind : {Kind::kRotate, Kind::kStraight, Kind::kArc, Kind::kCombined}) {
+        OrderEdge edge;
+        edge.edge_id = "e1";
+        edge.segment.kind = kind;
+        edge.segment.length_m = 2.5;
+        edge.corridor = plant::Corridor{1.5, 2};
+        Writer writer;
+        writer.put(edge);
+        const std::string bytes = writer.take();
+        Reader reader(bytes);
+        OrderEdge read;
+        reader.get(read);
+        EXPECT_TRUE(reader.ok() && reader.at_end()) << reader.why();
+        EXPECT_EQ(read.segment, edge.segment);
+        EXPECT_EQ(read.corridor, edge.corridor);
+    }
+}
+
 TEST(Journal, RunsOfTicksTakeAFewBytes) {
     World world;
     Recorder recorder;
