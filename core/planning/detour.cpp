@@ -96,10 +96,10 @@ public:
         }
         if (moves_sideways(ground_.type())) {
             for (const std::size_t goal : goals) {
-                if (auto found = by_side_step(goal)) return answer(std::move(*found));
+                if (auto found = by_side_step(goal)) return answer(*found);
             }
         }
-        if (auto found = by_manoeuvre(goals)) return answer(std::move(*found));
+        if (auto found = by_manoeuvre(goals)) return answer(*found);
         return none("no_room", "There is no room in the corridor to go round.");
     }
 
@@ -155,7 +155,7 @@ private:
         return found;
     }
 
-    Detour answer(Found found) const {
+    Detour answer(const Found& found) const {
         Detour detour;
         detour.edges = found.edges;
         detour.sideways = found.sideways;
@@ -241,6 +241,7 @@ bool keeps_clear(const plant::VehicleType& type, bool loaded, const Pose2& now,
         }
     }
     std::vector<geometry::Polygon> standing;
+    standing.reserve(body.size());
     for (const auto& piece : body) standing.push_back(geometry::transformed(now, piece));
     const auto things = seen_things(std::move(near));
     return std::all_of(things.begin(), things.end(), [&](const StandingBody& thing) {

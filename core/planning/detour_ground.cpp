@@ -18,7 +18,7 @@ constexpr double kFarAhead_m = 40;      // of the start: no detour is that long
 constexpr double kUnseenDepth_m = 0.5;  // of a thing of which only the front is seen
 constexpr double kStep_m = 0.1;         // along the line, looking for what bars it
 
-double heading_along(const kinematics::Point2& from, const kinematics::Point2& to) {
+double heading_along(Point2 from, Point2 to) {
     return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
 }
 
@@ -72,6 +72,14 @@ std::vector<Strip> strips_of(const std::vector<plant::Corridor>& corridors,
         }
     }
     return strips;
+}
+
+/// One more stretch of a side; where it goes on as before it has no corner.
+void go_on(Polygon& side, double from_m, double to_m, double y_m) {
+    const bool as_before = !side.empty() && side.back().y_m == y_m;
+    if (as_before) side.pop_back();
+    if (!as_before) side.push_back({from_m, y_m});
+    side.push_back({to_m, y_m});
 }
 
 }  // namespace
@@ -135,17 +143,8 @@ plant::Hall DetourGround::make_hall(const DetourRequest& request) {
         const double to_m = i + 1 < strips.size()
                                 ? strips[i].to_m
                                 : ends_m_.back() + wall_at(reach_m, on_line_.max.x_m);
-        // A side that goes on as before has no corner there.
-        if (!right.empty() && right.back().y_m == right_m)
-            right.pop_back();
-        else
-            right.push_back({from_m, right_m});
-        right.push_back({to_m, right_m});
-        if (!left.empty() && left.back().y_m == left_m)
-            left.pop_back();
-        else
-            left.push_back({from_m, left_m});
-        left.push_back({to_m, left_m});
+        go_on(right, from_m, to_m, right_m);
+        go_on(left, from_m, to_m, left_m);
     }
     plant::Hall hall;
     hall.id = plant::HallId("band");
@@ -186,8 +185,9 @@ ManoeuvreRoom DetourGround::room(const Pose2& start, const Pose2& goal) const {
 }
 
 std::optional<double> DetourGround::first_barred_m(double from_m) const {
-    for (double x_m = from_m; x_m < ends_m_.back() + kStep_m; x_m += kStep_m) {
-        if (!is_free_on_line(x_m)) return x_m;
+    const int steps = static_cast<int>(std::ceil((ends_m_.back() - from_m) / kStep_m));
+    for (int i = 0; i <= steps; ++i) {
+        if (!is_free_on_line(from_m + i * kStep_m)) return from_m + i * kStep_m;
     }
     return std::nullopt;
 }

@@ -43,9 +43,9 @@ private:
     /// Distances from the line to try, those first that take the least way.
     std::vector<double> beside() const {
         std::vector<double> tried{start_.y_m};
-        for (double y_m = 0; y_m < ground_.most_left_m(); y_m += kBeside_m) tried.push_back(y_m);
-        for (double y_m = -kBeside_m; y_m > -ground_.most_right_m(); y_m -= kBeside_m)
-            tried.push_back(y_m);
+        for (int k = 0; k * kBeside_m < ground_.most_left_m(); ++k) tried.push_back(k * kBeside_m);
+        for (int k = 1; k * kBeside_m < ground_.most_right_m(); ++k)
+            tried.push_back(-k * kBeside_m);
         tried.push_back(ground_.most_left_m());
         tried.push_back(-ground_.most_right_m());
         std::stable_sort(tried.begin(), tried.end(), [&](double a, double b) {

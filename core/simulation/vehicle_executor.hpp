@@ -116,10 +116,10 @@ private:
     std::string running_stop_;           // id of the action in the procedure
     std::string running_equipment_;      // id of the action that the equipment is at
     std::string cancel_id_;              // of the cancelOrder at work
-    bool cancelled_ = false;
     std::string pause_id_;
-    bool paused_ = false;
     HandDrive hand_;
+    bool cancelled_ = false;
+    bool paused_ = false;
     bool in_hand_ = false;
 
     std::vector<fleet::ActionState> order_actions_;

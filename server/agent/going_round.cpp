@@ -13,7 +13,7 @@ constexpr double kAgain_s = 3;
 // Of the clearance that a detour is planned with; the rest is the scanners' noise.
 constexpr double kStillClear_m = 0.12;
 // Planning in vain costs a tenth of a second of processor, however fast the vehicle's time runs.
-constexpr double kAgainReal_s = 1;
+constexpr double kAgainReal_s = 2;
 
 std::string words_of(const planning::Detour& detour) {
     char words[160];
