@@ -314,6 +314,7 @@ TEST_F(ServoVehicleTest, GoesRoundABoxInTheCorridorOfItsEdgesAndTellsSo) {
     auto order = straight_order(state.pose.value(), 4);
     order.order_id = "round";
     order.edges[0].corridor = plant::Corridor{4, 4};
+    order.nodes.back().allowed_deviation_xy_m = 4;
     for (int i = 1; i < 9; ++i) {
         auto edge = order.edges[0];
         edge.sequence_id = 2 * i + 1;
