@@ -16,8 +16,10 @@ using kinematics::Twist;
 
 // In the vehicle's own time; a scanner of the class turns 40 times a second.
 constexpr double kEvery_s = 0.1;
-// A real machine cannot look more often than this, however fast its time runs.
+// Where its time runs fast it looks less often, to spare the machine, but never less often than
+// the fields allow for (FieldOptions::reaction_s): at its speed it would run into things.
 constexpr double kEveryReal_s = 0.04;
+constexpr double kMostEvery_s = 0.2;
 constexpr double kFreeFor_s = 1.0;  // what has left may come back
 constexpr double kStart_mps = 0.2;  // of a standing vehicle that wants to go
 constexpr double kStart_radps = 0.05;
@@ -85,6 +87,12 @@ Twist LookOut::intended() const {
     return times(1 / drive_.time_factor(), drive_.twist());
 }
 
+double LookOut::stopping_m(const Twist& twist) const {
+    const double speed_mps = std::hypot(twist.vx_mps, twist.vy_mps);
+    return speed_mps * control::FieldOptions{}.reaction_s +
+           speed_mps * speed_mps / (2 * drive_.type().max_accel_mps2);
+}
+
 control::FieldAnswer LookOut::check(const Twist& twist) {
     control::FieldAnswer worst;
     for (const auto& scan : scans_) {
@@ -104,10 +112,14 @@ control::FieldAnswer LookOut::look() {
         scanners_[i].scan(drive_.true_pose(), others_, random_, scans_[i]);
     }
     auto answer = check(twist);
-    if (!keeps_room_ || drive_.run_ahead_m() == 0) return answer;
+    const double run_m = drive_.run_ahead_m();
+    if (!keeps_room_ || run_m == 0) return answer;
+    if (answer.nearest && answer.way_m < run_m && answer.way_m < stopping_m(twist) + kRoom_m) {
+        return stopped_by(answer);
+    }
     // At the speed of a start the fields reach farther than the room to keep, however slow it is.
     const auto ahead = check(start_twist());
-    const bool meets = ahead.nearest && ahead.way_m < std::min(kRoom_m, drive_.run_ahead_m());
+    const bool meets = ahead.nearest && ahead.way_m < std::min(kRoom_m, run_m);
     return meets ? stopped_by(ahead) : answer;
 }
 
@@ -115,7 +127,8 @@ void LookOut::step(double dt_s) {
     free_for_s_ += dt_s * drive_.time_factor();
     until_scan_s_ -= dt_s;
     if (until_scan_s_ > 0) return;
-    until_scan_s_ = std::max(kEvery_s / drive_.time_factor(), kEveryReal_s);
+    const double factor = drive_.time_factor();
+    until_scan_s_ = std::max(kEvery_s / factor, std::min(kEveryReal_s, kMostEvery_s / factor));
     last_ = look();
     const bool stop = told_to_bar_ || last_.verdict == control::FieldAnswer::Verdict::kStop;
     if (stop) free_for_s_ = 0;

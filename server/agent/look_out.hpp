@@ -49,6 +49,7 @@ public:
 private:
     kinematics::Twist start_twist() const;
     kinematics::Twist intended() const;
+    double stopping_m(const kinematics::Twist& twist) const;
     control::FieldAnswer check(const kinematics::Twist& twist);
     control::FieldAnswer look();
 

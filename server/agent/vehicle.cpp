@@ -122,15 +122,17 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
 
 void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
-    // Whoever drives it by hand looks out.
-    if (look_out_ && !executor_.in_hand()) {
-        look_out_->step(dt_s);
-        going_round_->step(dt_s);
-    }
-    // Near a goal it is steered by steps of its own time, however fast that runs.
+    // It looks out and is steered by steps of its own time, however fast that runs.
     const int parts = std::max(
         1, static_cast<int>(std::ceil(dt_s * settings_.time_factor / kOwnStep_s - kRounding)));
-    for (int i = 0; i < parts; ++i) executor_.step(dt_s / parts);
+    for (int i = 0; i < parts; ++i) {
+        // Whoever drives it by hand looks out.
+        if (look_out_ && !executor_.in_hand()) {
+            look_out_->step(dt_s / parts);
+            going_round_->step(dt_s / parts);
+        }
+        executor_.step(dt_s / parts);
+    }
     keep_learned();
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);

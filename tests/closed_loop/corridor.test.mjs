@@ -6,7 +6,7 @@ import { Client } from "../harness/client.mjs";
 import { System } from "../harness/processes.mjs";
 
 const LANE_Y_M = 20;
-const BOX = { x_m: 42, y_m: 20, half_m: 0.25 }; // on the line from station 3 to 4
+const BOX = { x_m: 48, y_m: 20, half_m: 0.25 }; // on the line from station 3 to 5
 let system, client, corridor;
 
 before(async () => {
@@ -43,23 +43,24 @@ test("the platform goes round a box on its line, inside the corridor, and stops 
   const there = await client.order("TP-01", [3]);
   assert.equal((await client.untilEnded(there.id)).state, "Ended");
   const from = system.truth("TP-01").length;
-  const order = await client.order("TP-01", [{ station: 4, motion_mode: "linear" }]);
+  const order = await client.order("TP-01", [{ station: 5, motion_mode: "linear" }]);
   await client.untilVehicle("TP-01", (v) => v.errors.some((error) => error.type === "obstacle"), "is before the box");
   await client.untilVehicle("TP-01", (v) => v.errors.some((error) => error.type === "going_round"), "goes round it", 60);
   assert.equal((await client.untilEnded(order.id, 120)).state, "Ended");
   assert.ok((await client.stops(order.id)).at(-1).inside);
 
-  const { footprint } = system.plant.model.vehicle_types.find((type) => type.id === "transport-platform");
+  const type = system.plant.model.vehicle_types.find((one) => one.id === "transport-platform");
   const poses = system.truth("TP-01").slice(from).filter((line) => line.vehicle === "TP-01");
   let aside_m = 0;
   for (const pose of poses) {
-    const outline = footprint.map((corner) => inHall(pose, corner));
-    assert.ok(distanceToBox(outline) > 0.05, `at ${JSON.stringify(pose)} it is ${distanceToBox(outline)} m from the box`);
-    if (pose.x_m < 35.4 || pose.x_m > 49.5) continue; // turning at a station it reaches out of the lane, on floor of its own
-    aside_m = Math.max(aside_m, Math.abs(pose.y_m - LANE_Y_M));
-    for (const corner of outline) {
-      assert.ok(corner.y_m - LANE_Y_M < corridor.left_m && LANE_Y_M - corner.y_m < corridor.right_m, `at ${JSON.stringify(pose)} it leaves the corridor`);
+    for (const outline of [type.footprint, type.load_footprint].map((ring) => ring.map((corner) => inHall(pose, corner)))) {
+      assert.ok(distanceToBox(outline) > 0.05, `at ${JSON.stringify(pose)} it is ${distanceToBox(outline)} m from the box`);
+      if (pose.x_m < 32 || pose.x_m > 68) continue; // it turns at the stations, on floor of their own
+      for (const corner of outline) {
+        assert.ok(corner.y_m - LANE_Y_M < corridor.left_m && LANE_Y_M - corner.y_m < corridor.right_m, `at ${JSON.stringify(pose)} it leaves the corridor`);
+      }
     }
+    aside_m = Math.max(aside_m, Math.abs(pose.y_m - LANE_Y_M));
   }
   assert.ok(aside_m > 1, `it went only ${aside_m} m aside`);
 });
