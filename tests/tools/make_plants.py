@@ -209,6 +209,9 @@ def pulse_line(folder):
         p.station(n, WORK[n], where, PLATFORM)
     p.area("pulse-line", "zone", "Pulse line", box(1, 3, 105, 40))
     p.chain([f"st{n:02d}" for n in TANG])
+    for edge in p.edges:
+        if {edge["from"], edge["to"]} <= {"st03", "st04", "st05", "st06"}:
+            edge["corridor"] = {"left_m": 11, "right_m": 11}
     p.vehicle("TP-01", PLATFORM, 1, "A-101", 18200)
     p.write(folder)
 

@@ -135,6 +135,27 @@ const Case kCases[] = {
      "unknown_node"},
     {"UnknownTypeOfEdge", [](Plant& p) { p.edges[2].vehicle_types = {VehicleTypeId("x")}; },
      "/roadmap/edges/2/vehicle_types/0", "unknown_vehicle_type"},
+    {"CorridorOfNoWidth",
+     [](Plant& p) {
+         p.edges[0].corridor = {0, 2};
+     },
+     "/roadmap/edges/0/corridor/left_m", "not_positive"},
+    {"CorridorNotFinite",
+     [](Plant& p) {
+         p.edges[0].corridor = {2, kNan};
+     },
+     "/roadmap/edges/0/corridor/right_m", "not_finite"},
+    {"CorridorOverNoGo",
+     [](Plant& p) {
+         const Point2 at = find_node(p, p.edges[0].from)->position;
+         p.edges[0].corridor = {2, 2};
+         p.areas[0].kind = AreaKind::kNoGo;
+         p.areas[0].outline = {{at.x_m - 1, at.y_m - 1},
+                               {at.x_m + 1, at.y_m - 1},
+                               {at.x_m + 1, at.y_m + 1},
+                               {at.x_m - 1, at.y_m + 1}};
+     },
+     "/roadmap/edges/0/corridor", "corridor_over_no_go"},
     {"StationNotFinite", [](Plant& p) { p.stations[0].pose.x_m = kNan; }, "/stations/0/pose/x_m",
      "not_finite"},
     {"OutlineNotFinite", [](Plant& p) { p.areas[0].outline[1].y_m = INFINITY; }, "/areas/0/outline",
