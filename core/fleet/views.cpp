@@ -73,6 +73,14 @@ LegView leg_view(const VehicleRun& run) {
     return view;
 }
 
+/// Beside its line it says why.
+std::optional<Reason> detour(const VehicleRun& run) {
+    const bool goes_round =
+        std::any_of(run.state.errors.begin(), run.state.errors.end(),
+                    [](const VehicleError& error) { return error.type == "going_round"; });
+    return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
+}
+
 struct Doing {
     Activity activity = Activity::kUnknown;
     std::optional<Reason> reason;
@@ -89,7 +97,7 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
                 Reason{"vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}}}};
     }
     const bool moving = run.has_leg() && run.state.driving;
-    if (moving && run.link == Link::kLive) return {Activity::kMoving, std::nullopt};
+    if (moving && run.link == Link::kLive) return {Activity::kMoving, detour(run)};
     if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
         const std::string& code = reason->code;
         const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
@@ -114,7 +122,7 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
             const char* code = run.leg().charges ? "goes_charging" : "makes_way";
             return {Activity::kMoving, Reason{code, {{"station", run.leg().station.str()}}}};
         }
-        return {Activity::kMoving, std::nullopt};
+        return {Activity::kMoving, detour(run)};
     }
     if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
     if (run.state.charging) return {Activity::kCharging, std::nullopt};

@@ -98,6 +98,24 @@ TEST(Corridors, ABarredVehicleIsGivenMoreOfTheLaneWhenItAsks) {
     }
 }
 
+TEST(Corridors, AVehicleBesideItsLineSaysWhy) {
+    World world(lane_with_a_neighbour(kRoom));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    drive_to(world, "V1", 20);
+    const auto reason = [&] {
+        return world.fleet->vehicle(plant::VehicleId("V1"), world.now)->reason;
+    };
+    EXPECT_FALSE(reason());
+    world.vehicle("V1").state.errors = {{"going_round", false, "round an obstacle", {}}};
+    world.run(0.5);
+    ASSERT_TRUE(reason());
+    EXPECT_EQ(reason()->code, "going_round");
+    world.vehicle("V1").state.errors.clear();
+    world.run(0.5);
+    EXPECT_FALSE(reason());
+}
+
 TEST(Corridors, ClosedFloorInOneClosesItsLane) {
     World world(lane_with_a_neighbour(kRoom));
     confirm_poses(world);

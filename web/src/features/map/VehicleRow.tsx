@@ -38,7 +38,7 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
           ? ""
           : `${v.name} ${t(`common:alarm.${alarm.kind}`, { type: alarm.type ?? "", age: age(silentS) })}`
         : words.reason(reason);
-  const waits = v.activity === "waiting" || v.activity === "paused";
+  const saysWhy = ["waiting", "paused", "moving"].includes(v.activity);
   const old = silent(v) || v.link === "late";
   return (
     <button
@@ -51,7 +51,7 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
     >
       <StatusSymbol name={symbolOf(v)} />
       <span className="id">{v.name}</span>
-      <span className="what">{!two && waits && why !== "" ? why : text}</span>
+      <span className="what">{!two && saysWhy && why !== "" ? why : text}</span>
       <span className="when">
         {old ? age(silentS) : leftS !== undefined && v.activity === "moving" ? duration(leftS) : ""}
       </span>

@@ -27,7 +27,9 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   return (vehicle) => {
     if (vehicle.needs_resume && vehicle.needs_resume_reason) return words.reason(vehicle.needs_resume_reason);
     if (vehicle.activity === "moving" && vehicle.leg) {
-      return t("why.moving", { number: words.stationNumber(vehicle.leg.station) });
+      return vehicle.reason
+        ? words.reason(vehicle.reason)
+        : t("why.moving", { number: words.stationNumber(vehicle.leg.station) });
     }
     if (vehicle.activity === "measuring") return t("why.measuring");
     return vehicle.reason ? words.reason(vehicle.reason) : t("why.no_reason");
