@@ -151,7 +151,7 @@ private:
 
     Ports ports_;
     std::uint64_t id_seed_;
-    std::unique_ptr<fleet::Fleet> fleet_;  // fleet thread only
+    std::unique_ptr<fleet::Fleet> fleet_;               // fleet thread only
     std::shared_ptr<const fleet::PlantTables> tables_;  // of the plant, worked out once
     JournalKeeper journal_;
     Time last_tick_{};

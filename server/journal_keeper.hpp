@@ -18,9 +18,9 @@ public:
                              std::int64_t last_stored_seq, fleet::Records& records, Time now);
     /// The fleet as it was at the last commit. `tables`: see Fleet. Errors: journal_broken {why},
     /// journal_foreign.
-    Result<std::unique_ptr<fleet::Fleet>> rebuild(
-        const plant::Plant& plant, std::shared_ptr<const fleet::PlantTables> tables,
-        const fleet::StoredJournal& stored);
+    Result<std::unique_ptr<fleet::Fleet>> rebuild(const plant::Plant& plant,
+                                                  std::shared_ptr<const fleet::PlantTables> tables,
+                                                  const fleet::StoredJournal& stored);
 
     /// A step's outputs were taken: its inputs become a row when something has to be stored or
     /// sent, else they wait for the next that has, a second at most.

@@ -1,7 +1,8 @@
 // ./dev bench motion [--only SECTION]: how fast and how well single vehicles' motion is planned. A
 // table on the terminal, JSON where --benchmark_out says. The sections are listed in kSections.
 // --make-reference FILE [--queries N] [--seconds S] [--seed N] --date DATE computes the lengths
-// that the section manoeuvres compares with (N x S seconds of processor time; goes on where it stopped).
+// that the section manoeuvres compares with (N x S seconds of processor time; goes on where it
+// stopped).
 #include <array>
 #include <cstdio>
 #include <cstdlib>
