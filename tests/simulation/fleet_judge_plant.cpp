@@ -89,6 +89,8 @@ private:
             edge.to = NodeId(to);
             edge.id = plant::EdgeId(from + "." + to);
             for (const auto& type : types) edge.vehicle_types.emplace_back(type);
+            // Every third lane has room to go round things, which is kept free like the lane.
+            if (plant_.edges.size() / 2 % 3 == 0) edge.corridor = plant::Corridor{1.4, 1.4};
             plant_.edges.push_back(edge);
         }
     }
