@@ -26,7 +26,8 @@ using nlohmann::json;
 
 constexpr double kRadius_m = 5;
 constexpr double kCheckEvery_m = 0.25;
-constexpr double kFirst_s = 3;  // for RRTConnect to show that there is a way at all
+constexpr double kMostWait = 10;  // by the clock, in times of what a query may take
+constexpr double kFirst_s = 3;    // for RRTConnect to show that there is a way at all
 
 /// Of this thread: a machine that does other work meanwhile makes the search longer, not worse.
 double processor_s() {
@@ -69,8 +70,11 @@ public:
         } else {
             setup.setPlanner(std::make_shared<og::RRTConnect>(information));
         }
+        // A planner that waits for a goal it can reach takes no processor time, and for ever.
         const double until_s = processor_s() + seconds;
-        setup.solve(ob::PlannerTerminationCondition([&] { return processor_s() >= until_s; }));
+        const auto in_vain = ob::timedPlannerTerminationCondition(kMostWait * seconds);
+        setup.solve(
+            ob::PlannerTerminationCondition([&] { return processor_s() >= until_s || in_vain(); }));
         return setup.haveExactSolutionPath() ? setup.getSolutionPath().length() : 0;
     }
 
