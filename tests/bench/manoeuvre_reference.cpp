@@ -102,9 +102,10 @@ json read(const std::string& path) {
 /// One query a line, so that the file stays short and its changes can be read.
 void write(const std::string& path, json file) {
     const json queries = std::move(file["queries"]);
-    file["queries"] = json::array();
+    file.erase("queries");
     std::string text = file.dump();
-    text.resize(text.rfind(']'));
+    text.back() = ',';
+    text += "\"queries\":[";
     for (std::size_t i = 0; i < queries.size(); ++i) {
         text += (i == 0 ? "\n" : ",\n") + queries[i].dump();
     }
