@@ -19,6 +19,7 @@ struct Input {
     std::string role;
     bool password_stdin = false;
     std::string vehicle;
+    bool all_vehicles = false;
     std::string scope = "api";
     std::string note;
     std::string id;
@@ -72,10 +73,31 @@ int list_users(const Input& input) {
     });
 }
 
-int create_token(const Input& input) {
-    if (input.vehicle.empty() == input.role.empty()) {
-        return failed(wrong("give either --vehicle MAKER/SERIAL or --role ROLE"));
+/// A line "MAKER/SERIAL secret" for each vehicle of the plant, as agents read them.
+int create_tokens_of_all_vehicles(const Input& input) {
+    auto storage = open_storage(input.database);
+    if (!storage) return failed(storage.error());
+    const auto plant = (*storage)->plant();
+    if (!plant) return failed(wrong("this database has no plant; import one first"));
+    access::Store& store = (*storage)->access();
+    const Time now = ServerClock(Time{}).now();
+    access::AccessControl control(
+        store, [&](const access::Change& change) { access::apply(store, change); }, now);
+    for (const auto& vehicle : plant->vehicles) {
+        const auto made = control.create_vehicle_token(vehicle.manufacturer, vehicle.serial_number,
+                                                       input.note, now);
+        if (!made) return failed(made.error());
+        fmt::print("{}/{} {}\n", vehicle.manufacturer, vehicle.serial_number, made->secret);
     }
+    return 0;
+}
+
+int create_token(const Input& input) {
+    const int owners = (input.vehicle.empty() ? 0 : 1) + (input.role.empty() ? 0 : 1);
+    if (owners + (input.all_vehicles ? 1 : 0) != 1) {
+        return failed(wrong("give one of --vehicle MAKER/SERIAL, --all-vehicles and --role ROLE"));
+    }
+    if (input.all_vehicles) return create_tokens_of_all_vehicles(input);
     const auto role = access::parse_role(input.role);
     if (!input.role.empty() && !role) {
         return failed(wrong("--role is viewer, operator, engineer or admin"));
@@ -145,6 +167,8 @@ void add_access_commands(CLI::App& app, int& exit_code) {
     auto* create = command(token, input, "create", "Make a token; it is printed once", exit_code,
                            create_token);
     create->add_option("--vehicle", input->vehicle, "MAKER/SERIAL of the vehicle it is bound to");
+    create->add_flag("--all-vehicles", input->all_vehicles,
+                     "One for each vehicle of the plant, a line \"MAKER/SERIAL secret\" each");
     create->add_option("--role", input->role, "Role of a program's token");
     create->add_option("--scope", input->scope, "Scope of a program's token");
     create->add_option("--note", input->note, "What it is for");

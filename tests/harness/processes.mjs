@@ -53,6 +53,9 @@ export class System {
     this.passwords = new Map();
     this.agents = new Map();
     this.children = new Set();
+    this.host = "127.0.0.1";
+    this.scheme = "http";
+    this.onVehicles = []; // before the agents' command line, where they run on a host of their own
   }
 
   static async create(plantName, { users = ["operator", "viewer"] } = {}) {
@@ -73,7 +76,7 @@ export class System {
   }
 
   get url() {
-    return `http://127.0.0.1:${this.port}`;
+    return `${this.scheme}://${this.host}:${this.port}`;
   }
   get truthLog() {
     return join(this.directory, "truth.jsonl");
@@ -88,7 +91,7 @@ export class System {
   }
 
   async startServer(extra = [], env = {}) {
-    this.server = this.start(SERVER, ["serve", "--db", this.database, "--listen", `127.0.0.1:${this.port}`, ...extra], "server", env);
+    this.server = this.start(SERVER, ["serve", "--db", this.database, "--listen", `${this.host}:${this.port}`, ...extra], "server", env);
     await until(() => `server ready; its log:\n${this.log("server")}`, async () => {
       if (this.server.over) throw new Error(`the server ended: ${JSON.stringify(this.server.over)}\n${this.log("server")}`);
       try { return (await fetch(`${this.url}/readyz`)).ok; } catch { return false; }
@@ -111,7 +114,8 @@ export class System {
 
   startAgent(id, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
     const { manufacturer, serial_number } = this.plant.vehicle(id);
-    const agent = this.start(AGENT, ["--server", `ws://127.0.0.1:${this.port}`, "--vehicle", `${manufacturer}/${serial_number}`, "--token", this.tokenOf(id),
+    const [program, ...before] = [...this.onVehicles, AGENT];
+    const agent = this.start(program, [...before, "--server", this.url.replace("http", "ws"), "--vehicle", `${manufacturer}/${serial_number}`, "--token", this.tokenOf(id),
       "--world", this.plant.file, "--seed", String(seed), "--truth-log", `${this.truthLog}.${id}`, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], `agent-${id}`);
     this.agents.set(id, agent);
     return agent;

@@ -1,0 +1,72 @@
+// A server under the load of a shift: reports to dashboards in time, orders accepted, nobody taken for lost.
+// PULSELINE_LOAD=full (the nightly) is a thousand vehicles for ten minutes; without it a smoke of it.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { test } from "node:test";
+import { promisify } from "node:util";
+
+import { manyVehicles } from "../bench/many_vehicles.mjs";
+import { BUILD, System } from "../harness/processes.mjs";
+
+const full = process.env.PULSELINE_LOAD === "full";
+const kLoad = process.env.TRY ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 40 } : full ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 600 } : { vehicles: 300, dashboards: 20, requests: 50, orders: 5, seconds: 40 };
+// On two cores that the load itself shares; the figures to hold are the full ones.
+const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024 };
+
+const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
+
+/** A plant of small carriers in lanes of their own, with a token for each. */
+async function hall(count) {
+  const file = join(mkdtempSync(join(tmpdir(), "pulseline-load-")), "plant.json");
+  writeFileSync(file, JSON.stringify(manyVehicles(count)));
+  const system = await System.create(file);
+  const tokens = new Map(system.cli(["token", "create", "--all-vehicles"]).trim().split("\n").map((line) => line.split(" ")));
+  const { vehicles, stations } = system.plant.model;
+  const home = new Map(stations.map((station) => [station.id, station]));
+  const rows = vehicles.map((vehicle) => {
+    const { pose, node, hall } = home.get(vehicle.home);
+    return [vehicle.id, vehicle.manufacturer, vehicle.serial_number, tokens.get(`${vehicle.manufacturer}/${vehicle.serial_number}`), pose.x_m, pose.y_m, node, hall].join(" ");
+  });
+  system.vehiclesFile = join(system.directory, "vehicles");
+  writeFileSync(system.vehiclesFile, `${rows.join("\n")}\n`);
+  return system;
+}
+
+/** Runs the load; its figures and the server's memory after a quarter of it, at most and at the end. */
+async function load(system, { dashboards, requests, orders, seconds }) {
+  const memory = [];
+  const looks = setInterval(() => memory.push(rss_kb(system.server.pid)), 1000);
+  try {
+    const args = ["--port", system.port, "--vehicles", system.vehiclesFile, "--token", system.apiToken, "--dashboards", dashboards, "--requests", requests, "--orders", orders, "--seconds", seconds];
+    const { stdout } = await promisify(execFile)(join(BUILD, "load_client"), args.map(String), { timeout: (seconds + 120) * 1000 });
+    const warm = memory[Math.floor(memory.length / 4)];
+    return { ...JSON.parse(stdout), rss_kb: { warm, most: Math.max(...memory), end: memory.at(-1) } };
+  } finally {
+    clearInterval(looks);
+  }
+}
+
+test("a shift's load: reports reach dashboards in time and nobody is taken for lost", { timeout: (kLoad.seconds + 300) * 1000 }, async (t) => {
+  const system = await hall(kLoad.vehicles);
+  try {
+    await system.startServer();
+    const found = await load(system, kLoad);
+    mkdirSync(join(BUILD, "bench"), { recursive: true });
+    writeFileSync(join(BUILD, "bench/load.json"), JSON.stringify({ ...kLoad, ...found }, null, 2));
+    t.diagnostic(JSON.stringify(found));
+    assert.equal(found.vehicles_lost, 0);
+    assert.equal(found.vehicles_cut + found.dashboards_cut, 0);
+    assert.equal(found.events_lost, 0);
+    assert.deepEqual(Object.keys(found.statuses).filter((status) => !["200", "201", "101"].includes(status)), []);
+    assert.ok(found.states_per_s > kLoad.vehicles * 10 * 0.9, `${found.states_per_s} states a second`);
+    assert.ok(found.state_to_dashboard.n > 1000 && found.state_to_dashboard.p99_ms <= kBounds.to_dashboard_p99_ms, `to dashboard ${JSON.stringify(found.state_to_dashboard)}`);
+    assert.ok(found.accepted.p99_ms <= kBounds.accepted_p99_ms, `accepted ${JSON.stringify(found.accepted)}`);
+    assert.ok(found.rss_kb.most <= kBounds.rss_kb, `memory ${JSON.stringify(found.rss_kb)}`);
+    if (full) assert.ok(found.rss_kb.end <= 1.05 * found.rss_kb.warm, `memory grows: ${JSON.stringify(found.rss_kb)}`);
+  } finally {
+    await system.stop();
+  }
+});

@@ -1,0 +1,434 @@
+// A shift's load from one program: vehicles that report ten times a second, dashboards that watch
+// them, and programs that ask over REST. Prints one line of JSON: how long a report takes to a
+// dashboard, how long answers take, what was lost.
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/tools/web_socket_peer.hpp"
+
+namespace pulseline::load {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Milliseconds in steps of a half, up to a minute.
+class Histogram {
+public:
+    void add(double ms) {
+        const double last = static_cast<double>(counts_.size() - 1);
+        ++counts_[static_cast<std::size_t>(std::clamp(ms * 2, 0.0, last))];
+        ++n_;
+        most_ms_ = std::max(most_ms_, ms);
+    }
+    nlohmann::json summary() const {
+        return {{"n", n_}, {"p50_ms", at(0.5)}, {"p99_ms", at(0.99)}, {"max_ms", most_ms_}};
+    }
+
+private:
+    double at(double share) const {
+        std::uint64_t below = 0;
+        for (std::size_t i = 0; i < counts_.size(); ++i) {
+            below += counts_[i];
+            if (n_ > 0 && static_cast<double>(below) >= share * static_cast<double>(n_)) {
+                return (static_cast<double>(i) + 1) / 2;
+            }
+        }
+        return 0;
+    }
+    std::vector<std::uint32_t> counts_ = std::vector<std::uint32_t>(120'000);
+    std::uint64_t n_ = 0;
+    double most_ms_ = 0;
+};
+
+struct Settings {
+    std::uint16_t port = 0;
+    std::string vehicles_file;  // a line each: id maker serial token x_m y_m node hall
+    std::string token;
+    double states_per_s = 10;
+    int dashboards = 20;
+    int watchers = 10;  // dashboards whose every frame is read; the others only take theirs
+    double requests_per_s = 20;
+    double orders_per_s = 2;
+    double seconds = 60;
+};
+
+/// A vehicle that stands and reports. The count of its states travels in its velocity, so that a
+/// dashboard's frame tells which of them it shows.
+struct Vehicle {
+    static constexpr int kCounts = 10'000;  // velocities are shown to 0.1 mm/s
+
+    std::string id, maker, serial, token, node, hall;
+    double x_m = 0, y_m = 0;
+    std::unique_ptr<Peer> peer;
+    std::uint64_t sent = 0;
+    std::vector<Clock::time_point> sent_at = std::vector<Clock::time_point>(kCounts);
+
+    std::string header(std::string_view now) const {
+        return fmt::format(
+            R"("headerId":{},"timestamp":"{}","version":"2.1.0","manufacturer":"{}","serialNumber":"{}")",
+            sent & 0xffffffff, now, maker, serial);
+    }
+    void connect(std::uint16_t port) {
+        peer = std::make_unique<Peer>(port);
+        peer->ask_upgrade(
+            "/vehicles/" + maker + "/" + serial,
+            "Sec-WebSocket-Protocol: vda5050.v2.json\r\nAuthorization: Bearer " + token + "\r\n");
+    }
+    void report(std::string_view now) {
+        ++sent;
+        const auto count = sent % kCounts;
+        sent_at[count] = Clock::now();
+        peer->send_text(fmt::format(
+            R"({{"topic":"state","retain":false,"payload":{{{},"orderId":"","orderUpdateId":0,"lastNodeId":"{}","lastNodeSequenceId":0,)"
+            R"("driving":false,"paused":false,"newBaseRequest":false,"distanceSinceLastNode":0.0,"operatingMode":"AUTOMATIC","nodeStates":[],"edgeStates":[],)"
+            R"("actionStates":[],"batteryState":{{"batteryCharge":81.5,"charging":false}},"errors":[],)"
+            R"("safetyState":{{"eStop":"NONE","fieldViolation":false}},)"
+            R"("agvPosition":{{"x":{:.4f},"y":{:.4f},"theta":0.0,"mapId":"{}","positionInitialized":true,"localizationScore":0.97,"deviationRange":0.003}},)"
+            R"("velocity":{{"vx":{:.4f},"vy":0.0,"omega":0.0}},"loads":[],"information":[]}}}})",
+            header(now), node, x_m, y_m, hall, static_cast<double>(count) / kCounts));
+    }
+};
+
+struct Totals {
+    Histogram to_dashboard;
+    Histogram answers;
+    Histogram accepted;
+    std::map<int, int> statuses;
+    std::map<int, std::string> refusals;  // the first of each status, for whoever reads the figures
+    std::uint64_t states = 0, frames = 0, events = 0, events_lost = 0;
+    std::set<std::string> vehicles_lost;
+    int vehicles_cut = 0, dashboards_cut = 0, requests_cut = 0;
+};
+
+class Dashboard {
+public:
+    Dashboard(std::uint16_t port, const std::string& token, bool watches)
+        : peer(std::make_unique<Peer>(port)), watches_(watches) {
+        peer->ask_upgrade("/api/v1/stream", "Authorization: Bearer " + token + "\r\n");
+    }
+    void take(std::string_view text, std::map<std::string, Vehicle*, std::less<>>& vehicles,
+              bool counts, Totals& totals) {
+        ++totals.frames;
+        if (text.starts_with(R"({"type":"poses")")) {
+            if (watches_) take_poses(text, vehicles, counts, totals);
+        } else if (text.starts_with(R"({"event")") ||
+                   text.find(R"("type":"event")") != std::string_view::npos) {
+            take_event(text, totals);
+        }
+    }
+    std::unique_ptr<Peer> peer;
+
+private:
+    void take_poses(std::string_view text, std::map<std::string, Vehicle*, std::less<>>& vehicles,
+                    bool counts, Totals& totals) {
+        const auto now = Clock::now();
+        for (std::size_t at = text.find("[["); at != std::string_view::npos;) {
+            at = text.find('"', at);
+            if (at == std::string_view::npos) break;
+            const auto end = text.find('"', at + 1);
+            const std::string_view id = text.substr(at + 1, end - at - 1);
+            std::array<double, 5> values{};
+            const char* from = text.data() + end + 2;
+            for (double& value : values)
+                from = std::from_chars(from, text.data() + text.size(), value).ptr + 1;
+            const auto found = vehicles.find(id);
+            if (found != vehicles.end()) {
+                const auto count =
+                    static_cast<std::size_t>(std::lround(values[3] * Vehicle::kCounts)) %
+                    Vehicle::kCounts;
+                auto& last = seen_[found->second];
+                if (count != last && count != 0 && counts) {
+                    totals.to_dashboard.add(std::chrono::duration<double, std::milli>(
+                                                now - found->second->sent_at[count])
+                                                .count());
+                }
+                last = count;
+            }
+            at = static_cast<std::size_t>(from - text.data());
+        }
+    }
+    void take_event(std::string_view text, Totals& totals) {
+        const auto parsed = nlohmann::json::parse(text, nullptr, false);
+        if (!parsed.is_object()) return;
+        const auto& event = parsed.contains("event") ? parsed["event"] : parsed;
+        if (!event.contains("seq")) return;
+        const auto seq = event["seq"].get<std::int64_t>();
+        if (last_seq_ != 0 && seq != last_seq_ + 1)
+            totals.events_lost += static_cast<std::uint64_t>(std::abs(seq - last_seq_ - 1));
+        last_seq_ = seq;
+        ++totals.events;
+        if (event.value("type", "") == "vehicle.link") {
+            const auto to = event.value("params", nlohmann::json::object()).value("to", "");
+            if (to == "lost" || to == "gone")
+                totals.vehicles_lost.insert(event.value("vehicle", ""));
+        }
+    }
+    bool watches_;
+    std::map<const Vehicle*, std::size_t> seen_;
+    std::int64_t last_seq_ = 0;
+};
+
+/// A connection that stays open and asks one thing after the other.
+struct Asker {
+    std::unique_ptr<Peer> peer;
+    Clock::time_point due;
+    bool busy = false;
+    bool orders = false;
+};
+
+std::string rfc3339_now() {
+    const auto now = std::chrono::system_clock::now();
+    const auto time = std::chrono::system_clock::to_time_t(now);
+    std::tm utc{};
+    gmtime_r(&time, &utc);
+    const auto ms =
+        std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() %
+        1000;
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900,
+                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, ms);
+}
+
+class Load {
+public:
+    explicit Load(Settings settings) : settings_(std::move(settings)) {
+        std::ifstream file(settings_.vehicles_file);
+        for (Vehicle v; file >> v.id >> v.maker >> v.serial >> v.token >> v.x_m >> v.y_m >>
+                        v.node >> v.hall;) {
+            vehicles_.push_back(std::make_unique<Vehicle>(std::move(v)));
+            v = Vehicle();
+        }
+        if (vehicles_.empty())
+            throw std::runtime_error("no vehicles in " + settings_.vehicles_file);
+        for (auto& vehicle : vehicles_) by_id_[vehicle->id] = vehicle.get();
+    }
+
+    nlohmann::json run() {
+        begin_ = Clock::now();
+        connect_all();
+        const double warm_s = std::min(10.0, settings_.seconds / 4);
+        const auto start = Clock::now();
+        const auto end = start + std::chrono::duration<double>(settings_.seconds);
+        std::uint64_t states_due = 0, requests_due = 0, orders_due = 0;
+        while (Clock::now() < end) {
+            const double now_s = std::chrono::duration<double>(Clock::now() - start).count();
+            counts_ = now_s >= warm_s;
+            const auto all = static_cast<double>(vehicles_.size()) * settings_.states_per_s;
+            const std::string stamp = rfc3339_now();
+            for (; static_cast<double>(states_due) < now_s * all; ++states_due) {
+                auto& vehicle = *vehicles_[states_due % vehicles_.size()];
+                if (!vehicle.peer->open() || vehicle.peer->ended()) continue;
+                vehicle.report(stamp);
+                ++totals_.states;
+            }
+            for (; static_cast<double>(requests_due) < now_s * settings_.requests_per_s;
+                 ++requests_due)
+                ask(false, requests_due);
+            for (; static_cast<double>(orders_due) < now_s * settings_.orders_per_s; ++orders_due)
+                ask(true, orders_due);
+            wait_and_read(1);
+        }
+        return summary();
+    }
+
+private:
+    void connect_all() {
+        for (auto& vehicle : vehicles_) {
+            vehicle->connect(settings_.port);
+            wait_and_read(0);
+        }
+        wait_until_open([&] {
+            return std::ranges::all_of(
+                vehicles_, [](const auto& v) { return v->peer->open() || v->peer->ended(); });
+        });
+        const std::string stamp = rfc3339_now();
+        for (auto& vehicle : vehicles_) {
+            vehicle->peer->send_text(fmt::format(
+                R"({{"topic":"connection","retain":true,"payload":{{{},"connectionState":"ONLINE"}}}})",
+                vehicle->header(stamp)));
+            vehicle->report(stamp);
+        }
+        for (int i = 0; i < settings_.dashboards; ++i) {
+            dashboards_.push_back(std::make_unique<Dashboard>(settings_.port, settings_.token,
+                                                              i < settings_.watchers));
+            wait_and_read(0);
+        }
+        wait_until_open([&] {
+            return std::ranges::all_of(
+                dashboards_, [](const auto& d) { return d->peer->open() || d->peer->ended(); });
+        });
+        for (int i = 0; i < 24; ++i) {
+            askers_.push_back({std::make_unique<Peer>(settings_.port), {}, false, i < 8});
+        }
+    }
+
+    template <class Condition>
+    void wait_until_open(Condition done) {
+        const auto until = Clock::now() + std::chrono::seconds(60);
+        while (!done()) {
+            if (Clock::now() > until)
+                throw std::runtime_error("waited 60 s in vain for the connections");
+            wait_and_read(5);
+        }
+    }
+
+    /// The next thing to ask, counted from the moment it was due: an asker that waits is the
+    /// server's delay too.
+    void ask(bool order, std::uint64_t index) {
+        const auto free = std::ranges::find_if(askers_, [&](const Asker& a) {
+            return !a.busy && a.orders == order && !a.peer->ended();
+        });
+        if (free == askers_.end()) {
+            ++waits_;
+            return;
+        }
+        const Vehicle& vehicle = *vehicles_[index * 7919 % vehicles_.size()];
+        const std::array reads{"/api/v1/vehicles/" + vehicle.id, std::string("/api/v1/fleet"),
+                               "/api/v1/stations/" + std::to_string(1 + index % vehicles_.size()),
+                               std::string("/api/v1/job-orders?limit=20"),
+                               std::string("/api/v1/stop-records?limit=20")};
+        const std::string common =
+            "Host: 127.0.0.1\r\nAuthorization: Bearer " + settings_.token + "\r\n";
+        free->busy = true;
+        free->due = Clock::now();
+        if (order) {
+            const std::string body =
+                fmt::format(R"({{"vehicle":"{}","start":false,"steps":[{{"station":{}}}]}})",
+                            vehicle.id, 2 + 2 * (index * 7919 % vehicles_.size()));
+            free->peer->send_raw("POST /api/v1/job-orders HTTP/1.1\r\n" + common +
+                                 "Content-Type: application/json\r\nContent-Length: " +
+                                 std::to_string(body.size()) + "\r\n\r\n" + body);
+        } else {
+            free->peer->send_raw("GET " + reads[index % reads.size()] + " HTTP/1.1\r\n" + common +
+                                 "\r\n");
+        }
+    }
+
+    void wait_and_read(int timeout_ms) {
+        polled_.clear();
+        const auto add = [&](Peer& peer) {
+            if (!peer.ended())
+                polled_.push_back({peer.socket(),
+                                   static_cast<short>(POLLIN | (peer.writes_wait() ? POLLOUT : 0)),
+                                   0});
+        };
+        for (auto& v : vehicles_)
+            if (v->peer) add(*v->peer);
+        for (auto& d : dashboards_) add(*d->peer);
+        for (auto& a : askers_) add(*a.peer);
+        ::poll(polled_.data(), polled_.size(), timeout_ms);
+        std::size_t next = 0;
+        const auto ready = [&](Peer& peer) {
+            if (next >= polled_.size() || polled_[next].fd != peer.socket()) return false;
+            const short events = polled_[next++].revents;
+            if (events & POLLOUT) peer.flush();
+            return (events & (POLLIN | POLLHUP | POLLERR)) != 0;
+        };
+        for (auto& v : vehicles_) {
+            if (!v->peer || !ready(*v->peer)) continue;
+            v->peer->read([](std::string_view) {}, [](const Peer::Answer&) {});
+            if (v->peer->ended()) ++totals_.vehicles_cut;
+        }
+        for (auto& d : dashboards_) {
+            if (!ready(*d->peer)) continue;
+            d->peer->read([&](std::string_view text) { d->take(text, by_id_, counts_, totals_); },
+                          [](const Peer::Answer&) {});
+            if (d->peer->ended()) ++totals_.dashboards_cut;
+        }
+        for (auto& a : askers_) {
+            if (!ready(*a.peer)) continue;
+            a.peer->read(
+                [](std::string_view) {},
+                [&](const Peer::Answer& answer) {
+                    a.busy = false;
+                    ++totals_.statuses[answer.status];
+                    if (answer.status >= 300) {
+                        totals_.refusals.try_emplace(answer.status, answer.body);
+                    }
+                    const double ms =
+                        std::chrono::duration<double, std::milli>(Clock::now() - a.due).count();
+                    if (counts_) (a.orders ? totals_.accepted : totals_.answers).add(ms);
+                });
+            if (!a.peer->ended()) continue;
+            // A connection has a thousand requests; then it is begun anew.
+            if (a.busy) ++totals_.requests_cut;
+            a = {std::make_unique<Peer>(settings_.port), {}, false, a.orders};
+        }
+    }
+
+    nlohmann::json summary() const {
+        nlohmann::json statuses = nlohmann::json::object();
+        for (const auto& [status, n] : totals_.statuses) statuses[std::to_string(status)] = n;
+        nlohmann::json refusals = nlohmann::json::object();
+        for (const auto& [status, body] : totals_.refusals) {
+            refusals[std::to_string(status)] = body;
+        }
+        return {{"states", totals_.states},
+                {"states_per_s", static_cast<double>(totals_.states) / settings_.seconds},
+                {"frames", totals_.frames},
+                {"state_to_dashboard", totals_.to_dashboard.summary()},
+                {"answers", totals_.answers.summary()},
+                {"accepted", totals_.accepted.summary()},
+                {"statuses", statuses},
+                {"refusals", refusals},
+                {"not_asked_in_time", waits_},
+                {"events", totals_.events},
+                {"events_lost", totals_.events_lost},
+                {"vehicles_lost", totals_.vehicles_lost.size()},
+                {"vehicles_cut", totals_.vehicles_cut},
+                {"dashboards_cut", totals_.dashboards_cut},
+                {"requests_cut", totals_.requests_cut}};
+    }
+
+    Settings settings_;
+    std::vector<std::unique_ptr<Vehicle>> vehicles_;
+    std::map<std::string, Vehicle*, std::less<>> by_id_;
+    std::vector<std::unique_ptr<Dashboard>> dashboards_;
+    std::vector<Asker> askers_;
+    std::vector<pollfd> polled_;
+    Totals totals_;
+    Clock::time_point begin_;
+    bool counts_ = false;
+    std::uint64_t waits_ = 0;
+};
+
+}  // namespace
+}  // namespace pulseline::load
+
+int main(int argc, char** argv) {
+    pulseline::load::Settings settings;
+    CLI::App app("Load of vehicles, dashboards and programs on a server of this machine");
+    app.add_option("--port", settings.port)->required();
+    app.add_option("--vehicles", settings.vehicles_file,
+                   "a line each: id maker serial token x_m y_m node hall")
+        ->required();
+    app.add_option("--token", settings.token, "of the API, role operator")->required();
+    app.add_option("--states", settings.states_per_s, "of a vehicle in a second");
+    app.add_option("--dashboards", settings.dashboards);
+    app.add_option("--watchers", settings.watchers);
+    app.add_option("--requests", settings.requests_per_s, "in a second");
+    app.add_option("--orders", settings.orders_per_s, "in a second");
+    app.add_option("--seconds", settings.seconds)->check(CLI::Range(1.0, 7200.0));
+    CLI11_PARSE(app, argc, argv);
+    try {
+        std::puts(pulseline::load::Load(settings).run().dump().c_str());
+        return 0;
+    } catch (const std::exception& e) {
+        std::fprintf(stderr, "load_client: %s\n", e.what());
+        return 1;
+    }
+}
