@@ -10,11 +10,12 @@ import { promisify } from "node:util";
 
 import { manyVehicles } from "../bench/many_vehicles.mjs";
 import { BUILD, System } from "../harness/processes.mjs";
+import { attacks } from "./attacks.mjs";
 
 const full = process.env.PULSELINE_LOAD === "full";
 const kLoad = process.env.TRY ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 40 } : full ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 600 } : { vehicles: 300, dashboards: 20, requests: 50, orders: 5, seconds: 40 };
 // On two cores that the load itself shares; the figures to hold are the full ones.
-const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024 };
+const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024, health_p99_ms: 100, vehicle_p99_ms: 250 };
 
 const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
 
@@ -30,6 +31,7 @@ async function hall(count) {
     const { pose, node, hall } = home.get(vehicle.home);
     return [vehicle.id, vehicle.manufacturer, vehicle.serial_number, tokens.get(`${vehicle.manufacturer}/${vehicle.serial_number}`), pose.x_m, pose.y_m, node, hall].join(" ");
   });
+  system.tokenOfVehicle = (id) => { const { manufacturer, serial_number } = system.plant.vehicle(id); return tokens.get(`${manufacturer}/${serial_number}`); };
   system.vehiclesFile = join(system.directory, "vehicles");
   writeFileSync(system.vehiclesFile, `${rows.join("\n")}\n`);
   return system;
@@ -66,6 +68,52 @@ test("a shift's load: reports reach dashboards in time and nobody is taken for l
     assert.ok(found.accepted.p99_ms <= kBounds.accepted_p99_ms, `accepted ${JSON.stringify(found.accepted)}`);
     assert.ok(found.rss_kb.most <= kBounds.rss_kb, `memory ${JSON.stringify(found.rss_kb)}`);
     if (full) assert.ok(found.rss_kb.end <= 1.05 * found.rss_kb.warm, `memory grows: ${JSON.stringify(found.rss_kb)}`);
+  } finally {
+    await system.stop();
+  }
+});
+
+/** Asks one thing every 50 ms, as a watchdog does, until told to stop; the milliseconds of its answers. */
+function watch(url, headers = {}) {
+  const times = [];
+  let on = true;
+  const done = (async () => {
+    while (on) {
+      const begin = performance.now();
+      const response = await fetch(url, { headers, signal: AbortSignal.timeout(20_000) }).catch(() => undefined);
+      await response?.arrayBuffer();
+      times.push(response?.status === 200 ? performance.now() - begin : Infinity);
+      await new Promise((next) => setTimeout(next, 50));
+    }
+  })();
+  return { stop: async () => { on = false; await done; return times.sort((a, b) => a - b)[Math.ceil(0.99 * times.length) - 1]; } };
+}
+
+// The load of before with one attacker beside it. What one client does is nobody else's trouble: vehicles keep their links, dashboards
+// their poses, a watchdog and an MES their answers.
+const kBeside = full ? { vehicles: 1000, dashboards: 100, requests: 100, orders: 10, seconds: 30 } : { vehicles: 100, dashboards: 10, requests: 20, orders: 2, seconds: 8 };
+
+test("one attacker beside the load changes nothing for the others", { timeout: Object.keys(attacks).length * (kBeside.seconds + 60) * 1000 }, async (t) => {
+  const system = await hall(kBeside.vehicles + 1);
+  try {
+    // The last vehicle is the attackers'.
+    const rows = readFileSync(system.vehiclesFile, "utf8").trim().split("\n");
+    writeFileSync(system.vehiclesFile, `${rows.slice(0, -1).join("\n")}\n`);
+    await system.startServer();
+    for (const [name, attack] of Object.entries(attacks)) {
+      await t.test(name, async (part) => {
+        const health = watch(`${system.url}/healthz`), vehicles = watch(`${system.url}/api/v1/vehicles/V1`, { Authorization: `Bearer ${system.apiToken}` });
+        const [found] = await Promise.all([load(system, kBeside), attack(system, Date.now() + 1000 * kBeside.seconds)]);
+        const [health_p99_ms, vehicle_p99_ms] = [await health.stop(), await vehicles.stop()];
+        const figures = { health_p99_ms, vehicle_p99_ms, to_dashboard: found.state_to_dashboard, accepted: found.accepted, rss_kb: found.rss_kb.most, statuses: found.statuses };
+        part.diagnostic(JSON.stringify(figures));
+        assert.equal(found.vehicles_lost + found.vehicles_cut + found.dashboards_cut, 0, JSON.stringify(found));
+        assert.deepEqual(Object.keys(found.statuses).filter((status) => Number(status) >= 500), []);
+        assert.ok(found.state_to_dashboard.p99_ms <= kBounds.to_dashboard_p99_ms, JSON.stringify(figures));
+        assert.ok(health_p99_ms <= kBounds.health_p99_ms && vehicle_p99_ms <= kBounds.vehicle_p99_ms, JSON.stringify(figures));
+        assert.ok(found.rss_kb.most <= kBounds.rss_kb, JSON.stringify(figures));
+      });
+    }
   } finally {
     await system.stop();
   }
