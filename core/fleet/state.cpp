@@ -83,7 +83,9 @@ std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& po
 
 std::string hall_of(const FleetState& fleet, const VehicleRun& run) {
     if (run.has_leg()) return run.leg().hall;
-    if (!run.record.hall.empty()) return run.record.hall;
+    // Of a plant that had other halls it may not be one any more.
+    const plant::HallId known(run.record.hall);
+    if (plant::find_hall(fleet.plant, known)) return known.str();
     const auto* home = plant::find_station(fleet.plant, run.vehicle->home);
     if (home) return home->hall.str();
     return fleet.plant.halls.empty() ? std::string{} : fleet.plant.halls.front().id.str();
