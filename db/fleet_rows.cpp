@@ -231,6 +231,13 @@ void VehicleRow::set(const fleet::VehicleRecord& v) {
     last_stop_station = v.last_stop_station.str();
     last_stop_inside = v.last_stop_inside;
     integration = stored(v.integration);
+    hall = v.hall;
+    const fleet::Whereabouts claim = v.claim.value_or(fleet::Whereabouts{});
+    claimed_hall = claim.hall;
+    claimed_x_m = finite(claim.pose.x_m, "claim.x_m");
+    claimed_y_m = finite(claim.pose.y_m, "claim.y_m");
+    claimed_heading_rad = finite(claim.pose.heading_rad, "claim.heading_rad");
+    in_doubt = v.claim.has_value();
 }
 
 fleet::VehicleRecord VehicleRow::get() const {
@@ -249,6 +256,10 @@ fleet::VehicleRecord VehicleRow::get() const {
     v.last_stop_station = plant::StationId(last_stop_station);
     v.last_stop_inside = last_stop_inside != 0;
     read(integration, v.integration);
+    v.hall = hall;
+    if (in_doubt != 0) {
+        v.claim = fleet::Whereabouts{{claimed_x_m, claimed_y_m, claimed_heading_rad}, claimed_hall};
+    }
     return v;
 }
 

@@ -103,6 +103,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         json["speed_mps"] = state.velocity_mps;
     }
     if (vehicle.pose) json["pose"] = pose_json(*vehicle.pose);
+    if (vehicle.claimed_pose) json["claimed_pose"] = pose_json(*vehicle.claimed_pose);
     if (vehicle.pose_at) json["pose_at"] = rfc3339(*vehicle.pose_at);
     if (!vehicle.order.empty()) json["order"] = vehicle.order.str();
     if (vehicle.leg) json["leg"] = leg_json(*vehicle.leg);

@@ -37,11 +37,6 @@ bool is_away(const Pose2& a, const Pose2& b) {
            std::abs(wrap(a.heading_rad - b.heading_rad)) > kMoved_rad;
 }
 
-/// It may have lost its pose since: it still stands where it was confirmed last.
-bool has_stood(const VehicleRecord& record) {
-    return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
-}
-
 /// One that has never told where it stands is taken to stand at home, until it tells or another one
 /// is found there.
 std::optional<Pose2> presumed_pose(const FleetState& fleet, const VehicleRun& run) {
@@ -176,6 +171,11 @@ bool clears_up_on_leg(const VehicleRun& run) {
 
 }  // namespace
 
+// It may have lost its pose since: it still stands where it was confirmed last.
+bool has_stood(const VehicleRecord& record) {
+    return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
+}
+
 TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
     return traffic::tiles_under(hall_index(fleet, hall_of(fleet, run)), outline_at(run, pose),
                                 kFloorMargin_m);
@@ -253,6 +253,22 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
         run.floor.conflict = Reason{"floor_conflict", who};
         add_event(fleet, now, "vehicle.floor_conflict", {}, {}, run.record.id, {}, who);
     }
+    halt_or_resume(fleet, run, now);
+}
+
+void hold_both_floors(FleetState& fleet, VehicleRun& run, Time now) {
+    if (run.record.integration < Integration::kRespect) return;
+    const Whereabouts& claim = *run.record.claim;
+    TileSet claimed;
+    if (is_in_hall(fleet, claim)) {
+        claimed = traffic::tiles_under(hall_index(fleet, claim.hall), outline_at(run, claim.pose),
+                                       kFloorMargin_m);
+    }
+    const auto known = stored_floor(fleet, run);
+    TileSet both = traffic::merge(known.stand, claimed);
+    for (const auto& move : known.moves) both = traffic::merge(both, move.swept);
+    hold_what_is_free(fleet, run, both, now);
+    run.floor.leg_planned = false;
     halt_or_resume(fleet, run, now);
 }
 

@@ -62,6 +62,11 @@ void widen_nodes(Leg& leg);
 /// A vehicle without a leg stands where its record says. It keeps its plan when that is where the
 /// plan has it, unless `give_up_plan`.
 void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan = false);
+/// Nobody knows where it stands: it keeps all its floor, and of that where it says that it stands
+/// what is free.
+void hold_both_floors(FleetState& fleet, VehicleRun& run, Time now);
+/// Somebody has told where it stands, or has known; else it is only presumed to stand at home.
+bool has_stood(const VehicleRecord& record);
 /// The vehicle is out of the hall: it holds no floor.
 void leave_floor(FleetState& fleet, VehicleRun& run, Time now);
 /// The last approach was not successful enough to move on: floor for a correction in place.

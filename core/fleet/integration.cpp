@@ -40,6 +40,9 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     run.record.at_station = {};
     run.record.pose_known = false;
     run.record.pose = {};
+    run.record.hall = {};
+    run.record.claim.reset();
+    run.stated.reset();
     JobOrder* order = fleet.orders.of(run.record.id);
     drop_leg(fleet, run, now);
     leave_floor(fleet, run, now);

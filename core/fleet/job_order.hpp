@@ -164,11 +164,22 @@ struct Leg {
 enum class Integration { kIgnore, kNotice, kRespect, kUtilise };
 const char* to_string(Integration level);  // "utilise"
 
+/// A pose in one of the halls.
+struct Whereabouts {
+    Pose2 pose;
+    std::string hall;
+    friend bool operator==(const Whereabouts&, const Whereabouts&) = default;
+};
+
 /// What survives a restart about a vehicle.
 struct VehicleRecord {
     plant::VehicleId id;
     bool pose_known = false;
-    Pose2 pose;                   // last confirmed
+    Pose2 pose;        // last confirmed
+    std::string hall;  // of it; empty: of its home
+    /// Where it says that it stands, which cannot be true. Its floor is held beside that of `pose`
+    /// until a person has said where it stands; `pose_known` is false as long.
+    std::optional<Whereabouts> claim;
     plant::StationId at_station;  // empty while between stations
     LegId leg;                    // the drive it was last told, until finished or given up
     bool has_leg = false;

@@ -27,8 +27,10 @@ enum class Mutation {
     kLastStepSkipped,        // an order ends one step too early
     kLostPoseLosesFloor,     // a vehicle without pose holds no floor after a restart
     kTurnsOnly,              // one that cannot turn does not try to leave straight on
+    kJumpIsBelieved,         // a pose that cannot be true counts
+    kFarStopIsTaken,         // a stop measured far from its station counts
 };
-constexpr int kMutationCount = 22;
+constexpr int kMutationCount = 24;
 
 #ifdef PULSELINE_FLEET_MUTATIONS
 inline Mutation planted_mutation = Mutation::kNone;

@@ -53,6 +53,9 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
     open_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);
+    for (auto& [id, run] : fleet.vehicles) {
+        if (is_in_doubt(run)) keep_doubt(fleet, run, now);
+    }
 }
 
 }  // namespace pulseline::fleet

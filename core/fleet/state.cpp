@@ -83,7 +83,9 @@ std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& po
 
 std::string hall_of(const FleetState& fleet, const VehicleRun& run) {
     if (run.has_leg()) return run.leg().hall;
-    if (!run.state.map_id.empty()) return run.state.map_id;
+    // Of a plant that had other halls it may not be one any more.
+    const plant::HallId known(run.record.hall);
+    if (plant::find_hall(fleet.plant, known)) return known.str();
     const auto* home = plant::find_station(fleet.plant, run.vehicle->home);
     if (home) return home->hall.str();
     return fleet.plant.halls.empty() ? std::string{} : fleet.plant.halls.front().id.str();
@@ -110,9 +112,13 @@ std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
                                                     const plant::VehicleId& except) {
     std::vector<planning::StandingBody> bodies;
     for (const auto& [id, run] : fleet.vehicles) {
-        if (id == except || !run.record.pose_known) continue;
+        const auto& claim = run.record.claim;
+        if (id == except || !(run.record.pose_known || claim)) continue;
         if (run.record.integration < Integration::kRespect) continue;
-        if (hall_of(fleet, run) != hall.str()) continue;
+        if (claim && claim->hall == hall.str()) {
+            bodies.push_back({id, outline_at(run, claim->pose)});
+        }
+        if (hall_of(fleet, run) != hall.str() || !has_stood(run.record)) continue;
         bodies.push_back({id, outline_at(run, run.record.pose)});
     }
     return bodies;

@@ -68,6 +68,20 @@ struct VehicleRun {
     bool gave_up = false;            // the vehicle does not have this leg; see forget_leg
     bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
     FloorStand floor;
+    /// Where it was believed to be, newest and at least a second before: see take_pose.
+    struct Seen {
+        Pose2 pose;
+        Time at;
+        bool moving = false;   // about then
+        double speed_mps = 0;  // by its own word
+    };
+    std::optional<Seen> seen;
+    std::optional<Seen> seen_before;
+    struct Statement {
+        Whereabouts where;
+        Time at;
+    };
+    std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
     std::optional<Time> leg_started;
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
@@ -223,6 +237,8 @@ void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, T
 bool is_on_its_way(const VehicleRun& run);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
 bool is_automatic(const VehicleRun& run);
+/// It has given up its order, or done all of it.
+bool has_nothing_left(const StateMessage& state);
 /// It carries out an order that this server has not given, or has forgotten.
 bool has_foreign_order(const VehicleRun& run);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
@@ -237,8 +253,25 @@ void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
 void update_links(FleetState& fleet, Time now);
 void resend(FleetState& fleet, Time now);
 
+// --- where vehicles stand (vehicle_pose.cpp) ---
+/// Takes what `run.state` says of the pose, if it can be true after what was known (`before`).
+/// Else, from then on and until a person has said where it stands, it counts as not known.
+void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, Time now);
+/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
+/// it.
+void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now);
+bool is_in_doubt(const VehicleRun& run);
+/// Having claimed to be elsewhere it says again that it is where it was known to be.
+bool stands_where_known(const FleetState& fleet, const VehicleRun& run, Time now);
+/// A person has looked: it is where it says now.
+void end_doubt(FleetState& fleet, VehicleRun& run, Time now);
+/// After a restart: both floors, and the leg is given up as it was to be before.
+void keep_doubt(FleetState& fleet, VehicleRun& run, Time now);
+/// Halls can be told apart by name only.
+bool is_in_hall(const FleetState& fleet, const Whereabouts& where);
+
 // --- stops (stops.cpp) ---
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& found, Time now);
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& told, Time now);
 void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now);
 
 // --- orders (orders.cpp) ---

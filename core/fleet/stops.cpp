@@ -1,3 +1,6 @@
+#include <cmath>
+
+#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
 #include "core/plant/deviation.hpp"
@@ -6,6 +9,32 @@ namespace pulseline::fleet {
 namespace {
 
 constexpr int kApproaches = 3;  // of one step before a person is asked
+
+// A leg ends within centimetres of its station, and no camera sees a station's codes from farther
+// away: what says so has read another code.
+constexpr double kFarFromStation_m = 1;
+constexpr double kFarFromStation_rad = radians(30);
+// Its own pose follows what it has measured, but for the message under way.
+constexpr double kElsewhere_m = 0.3;
+
+/// Why a measurement cannot be true; null: it can.
+const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
+                     const Pose2& found) {
+    if (mutated(Mutation::kFarStopIsTaken)) return nullptr;
+    if (!(std::isfinite(found.x_m) && std::isfinite(found.y_m) &&
+          std::isfinite(found.heading_rad))) {
+        return "measured_nowhere";
+    }
+    if (!is_in_hall(fleet, {found, station.hall.str()})) return "measured_outside_hall";
+    const bool far =
+        geometry::distance(found.position(), station.pose.position()) > kFarFromStation_m ||
+        std::abs(wrap(found.heading_rad - station.pose.heading_rad)) > kFarFromStation_rad;
+    if (far) return "measured_far_from_station";
+    const bool elsewhere =
+        run.record.pose_known &&
+        geometry::distance(found.position(), run.record.pose.position()) > kElsewhere_m;
+    return elsewhere ? "measured_elsewhere" : nullptr;
+}
 
 StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
                        const StopMeasurement& found, Time now) {
@@ -58,10 +87,14 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
 
 }  // namespace
 
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& found,
-                        Time now) {
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& told, Time now) {
     const plant::Station* station = plant::find_station(fleet.plant, run.leg().station);
     if (!station) return;
+    if (const char* fault = fault_of(fleet, run, *station, told.pose)) {
+        return take_failed_stop(fleet, run, fault, now);
+    }
+    StopMeasurement found = told;
+    found.pose.heading_rad = wrap(told.pose.heading_rad);
     const StopRecord stop = stop_record(fleet, run, *station, found, now);
     fleet.out.records.stops.push_back(stop);
     run.record.pose = found.pose;

@@ -8,6 +8,9 @@
 namespace pulseline::fleet {
 namespace {
 
+// A person who says that it stands about where it says means the hall that it says, too.
+constexpr double kAsClaimed_m = 1;
+
 tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
     return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},
                 {{"vehicle", id.str()}});
@@ -20,7 +23,7 @@ bool is_about_vehicle(const Reason& reason) {
                                          "order_not_accepted", "order_rejected",
                                          "foreign_order",      "identity_conflict",
                                          "vehicle_withdrawn",  "load_on_withdrawn_vehicle",
-                                         "driven_by_hand"};
+                                         "driven_by_hand",     "pose_jumped"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
@@ -89,13 +92,21 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
             "Vehicle " + id.str() + " is not connected. Its position can be set when it is.", {},
             {{"vehicle", id.str()}});
     }
-    const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str();
+    // In doubt its leg is kept after it has given it up, since the floor of it is.
+    const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str() &&
+                           !(is_in_doubt(*run) && has_nothing_left(run->state));
     if (run->state.driving || has_order) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
                     {}, {{"vehicle", id.str()}});
     }
-    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(hall_of(fleet, *run)));
+    Whereabouts stated{pose, hall_of(fleet, *run)};
+    stated.pose.heading_rad = wrap(pose.heading_rad);
+    const auto& claim = run->record.claim;
+    if (claim && geometry::distance(claim->pose.position(), pose.position()) < kAsClaimed_m) {
+        stated.hall = claim->hall;
+    }
+    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(stated.hall));
     if (hall && !geometry::contains(hall->outline, pose.position())) {
         return fail(Errc::kUnreachable, "outside_hall",
                     "That position lies outside hall " + hall->name + ".", "/x_m",
@@ -105,7 +116,8 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                   [](const PendingAction& p) { return p.action.type == "initPosition"; });
     Action action;
     action.type = "initPosition";
-    action.init_position = InitPosition{pose, hall_of(fleet, *run), {}};
+    action.init_position = InitPosition{pose, stated.hall, {}};
+    run->stated = VehicleRun::Statement{stated, now};
     add_event(fleet, now, "vehicle.init_position", {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
     send_action(fleet, *run, std::move(action), now);
@@ -136,6 +148,13 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
                             " is driven by hand. Give it back at the vehicle first.",
                         field, {{"operating_mode", run->state.operating_mode}});
         }
+        if (is_in_doubt(*run) && !stands_where_known(fleet, *run, now)) {
+            return fail(Errc::kConflict, "pose_in_doubt",
+                        "Vehicle " + vehicles[i].str() +
+                            " says that it stands where it cannot be. Look at it and set its "
+                            "position first.",
+                        field, {{"vehicle", vehicles[i].str()}});
+        }
         const bool allowed_back = run->connection_refused;
         if (run->record.needs_resume && !allowed_back && (!run->connected || !run->reconciled)) {
             return fail(Errc::kConflict, "vehicle_silent",
@@ -156,6 +175,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         fleet.out.fleet_changed = true;
         fleet.store(run);
         if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
+        if (is_in_doubt(run)) end_doubt(fleet, run, now);
 
         resume_leg(fleet, run, actor, now);
         JobOrder* order = fleet.orders.of(id);  // none any more when that ended a cancel

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
@@ -37,14 +37,6 @@ void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-/// It has given up its order, or done all of it. One whose drive failed while it corrected its stop
-/// says that it does not drive, but not that the correction is over.
-bool has_nothing_left(const StateMessage& state) {
-    return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
-           std::none_of(state.action_states.begin(), state.action_states.end(),
-                        [](const auto& action) { return action.status == ActionStatus::kRunning; });
-}
-
 void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
     bool cancelled = false;
     bool again = false;
@@ -72,54 +64,6 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
     if (!again) return;
     run.cancelling = false;
     cancel_leg(fleet, run, now);
-}
-
-void take_pose(FleetState& fleet, VehicleRun& run, Time now) {
-    const StateMessage& state = run.state;
-    const bool known = state.position_initialized && state.pose.has_value();
-    if (known) {
-        const bool was_known = run.record.pose_known;
-        run.record.pose = *state.pose;
-        run.record.pose_known = true;
-        if (!was_known) {
-            add_event(fleet, now, "vehicle.pose_confirmed", {}, {}, run.record.id, {},
-                      {{"x_m", state.pose->x_m},
-                       {"y_m", state.pose->y_m},
-                       {"heading_rad", state.pose->heading_rad}});
-            fleet.store(run);
-        }
-    } else if (run.record.pose_known) {
-        run.record.pose_known = false;
-        add_event(fleet, now, "vehicle.pose_lost", {}, {}, run.record.id, {});
-        fleet.store(run);
-    }
-    const plant::StationId station =
-        known && !state.driving && run.record.integration >= Integration::kRespect
-            ? station_at(fleet, run, run.record.pose)
-            : plant::StationId{};
-    if (station != run.record.at_station && (known || state.driving)) {
-        for (const auto& changed : {station, run.record.at_station}) {
-            if (!changed.empty()) fleet.changed_stations.insert(changed);
-        }
-        run.record.at_station = station;
-        fleet.store(run);
-    }
-}
-
-/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
-/// it.
-void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
-    const StateMessage& state = run.state;
-    if (state.position_initialized || state.driving) return;
-    if (run.record.integration < Integration::kRespect) return;
-    if (is_asked(run, "initPosition")) return;
-    const auto pose = pose_from_codes(fleet, run, state.cameras);
-    if (!pose) return;
-    Action action;
-    action.type = "initPosition";
-    action.blocking = BlockingType::kHard;
-    action.init_position = InitPosition{*pose, hall_of(fleet, run), {}};
-    send_action(fleet, run, std::move(action), now);
 }
 
 const VehicleError* rejection_of(const StateMessage& state, const std::string& order_id) {
@@ -293,6 +237,14 @@ void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, T
 
 }  // namespace
 
+// One whose drive failed while it corrected its stop says that it does not drive, but not that the
+// correction is over.
+bool has_nothing_left(const StateMessage& state) {
+    return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
+           std::none_of(state.action_states.begin(), state.action_states.end(),
+                        [](const auto& action) { return action.status == ActionStatus::kRunning; });
+}
+
 bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }
 
 void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
@@ -356,17 +308,16 @@ void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, T
     hear(fleet, run, now);
     if (is_overtaken(run, state)) return;
     run.newest_header = state.header_id;
-    const std::vector<VehicleError> errors_before = std::move(run.state.errors);
-    const std::string mode_before = run.state.operating_mode;
-    run.state = state;
+    const StateMessage before = std::exchange(run.state, state);
     run.state_at = now;
     run.reconciled = true;
     fleet.changed_vehicles.insert(run.record.id);
-    note_errors(fleet, run, errors_before, now);
-    take_pose(fleet, run, now);
-    watch_mode(fleet, run, mode_before, now);
+    note_errors(fleet, run, before.errors, now);
+    take_pose(fleet, run, before, now);
+    watch_mode(fleet, run, before.operating_mode, now);
     take_action_states(fleet, run, now);
-    if (run.has_leg()) take_leg_progress(fleet, run, now);
+    // What it has passed is where it says to be; on that nothing is freed or measured.
+    if (run.has_leg() && !is_in_doubt(run)) take_leg_progress(fleet, run, now);
     watch_foreign_order(fleet, run, now);
     if (!state.driving) settle(fleet, run, now);
     halt_or_resume(fleet, run, now);

@@ -215,7 +215,10 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
     view.reason = std::move(what.reason);
     view.last_heard = run.last_heard;
     view.pose_known = run.record.pose_known;
-    if (run.record.pose_known || run.state_at) {
+    if (run.record.claim) {
+        view.claimed_pose = run.record.claim->pose;
+        if (has_stood(run.record)) view.pose = run.record.pose;
+    } else if (run.record.pose_known || run.state_at) {
         view.pose = run.record.pose_known ? std::optional<Pose2>(run.record.pose) : run.state.pose;
     }
     view.pose_at = run.state_at;

@@ -52,6 +52,7 @@ struct VehicleView {
     std::optional<Time> last_heard;
     bool pose_known = false;
     std::optional<Pose2> pose;
+    std::optional<Pose2> claimed_pose;  // where it says to be and cannot be; `pose`: where it was
     std::optional<Time> pose_at;
     std::string hall;
     plant::StationId at_station;

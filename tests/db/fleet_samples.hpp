@@ -137,6 +137,8 @@ public:
         v.id = plant::VehicleId(id);
         v.pose_known = true;
         v.pose = pose();
+        v.hall = "h1";
+        v.claim = fleet::Whereabouts{pose(), "h2"};
         v.at_station = plant::StationId("st01");
         v.needs_resume = true;
         v.needs_resume_reason = {"server_restarted", {{"at", std::int64_t{5}}}};

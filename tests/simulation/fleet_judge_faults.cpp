@@ -8,6 +8,7 @@ namespace pulseline::fleet_judge {
 namespace {
 
 constexpr double kPush_m = 0.4;
+constexpr int kForGood = 1 << 30;
 constexpr double kPushRoom_m = 1.2;  // free floor that a person looks for before pushing
 
 /// Outline of a body grown by the room around it, for a look from afar.
@@ -51,6 +52,10 @@ void World::disturb() {
             crash("server dies");
             break;
         case 3:
+            if (chance(0.4)) {
+                long_command_ = true;
+                break;
+            }
             ++outcome_.faults["server stands still"];
             stalled_until_s_ = now_s_ + pick(1, 30);
             break;
@@ -100,7 +105,11 @@ void World::crash(const char* how) {
 void World::disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     Watch& watch = watch_[id];
     if (vehicle.dead) return;
-    switch (pick(0, 6)) {
+    switch (pick(0, 8)) {
+        case 7:
+        case 8:
+            misread();
+            break;
         case 0:
         case 1:
             ++outcome_.faults["vehicle dies and returns"];
@@ -167,6 +176,24 @@ void World::push(const plant::VehicleId& id, Vehicle& vehicle) {
     note_told(id, state);
     fleet_->vehicle_state(id, state, now());
     settle();
+}
+
+/// A code read wrongly: for one report, for some, or until a person has looked.
+void World::misread() {
+    const bool driving = chance(0.5);
+    std::vector<Vehicle*> some;
+    for (auto& [id, one] : vehicles_) {
+        if (one.at_work() == driving) some.push_back(&one);
+    }
+    if (some.empty()) return;
+    Vehicle& vehicle = *some[static_cast<std::size_t>(pick(0, static_cast<int>(some.size()) - 1))];
+    if (vehicle.dead || !vehicle.knows_pose() || vehicle.misreads()) return;
+    const double off_m = 0.5 * pick(1, 40);
+    const double direction = radians(pick(0, 359));
+    const double turn = chance(0.5) ? 0 : radians(90 * pick(1, 3));
+    const int reports = chance(0.3) ? 1 : chance(0.5) ? pick(2, 20) : kForGood;
+    vehicle.misread({off_m * std::cos(direction), off_m * std::sin(direction), turn}, reports);
+    ++outcome_.faults[vehicle.at_work() ? "wrong pose while driving" : "wrong pose while standing"];
 }
 
 void World::disturb_orders() {
@@ -239,6 +266,7 @@ void World::end_faults() {
         // One whose commit was lost is not there any more.
         static_cast<void>(fleet_->reopen_floor(closed_[i].id, "person", now()));
         settle();
+        if (unstored_) return;  // whether it is reopened is known when the store answers
         const auto open = fleet_->traffic(now()).closures;
         const bool there = std::any_of(open.begin(), open.end(),
                                        [&](const auto& c) { return c.id == closed_[i].id; });

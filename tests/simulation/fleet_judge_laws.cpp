@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "core/kinematics/motion.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
 
 // What must hold, whatever goes wrong.
@@ -112,8 +113,31 @@ void World::check_sent(const fleet::VehicleMessage& message) {
     const auto before = known.find(message.order->order_id);
     const bool extends = before == known.end() || before->second < base;
     if (!extends) return;
+    const std::int64_t base_before = before == known.end() ? 0 : before->second;
     known[message.order->order_id] = base;
-    if (base > 0) check_given_floor(message.vehicle);
+    if (base == 0) return;
+    check_given_floor(message.vehicle);
+    check_true_bodies(message, base_before);
+}
+
+/// Nobody is given floor on which the true body of another stands, whatever that one says.
+void World::check_true_bodies(const fleet::VehicleMessage& message, std::int64_t base_before) {
+    const auto& order = *message.order;
+    const std::vector<geometry::Polygon> body{vehicles_.at(message.vehicle).type().footprint};
+    for (std::size_t i = 0; i < order.edges.size(); ++i) {
+        if (!order.edges[i].released || order.edges[i].sequence_id <= base_before) continue;
+        const auto swept = kinematics::sweep(body, {order.edges[i].segment});
+        for (const auto& [id, other] : vehicles_) {
+            if (id == message.vehicle) continue;
+            const auto outline = geometry::transformed(other.pose(), other.type().footprint);
+            const bool meets = std::any_of(swept.begin(), swept.end(), [&](const auto& piece) {
+                return geometry::intersects(piece, outline);
+            });
+            if (!meets) continue;
+            violate(message.vehicle.str() + " is given floor on which " + id.str() + " stands" +
+                    text_of(other.pose()));
+        }
+    }
 }
 
 /// Nobody is told to drive sideways who cannot, as a way with a turn left out would.
@@ -138,7 +162,8 @@ void World::check_given_floor(const plant::VehicleId& id) {
     // Before and after what was heard last: it may have become fit in between.
     if (watch.counted.unfit && watch.told.unfit)
         violate(id.str() + " is given floor and says that it cannot drive");
-    if (now_s_ - watch.told.at_s > kHeard_s) violate(id.str() + " is silent and is given floor");
+    if (decided_s_ - watch.told.at_s > kHeard_s)
+        violate(id.str() + " is silent and is given floor");
 }
 
 void World::note_told(const plant::VehicleId& id, const fleet::StateMessage& state) {
@@ -244,7 +269,8 @@ void World::check_end() {
                 (view.reason ? " " + view.reason->code + text_of(view.reason->params) : "") +
                 (view.pose ? text_of(*view.pose) : "") + " at node " +
                 std::to_string(view.state.last_node_sequence_id) + " update " +
-                std::to_string(view.state.order_update_id) + (view.state.paused ? " paused" : ""));
+                std::to_string(view.state.order_update_id) + (view.state.paused ? " paused" : "") +
+                (view.claimed_pose ? " claims" + text_of(*view.claimed_pose) : std::string()));
         const auto& leg = store_.vehicles[view.id].leg_data;
         if (view.leg) {
             violate("    leg " + std::to_string(leg.nodes.size()) + " nodes, " +
@@ -289,7 +315,8 @@ void World::take_in(const fleet::Outputs& out) {
     }
     for (const auto& record : out.records.vehicles) {
         take_in(record.id.str() + text_of(record.pose) + record.at_station.str() +
-                record.leg.str() + std::to_string(record.leg_data.released_nodes) +
+                (record.claim ? text_of(record.claim->pose) : std::string()) + record.leg.str() +
+                std::to_string(record.leg_data.released_nodes) +
                 std::to_string(record.leg_data.passed_nodes) + (record.needs_resume ? "!" : "."));
     }
     for (const auto& stop : out.records.stops) take_in(stop.id.str() + text_of(stop.measured));

@@ -104,9 +104,16 @@ void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     const bool down = vehicle.manual || vehicle.broken || vehicle.dead || vehicle.safety_stopped;
     if (now_s_ < watch.person_at_s || down) return;
     watch.person_at_s = now_s_ + 5;
-    if (waits) {
-        if (!fleet_->resume_fleet({id}, "person", now())) return;
+    const bool in_doubt = view->claimed_pose.has_value();
+    if (waits && fleet_->resume_fleet({id}, "person", now())) {
         watch.restarted_on_leg = watch.needs_person = false;
+    } else if (in_doubt) {
+        // It is not where it says; a person walks there and looks.
+        if (vehicle.standing()) {
+            static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));
+        }
+    } else if (waits) {
+        return;
     } else if (vehicle.standing() && !vehicle.knows_pose()) {
         // No codes below it: the person says where it stands.
         static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));

@@ -40,6 +40,7 @@ Vehicle::~Vehicle() = default;
 void Vehicle::boot(const Pose2& pose) {
     executor_.reset();
     cameras_.reset();
+    misread_reports_ = 0;
     simulation::MotionErrors errors;
     if (type_.length_m() > 5) {  // the platform follows marks on the floor of its row
         errors.heading_rad_per_sqrt_m /= 10;
@@ -68,8 +69,18 @@ void Vehicle::push(const Pose2& to) {
     executor_->handle(fleet::InstantActionsMessage{{action}});
 }
 
+void Vehicle::misread(const Pose2& by, int reports) {
+    misread_ = by;
+    misread_reports_ = reports;
+}
+
 void Vehicle::receive(const fleet::VehicleMessage& message) {
-    if (message.instant_actions) executor_->handle(*message.instant_actions);
+    if (message.instant_actions) {
+        executor_->handle(*message.instant_actions);
+        for (const auto& action : message.instant_actions->actions) {
+            if (action.type == "initPosition") misread_reports_ = 0;
+        }
+    }
     if (message.order) executor_->handle(*message.order);
 }
 
@@ -106,6 +117,12 @@ fleet::StateMessage Vehicle::state() {
     fleet::StateMessage state;
     executor_->write_state(state);
     state.header_id = ++header_id_;
+    if (misread_reports_ > 0 && state.pose) {
+        --misread_reports_;
+        state.pose->x_m += misread_.x_m;
+        state.pose->y_m += misread_.y_m;
+        state.pose->heading_rad = wrap(state.pose->heading_rad + misread_.heading_rad);
+    }
     if (!knows_pose() && standing()) state.cameras = readings();
     if (manual) state.operating_mode = "MANUAL";
     if (broken) state.errors.push_back({"driveFault", true, "the drive is hot", {}});

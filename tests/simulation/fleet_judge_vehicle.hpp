@@ -25,6 +25,10 @@ public:
     /// Pushed by people; its own pose follows, as odometry does.
     void push(const Pose2& to);
     fleet::StateMessage state();
+    /// From now on it says that it stands elsewhere, so far from where it is, in so many reports or
+    /// until it is told where it stands. It drives where it should all the same.
+    void misread(const Pose2& by, int reports);
+    bool misreads() const { return misread_reports_ > 0; }
     /// Something happened that is reported at once.
     bool take_changed();
 
@@ -55,6 +59,8 @@ private:
     std::unique_ptr<Cameras> cameras_;
     std::unique_ptr<simulation::VehicleExecutor> executor_;
     std::int64_t header_id_ = 0;
+    Pose2 misread_;
+    int misread_reports_ = 0;
     bool moved_ = false;
     bool was_ = false;  // one of the three above, when last asked for changes
 };

@@ -74,8 +74,17 @@ void World::step(double dt_s) {
     if (unstored_) retry_store();
     // A stalled or read-only server takes nothing; vehicles go on.
     if (now_s_ >= stalled_until_s_ && !unstored_) {
+        settle();  // what was decided before a long command
+    }
+    if (now_s_ >= stalled_until_s_ && !unstored_) {
+        decided_s_ = now_s_;
         carry_messages();
         if (!unstored_) fleet_->tick(now());
+        if (std::exchange(long_command_, false) && !unstored_) {
+            ++outcome_.faults["long command"];
+            stalled_until_s_ = now_s_ + pick(2, 15);
+            return check_all();
+        }
         settle();
         if (!unstored_) order_some();
         if (!unstored_) let_person_act();
@@ -170,7 +179,13 @@ void World::settle() {
 bool World::commit(fleet::Outputs& out) {
     if (server_crashes_ && !out.records.empty() && chance(0.3)) {
         server_crashes_ = false;
-        switch (pick(0, 2)) {
+        switch (pick(0, 3)) {
+            case 3:
+                ++outcome_.faults["store hangs"];
+                store_hangs_ = true;
+                unstored_ = std::move(out);
+                store_back_s_ = now_s_ + pick(1, 60);
+                return false;
             case 0:
                 crash("server dies before a commit");
                 return false;
@@ -181,10 +196,7 @@ bool World::commit(fleet::Outputs& out) {
                 return false;
             default:
                 ++outcome_.faults["commit fails"];
-                start_server();
-                fleet_->store_failed({"disk_full", now()}, now());
-                unstored_ = take_outputs();
-                store_back_s_ = now_s_ + pick(1, 20);
+                fail_commit();
                 return false;
         }
     }
@@ -194,14 +206,23 @@ bool World::commit(fleet::Outputs& out) {
     return true;
 }
 
+void World::fail_commit() {
+    start_server();
+    fleet_->store_failed({"disk_full", now()}, now());
+    unstored_ = take_outputs();
+    store_back_s_ = now_s_ + pick(1, 20);
+}
+
 void World::retry_store() {
     if (now_s_ < store_back_s_) return;
+    const bool hung = std::exchange(store_hangs_, false);
+    if (hung && chance(0.5)) return fail_commit();
     fleet::Outputs out = std::move(*unstored_);
     unstored_.reset();
     check_records(out.records);
     store_.commit(out.records);
     take_in(out);
-    fleet_->store_works_again(now());
+    if (!hung) fleet_->store_works_again(now());
     send(out);
 }
 
@@ -209,7 +230,7 @@ void World::send(const fleet::Outputs& out) {
     for (const auto& message : out.messages) {
         check_sent(message);
         Line& line = lines_[message.vehicle];
-        if (line.cut) continue;
+        if (line.cut || !line.server_knows) continue;  // it was for a connection of before
         for (int i = copies(); i > 0; --i) line.down.push_back({now_s_ + delay_s(), message});
     }
 }

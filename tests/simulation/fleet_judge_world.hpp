@@ -100,6 +100,7 @@ private:
     fleet::Outputs take_outputs();
     void start_server();
     void retry_store();
+    void fail_commit();
     Time now() const { return base_ + from_seconds(now_s_) + clock_step_; }
 
     // fleet_judge_faults.cpp: what goes wrong, and what ends it
@@ -111,6 +112,7 @@ private:
     void disturb_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
     void pause(const plant::VehicleId& id);
     void push(const plant::VehicleId& id, Vehicle& vehicle);
+    void misread();
     void disturb_orders();
     void close_some();
     double delay_s();
@@ -136,6 +138,7 @@ private:
     void violate(const std::string& what);
     void check_way(const fleet::VehicleMessage& message);
     void check_given_floor(const plant::VehicleId& id);
+    void check_true_bodies(const fleet::VehicleMessage& message, std::int64_t base_before);
     void take_in(const fleet::Outputs& out);
     void take_in(const std::string& text);
 
@@ -165,6 +168,9 @@ private:
     double stalled_until_s_ = 0;
     std::optional<fleet::Outputs> unstored_;  // read-only: the store refuses
     double store_back_s_ = 0;
+    bool store_hangs_ = false;   // `unstored_` is under way and may still be stored
+    bool long_command_ = false;  // the next thing the server does takes seconds
+    double decided_s_ = 0;       // when the server last handled anything
     double retry_s_ = 0;
     double next_order_s_ = 0;
     double next_person_s_ = 0;

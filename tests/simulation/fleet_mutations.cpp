@@ -47,7 +47,9 @@ constexpr Planted kPlanted[] = {{"none", 1},
                                 {"busy is free", 0},
                                 {"last step skipped", 1},
                                 {"lost pose loses floor", 0},
-                                {"turns only", 0}};
+                                {"turns only", 0},
+                                {"jump is believed", 5},
+                                {"far stop is taken", 0}};
 static_assert(std::size(kPlanted) == fleet::kMutationCount);
 
 class FirstFailure : public testing::EmptyTestEventListener {

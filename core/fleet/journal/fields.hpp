@@ -99,8 +99,9 @@ PULSELINE_FIELDS(StopRecord, id, order, leg, step, vehicle, station, station_num
 PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
                  released_nodes, passed_nodes, duration_s, attempt, actions_only, charges)
-PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, at_station, leg, has_leg, leg_data,
-                 needs_resume, needs_resume_reason, paused, integration, last_stop,
+PULSELINE_FIELDS(Whereabouts, pose, hall)
+PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,
+                 leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
                  last_stop_station, last_stop_inside)
 
 // --- new_order.hpp, closures.hpp, standing_orders.hpp, fleet.hpp
@@ -124,9 +125,9 @@ PULSELINE_FIELDS(ControlRequest, method, update, if_revision, actor, idempotency
 PULSELINE_FIELDS(StoreFault, cause, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
-PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose, pose_at,
-                 hall, at_station, order, leg, paused, integration, needs_resume,
-                 needs_resume_reason, state)
+PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose,
+                 claimed_pose, pose_at, hall, at_station, order, leg, paused, integration,
+                 needs_resume, needs_resume_reason, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

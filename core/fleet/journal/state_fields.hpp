@@ -67,6 +67,8 @@ namespace fleet {
 PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
 PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
                  next_try, next_leave, idle_since)
+PULSELINE_FIELDS(VehicleRun::Seen, pose, at, moving, speed_mps)
+PULSELINE_FIELDS(VehicleRun::Statement, where, at)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
 // Vehicle and type are the plant's; the areas are only drawn. Areas, plan and swept floor are
@@ -76,12 +78,13 @@ requires std::same_as<std::remove_const_t<S>, VehicleRun>
 void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
-           update_sends, order_sent, gave_up, cancelling, floor, leg_started, foreign_since,
-           actions, charge_wait, charge_retry, areas, newest_plan, swept] = it;
+           update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
+           leg_started, foreign_since, actions, charge_wait, charge_retry, areas, newest_plan,
+           swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
-          gave_up, cancelling, floor, leg_started, foreign_since, actions, charge_wait,
-          charge_retry);
+          gave_up, cancelling, floor, seen, seen_before, stated, leg_started, foreign_since,
+          actions, charge_wait, charge_retry);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.

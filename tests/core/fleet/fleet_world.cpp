@@ -6,6 +6,7 @@ namespace pulseline::fleet::testing {
 namespace {
 
 constexpr int kTicksPerStep = 5;   // a node takes half a second
+constexpr double kLeap_mps = 100;  // and is a jump, which it has to say
 constexpr double kCamera_m = 1.2;  // cameras ahead of and behind the centre
 
 plant::VehicleType small_type() {
@@ -222,6 +223,7 @@ void FakeVehicle::tell_what_is_left() {
 }
 
 bool FakeVehicle::step() {
+    state.velocity_mps = 0;
     if (!order_ || state.paused || stands) {
         see_codes();
         return false;
@@ -236,6 +238,7 @@ bool FakeVehicle::step() {
         ++node_steps;
         state.driving = at_ + 1 < order_->nodes.size() && order_->nodes[at_ + 1].released;
         state.pose = next.pose;
+        state.velocity_mps = kLeap_mps;
         state.last_node_id = next.node_id;
         state.last_node_sequence_id = next.sequence_id;
         tell_what_is_left();
@@ -264,7 +267,7 @@ bool FakeVehicle::step() {
             action.measurement->pose = {station.x_m + stop_error.x_m, station.y_m + stop_error.y_m,
                                         station.heading_rad + stop_error.heading_rad};
             action.measurement->method = "dual_camera";
-            state.pose = action.measurement->pose;
+            if (pose_follows_stop) state.pose = action.measurement->pose;
         }
         return true;
     }

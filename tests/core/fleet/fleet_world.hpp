@@ -46,7 +46,8 @@ public:
     const OrderMessage& order() const { return *order_; }
 
     StateMessage state;
-    Pose2 stop_error;  // added to the next measured stops
+    Pose2 stop_error;               // added to the next measured stops
+    bool pose_follows_stop = true;  // else its own pose stays what it was
     std::optional<std::string> measure_fails;
     std::string action_fails;               // type of the action that fails
     std::vector<std::string> actions_done;  // types in the order in which they finished

@@ -1,14 +1,14 @@
 import { useCallback, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
-import type { Plant, Vehicle } from "@/shared/api/types";
+import type { Plant, Pose, Vehicle } from "@/shared/api/types";
 import { Card, CommandButton } from "@/shared/ui";
 import { useCommand } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
 import { progressOf } from "./commandProgress";
-import { emptyDraft, readDraft, type InitDraft } from "./initPosition";
+import { draftOf, emptyDraft, readDraft, type InitDraft } from "./initPosition";
 
-/** A person says where a vehicle stands that lost its position. Nothing moves by it. */
+/** A person says where a vehicle stands that lost its position, or says one that cannot be. Nothing moves by it. */
 export function InitPositionCard({
   vehicle,
   plant,
@@ -49,6 +49,12 @@ export function InitPositionCard({
           {t("init.by_numbers")}
         </button>
       </div>
+      {vehicle.claimed_pose && (
+        <div className="seg how" role="group" aria-label={t("init.doubt")}>
+          {vehicle.pose && known(t("init.where_it_was"), vehicle.pose)}
+          {known(t("init.where_it_says"), vehicle.claimed_pose)}
+        </div>
+      )}
       <div className="fields">
         {draft.how === "station" ? (
           <Field label={t("init.station")} value={draft.station} onChange={(station) => set({ station })} />
@@ -81,6 +87,14 @@ export function InitPositionCard({
       )}
     </Card>
   );
+
+  function known(label: string, pose: Pose) {
+    return (
+      <button type="button" onClick={() => setDraft(draftOf(pose))}>
+        {label}
+      </button>
+    );
+  }
 
   function fault(): string | undefined {
     switch (result.kind) {

@@ -11,6 +11,17 @@ export interface InitDraft {
 
 export const emptyDraft: InitDraft = { how: "station", station: "", x_mm: "", y_mm: "", heading_deg: "" };
 
+/** A pose as a person would have typed it, to a tenth of a millimetre. */
+export function draftOf(pose: Pose): InitDraft {
+  return {
+    how: "numbers",
+    station: "",
+    x_mm: (pose.x_m * 1000).toFixed(1),
+    y_mm: (pose.y_m * 1000).toFixed(1),
+    heading_deg: ((pose.heading_rad * 180) / Math.PI).toFixed(3),
+  };
+}
+
 export type InitResult =
   | { kind: "pose"; pose: Pose }
   | { kind: "empty" }

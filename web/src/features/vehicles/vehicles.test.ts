@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
 import { footCorner, onSheet, sheetOf } from "./faceplate";
 import { canApply } from "./integration";
-import { emptyDraft, parseNumber, readDraft } from "./initPosition";
+import { draftOf, emptyDraft, parseNumber, readDraft } from "./initPosition";
 import { centreOfLoad, summarise } from "./loads";
 import { newest } from "./useHeard";
 import { whyRows } from "./whyRows";
@@ -112,6 +112,15 @@ describe("initial position", () => {
       { kind: "pose", pose: { x_m: 1.5, y_m: -2, heading_rad: Math.PI } },
     ],
   ])("%o", (draft, result) => expect(readDraft({ ...emptyDraft, ...draft }, plant)).toEqual(result));
+
+  it("takes over a pose that the vehicle claims", () => {
+    const read = readDraft(draftOf({ x_m: 12.3456, y_m: -0.5, heading_rad: Math.PI / 2 }), plant);
+    expect(read.kind).toBe("pose");
+    if (read.kind !== "pose") return;
+    expect(read.pose.x_m).toBeCloseTo(12.3456, 4);
+    expect(read.pose.y_m).toBeCloseTo(-0.5, 4);
+    expect(read.pose.heading_rad).toBeCloseTo(Math.PI / 2, 4);
+  });
 });
 
 describe("why it stands", () => {
