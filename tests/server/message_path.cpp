@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "api/http/job_order_json.hpp"
 #include "api/http/plant_json.hpp"
@@ -105,8 +106,8 @@ void MessagePath::prepare(Situation situation) {
 }
 
 void MessagePath::reset() {
-    auto fleet = fleet::Fleet::from_snapshot(world_.plant, snapshot_, start_.fleet->tables());
-    if (!fleet) std::abort();
+    auto fleet = fleet::Fleet::from_snapshot(start_.plant, snapshot_);
+    if (!fleet) throw std::logic_error(fleet.error().what);
     world_.fleet = std::move(*fleet);
     world_.store = start_.store;
     world_.now = start_.now;
