@@ -297,17 +297,33 @@ void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
             ++ports_.metrics.vehicle_messages_out;
             socket->send(vda5050::encode_frame(topic, false, payload));
         };
-        if (message.order) {
-            const auto header = next_header(message.vehicle, row, Topic::kOrder);
-            put(Topic::kOrder, vda5050::encode_order(*message.order, header));
-        }
-        if (message.instant_actions) {
-            const auto header = next_header(message.vehicle, row, Topic::kInstantActions);
-            put(Topic::kInstantActions,
-                vda5050::encode_instant_actions(*message.instant_actions, header));
+        try {
+            if (message.order) {
+                const auto header = next_header(message.vehicle, row, Topic::kOrder);
+                put(Topic::kOrder, vda5050::encode_order(*message.order, header));
+            }
+            if (message.instant_actions) {
+                const auto header = next_header(message.vehicle, row, Topic::kInstantActions);
+                put(Topic::kInstantActions,
+                    vda5050::encode_instant_actions(*message.instant_actions, header));
+            }
+        } catch (const vda5050::NotFinite& broken) {
+            not_sent(message.vehicle, row, broken.what());
         }
         crash_point(CrashPoint::kReleaseBetweenMessages);
     }
+}
+
+void VehicleGateway::not_sent(const plant::VehicleId& id, Row& row, const char* why) {
+    log::error("vehicle_message_not_sent", {{"vehicle", id.str()}, {"what", why}});
+    // The fleet sends again until the vehicle has taken it: people need not hear of each time.
+    if (row.told_not_sent && Steady::now() - *row.told_not_sent < kShowRefused) return;
+    row.told_not_sent = Steady::now();
+    const fleet::VehicleError error{
+        "messageNotSent", false, std::string("A message to the vehicle was left out: ") + why, {}};
+    ports_.runtime.input([id, error](fleet::Fleet& fleet, Time at) {
+        fleet.vehicle_message_refused(id, error, at);
+    });
 }
 
 vda5050::Header VehicleGateway::next_header(const plant::VehicleId& id, Row& row,

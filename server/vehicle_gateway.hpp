@@ -86,6 +86,7 @@ private:
         std::optional<fleet::Factsheet> factsheet;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors
         Steady::time_point refused_at{};
+        std::optional<Steady::time_point> told_not_sent;
         int malformed_in_a_row = 0;
         std::optional<vda5050::HeaderSource> headers;
         bool said_offline = false;
@@ -96,6 +97,7 @@ private:
     void pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state);
     void hand_over_factsheet(const plant::VehicleId& id, const Row& row);
     void hand_over_state(const plant::VehicleId& id, const Row& row);
+    void not_sent(const plant::VehicleId& id, Row& row, const char* why);
     void play_last_will(const plant::VehicleId& id, Row& row);
     vda5050::Header next_header(const plant::VehicleId& id, Row& row, vda5050::Topic topic);
 

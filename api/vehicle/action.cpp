@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "api/vehicle/limits.hpp"
+
 namespace pulseline::fleet {
 
 // Beside the type, so that the reader finds it.
@@ -74,35 +76,40 @@ Json stop_parameters(const fleet::StopTarget& target) {
             {"markers", std::move(markers)}};
 }
 
+Pose2 read_pose(json::ObjectReader& in, const char* heading = "heading_rad") {
+    return {in.number("x_m", limits::kPlace_m), in.number("y_m", limits::kPlace_m),
+            in.number(heading, limits::kAngle_rad)};
+}
+
 fleet::StopTarget read_stop(json::ObjectReader& in) {
     fleet::StopTarget target;
     target.station_id = in.text("stationId", {0, 200});
     target.station_number = static_cast<int>(in.integer("stationNumber", {0, 1'000'000}));
     auto pose = in.object("target");
-    target.target = {pose.number("x_m"), pose.number("y_m"), pose.number("heading_rad")};
+    target.target = read_pose(pose);
     auto tolerance = in.object("tolerance");
-    target.tolerance_x_m = tolerance.number("x_m", {0, 10});
-    target.tolerance_y_m = tolerance.number("y_m", {0, 10});
-    target.tolerance_heading_rad = tolerance.number("heading_rad", {0, 4});
+    target.tolerance_x_m = tolerance.number("x_m", limits::kSigma_m);
+    target.tolerance_y_m = tolerance.number("y_m", limits::kSigma_m);
+    target.tolerance_heading_rad = tolerance.number("heading_rad", limits::kSigma_rad);
     in.items("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
         json::ObjectReader marker(item, pointer, in.errors());
         fleet::StopTarget::SurveyedMarker read;
         read.payload = marker.text("payload", {1, 200});
         read.kind = marker.text("kind", {1, 64});
         read.size_m = marker.number("size_m", {1e-3, 10});
-        read.pose = {marker.number("x_m"), marker.number("y_m"), marker.number("angle_rad")};
-        read.sigma_m = marker.number_or("sigma_m", 0, {0, 10});
+        read.pose = read_pose(marker, "angle_rad");
+        read.sigma_m = marker.number_or("sigma_m", 0, limits::kSigma_m);
         target.markers.push_back(std::move(read));
     });
     return target;
 }
 
 /// A number, or its text: strings are seen in the wild for initPosition.
-double lenient_number(json::ObjectReader& in, const char* name) {
+double lenient_number(json::ObjectReader& in, const char* name, json::NumberLimits within) {
     const Json* value = in.required(name);
     if (value == nullptr) return 0;
     const std::string pointer = json::child_pointer(in.pointer(), std::string_view(name));
-    if (!value->is_string()) return json::read_number(*value, pointer, in.errors());
+    if (!value->is_string()) return json::read_number(*value, pointer, in.errors(), within);
     const auto& text = value->get_ref<const std::string&>();
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -111,13 +118,14 @@ double lenient_number(json::ObjectReader& in, const char* name) {
                         "the value of " + std::string(name) + " is no number");
         return 0;
     }
-    return number;
+    return json::read_number(number, pointer, in.errors(), within);
 }
 
 fleet::InitPosition read_init_position(json::ObjectReader& in) {
     fleet::InitPosition init;
-    init.pose = {lenient_number(in, "x"), lenient_number(in, "y"),
-                 wrap(lenient_number(in, "theta"))};
+    init.pose = {lenient_number(in, "x", limits::kPlace_m),
+                 lenient_number(in, "y", limits::kPlace_m),
+                 wrap(lenient_number(in, "theta", limits::kAngle_rad))};
     init.map_id = in.text("mapId", {1, 200});
     init.last_node_id = in.text_or("lastNodeId", "", {0, 200});
     return init;
@@ -131,12 +139,18 @@ Json init_parameters(const fleet::InitPosition& init) {
             {"lastNodeId", init.last_node_id}};
 }
 
-Params plain_parameters(const Json& object) {
+Params plain_parameters(json::ObjectReader& in, const Json& object) {
     Params params;
     for (const auto& [key, value] : object.items()) {
         if (value.is_boolean()) params.push_back({key, value.get<bool>()});
-        if (value.is_number_integer()) params.push_back({key, value.get<std::int64_t>()});
-        if (value.is_number_float()) params.push_back({key, value.get<double>()});
+        const auto pointer = json::child_pointer(in.pointer(), std::string_view(key));
+        if (value.is_number_integer()) {
+            params.push_back({key, json::read_integer(value, pointer, in.errors())});
+        }
+        if (value.is_number_float()) {
+            params.push_back(
+                {key, json::read_number(value, pointer, in.errors(), limits::kParameter)});
+        }
         if (value.is_string()) params.push_back({key, value.get<std::string>()});
     }
     return params;
@@ -175,7 +189,7 @@ Action decode_action(const Json& value, const std::string& pointer, json::FieldE
     } else if (action.type == "initPosition") {
         action.init_position = read_init_position(read);
     } else {
-        action.params = plain_parameters(parameters.object());
+        action.params = plain_parameters(read, parameters.object());
     }
     return action;
 }
@@ -195,9 +209,10 @@ Result<fleet::StopMeasurement> decode_measurement(std::string_view text) {
     json::FieldErrors errors;
     json::ObjectReader in(*parsed, "", errors);
     fleet::StopMeasurement found;
-    found.pose = {in.number("x_m"), in.number("y_m"), in.number("heading_rad")};
-    found.sigma_xy_m = in.number_or("sigma_xy_m", 0, {0, 100});
-    found.sigma_heading_rad = in.number_or("sigma_heading_rad", 0, {0, 4});
+    found.pose = read_pose(in);
+    found.pose.heading_rad = wrap(found.pose.heading_rad);
+    found.sigma_xy_m = in.number_or("sigma_xy_m", 0, limits::kSigma_m);
+    found.sigma_heading_rad = in.number_or("sigma_heading_rad", 0, limits::kSigma_rad);
     found.method = in.text_or("method", "", {0, 64});
     in.items_if_any("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
         found.markers.push_back(json::read_text(item, pointer, errors, {1, 200}));

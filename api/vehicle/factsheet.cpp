@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "api/vehicle/limits.hpp"
+
 namespace pulseline::vda5050 {
 namespace {
 
@@ -100,6 +102,13 @@ Json encode_physical(const FactsheetSource& source) {
             {"length", finite(box.max.x_m - box.min.x_m)}};
 }
 
+/// 0 where a vehicle does not say it.
+double top_speed(json::ObjectReader& physical) {
+    const double said = physical.number("speedMax", limits::kSpeed_mps);
+    if (said == 0) return 0;
+    return physical.number("speedMax", {limits::kLeastTopSpeed_mps, limits::kSpeed_mps.max});
+}
+
 }  // namespace
 
 std::string encode_factsheet(const FactsheetSource& source, const Header& header) {
@@ -139,10 +148,11 @@ Result<fleet::Factsheet> decode_factsheet(const Json& payload) {
     auto type = in.object("typeSpecification");
     factsheet.series_name = type.text("seriesName", {0, 200});
     auto physical = in.object("physicalParameters");
-    factsheet.speed_max_mps = physical.number("speedMax", {0, 1e3});
-    factsheet.acceleration_max_mps2 = physical.number("accelerationMax", {0, 1e4});
-    factsheet.length_m = physical.number("length", {0, 1e3});
-    factsheet.width_m = physical.number("width", {0, 1e3});
+    factsheet.speed_max_mps = top_speed(physical);
+    factsheet.acceleration_max_mps2 =
+        physical.number("accelerationMax", limits::kAcceleration_mps2);
+    factsheet.length_m = physical.number("length", limits::kLength_m);
+    factsheet.width_m = physical.number("width", limits::kLength_m);
     auto features = in.object("protocolFeatures");
     features.items("agvActions", {0, 500}, [&](const Json& item, const std::string& at) {
         json::ObjectReader action(item, at, errors);

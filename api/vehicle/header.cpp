@@ -1,6 +1,5 @@
 #include "api/vehicle/header.hpp"
 
-#include <cassert>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -75,7 +74,7 @@ std::string print(const Json& message) {
 }
 
 double finite(double value) {
-    assert(std::isfinite(value));
+    if (!std::isfinite(value)) throw NotFinite();
     return value;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 #include "api/json/object_reader.hpp"
@@ -49,7 +50,14 @@ Json begin_message(const Header& header);
 
 // Building blocks of the codecs.
 std::string print(const Json& message);
-/// A finite number; anything else is our own bug.
+
+/// A message of ours has a number that is none. That is our own bug, but one message's: whoever
+/// sends messages leaves this one out, says so and goes on.
+class NotFinite : public std::runtime_error {
+public:
+    NotFinite() : std::runtime_error("a number of the message is infinite or undefined") {}
+};
+/// The number itself. Throws NotFinite.
 double finite(double value);
 
 }  // namespace pulseline::vda5050

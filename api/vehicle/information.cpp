@@ -1,9 +1,11 @@
 #include "api/vehicle/information.hpp"
 
 #include <charconv>
-#include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
+
+#include "api/vehicle/limits.hpp"
 
 namespace pulseline::vda5050 {
 namespace {
@@ -40,37 +42,48 @@ Json encode_camera(const fleet::CameraReading& reading) {
 }
 
 /// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
-/// then left out, since vehicles may use our type names for something else.
+/// then left out, since vehicles may use our type names for something else. A number that cannot be
+/// true is an error of the message.
 class Values {
 public:
-    explicit Values(std::map<std::string, std::string> values) : values_(std::move(values)) {}
+    struct Value {
+        std::string text;
+        std::string pointer;
+    };
+    Values(std::map<std::string, Value> values, json::FieldErrors& errors)
+        : values_(std::move(values)), errors_(errors) {}
 
     std::string text(const char* key) {
-        const auto found = values_.find(key);
-        if (found == values_.end()) {
-            usable_ = false;
-            return {};
-        }
-        return found->second;
+        usable_ &= values_.count(key) != 0;
+        return text_or_empty(key);
     }
     std::string text_or_empty(const char* key) const {
         const auto found = values_.find(key);
-        return found == values_.end() ? std::string{} : found->second;
+        return found == values_.end() ? std::string{} : found->second.text;
     }
-    double number(const char* key) {
-        const std::string value = text(key);
-        double read = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), read);
-        if (error != std::errc{} || end != value.data() + value.size() || !std::isfinite(read)) {
+    double number(const char* key, json::NumberLimits within) {
+        const auto found = values_.find(key);
+        if (found == values_.end()) {
             usable_ = false;
             return 0;
         }
-        return read;
+        const auto& [text, pointer] = found->second;
+        double read = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
+        const bool whole = end == text.data() + text.size();
+        if (whole && error == std::errc::result_out_of_range) {
+            read = std::numeric_limits<double>::infinity();  // 1e999; 1e-999 is no number either
+        } else if (!whole || error != std::errc{}) {
+            usable_ = false;
+            return 0;
+        }
+        return json::read_number(read, pointer, errors_, within);
     }
     bool usable() const { return usable_; }
 
 private:
-    std::map<std::string, std::string> values_;
+    std::map<std::string, Value> values_;
+    json::FieldErrors& errors_;
     bool usable_ = true;
 };
 
@@ -83,10 +96,10 @@ fleet::CameraReading decode_camera(Values& in) {
         return reading;
     }
     reading.payload = in.text("payload");
-    reading.code = {in.number("x_m"), in.number("y_m")};
-    reading.angle_rad = in.number("angle_rad");
-    reading.sigma_m = in.number("sigma_m");
-    reading.rms_px = in.number("rms_px");
+    reading.code = {in.number("x_m", limits::kOnVehicle_m), in.number("y_m", limits::kOnVehicle_m)};
+    reading.angle_rad = in.number("angle_rad", limits::kAngle_rad);
+    reading.sigma_m = in.number("sigma_m", limits::kSigma_m);
+    reading.rms_px = in.number("rms_px", limits::kResidual_px);
     return reading;
 }
 
@@ -97,19 +110,22 @@ void keep(std::vector<T>& list, T item, const Values& in) {
 
 void decode_entry(const std::string& type, Values& in, fleet::StateMessage& state) {
     if (type == "bracketLoad") {
-        fleet::BracketLoad load{in.text("name"), in.number("force_a_n"), in.number("force_b_n")};
+        fleet::BracketLoad load{in.text("name"), in.number("force_a_n", limits::kForce_n),
+                                in.number("force_b_n", limits::kForce_n)};
         keep(state.brackets, std::move(load), in);
     } else if (type == "wheel") {
-        fleet::WheelStatus wheel{in.text("name"), in.number("steering_rad"), in.number("speed_mps"),
-                                 in.number("temperature_c"), in.text_or_empty("fault")};
+        fleet::WheelStatus wheel{in.text("name"), in.number("steering_rad", limits::kAngle_rad),
+                                 in.number("speed_mps", limits::kVelocity_mps),
+                                 in.number("temperature_c", limits::kTemperature_c),
+                                 in.text_or_empty("fault")};
         keep(state.wheels, std::move(wheel), in);
     } else if (type == "parkingFoot") {
-        fleet::ParkingFoot foot{in.text("name"), in.number("extension_m")};
+        fleet::ParkingFoot foot{in.text("name"), in.number("extension_m", limits::kOnVehicle_m)};
         keep(state.parking_feet, std::move(foot), in);
     } else if (type == "camera") {
         keep(state.cameras, decode_camera(in), in);
     } else if (type == "load") {
-        const double load_kg = in.number("load_kg");
+        const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
     }
 }
@@ -146,13 +162,13 @@ void decode_information(json::ObjectReader& message, fleet::StateMessage& state)
         json::ObjectReader in(item, at, errors);
         const std::string type = in.text("infoType", {0, 200});
         in.text("infoLevel", {0, 64});
-        std::map<std::string, std::string> values;
+        std::map<std::string, Values::Value> values;
         in.items_if_any("infoReferences", {0, 100}, [&](const Json& ref, const std::string& where) {
             json::ObjectReader reference(ref, where, errors);
             const std::string key = reference.text("referenceKey", {0, 200});
-            values[key] = reference.text("referenceValue", {0, 1000});
+            values[key] = {reference.text("referenceValue", {0, 1000}), where + "/referenceValue"};
         });
-        Values read(std::move(values));
+        Values read(std::move(values), errors);
         decode_entry(type, read, state);
     });
 }

@@ -5,6 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "api/vehicle/limits.hpp"
+
 namespace pulseline::vda5050 {
 namespace {
 
@@ -55,14 +57,15 @@ Json encode_arc(const Segment& arc) {
 
 std::vector<ControlPoint> read_points(json::ObjectReader& trajectory) {
     std::vector<ControlPoint> points;
-    trajectory.items("controlPoints", {2, 2 * kMostPieces + 1},
-                     [&](const Json& item, const std::string& pointer) {
-                         json::ObjectReader in(item, pointer, trajectory.errors());
-                         ControlPoint point;
-                         point.at = {in.number("x"), in.number("y")};
-                         point.weight = in.number_or("weight", 1.0, {1e-6, 1e6});
-                         points.push_back(point);
-                     });
+    trajectory.items(
+        "controlPoints", {2, 2 * kMostPieces + 1},
+        [&](const Json& item, const std::string& pointer) {
+            json::ObjectReader in(item, pointer, trajectory.errors());
+            ControlPoint point;
+            point.at = {in.number("x", limits::kPlace_m), in.number("y", limits::kPlace_m)};
+            point.weight = in.number_or("weight", 1.0, {1e-6, 1e6});
+            points.push_back(point);
+        });
     return points;
 }
 
@@ -94,6 +97,8 @@ std::optional<Segment> arc_through(const std::vector<ControlPoint>& points, bool
     arc.length_m = (backwards ? -1 : 1) * radius_m * std::abs(arc.turn_rad);
     arc.end = {points.back().at.x_m, points.back().at.y_m,
                wrap(arc.start.heading_rad + arc.turn_rad)};
+    // Control points at one place but for rounding have no circle.
+    if (!std::isfinite(arc.length_m + arc.centre.x_m + arc.centre.y_m)) return std::nullopt;
     return arc;
 }
 

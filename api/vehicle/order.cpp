@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "api/vehicle/action.hpp"
+#include "api/vehicle/limits.hpp"
 #include "api/vehicle/motion.hpp"
 
 namespace pulseline::vda5050 {
@@ -58,8 +59,8 @@ Json encode_edge(const OrderEdge& edge, const OrderNode& from, const OrderNode& 
 std::optional<plant::Corridor> decode_corridor(json::ObjectReader& edge) {
     if (!edge.has("corridor")) return std::nullopt;
     auto in = edge.object("corridor");
-    const plant::Corridor corridor{in.number("leftWidth", {0, 1e3}),
-                                   in.number("rightWidth", {0, 1e3})};
+    const plant::Corridor corridor{in.number("leftWidth", limits::kLength_m),
+                                   in.number("rightWidth", limits::kLength_m)};
     const auto about = in.text_or("corridorRefPoint", "KINEMATICCENTER", {0, 32});
     if (about != "CONTOUR") return std::nullopt;
     return corridor;
@@ -72,12 +73,12 @@ OrderNode decode_node(const Json& value, const std::string& pointer, json::Field
     node.sequence_id = in.integer("sequenceId", kSequence);
     node.released = in.boolean("released");
     auto position = in.object("nodePosition");
-    node.pose.x_m = position.number("x", {-1e6, 1e6});
-    node.pose.y_m = position.number("y", {-1e6, 1e6});
+    node.pose.x_m = position.number("x", limits::kPlace_m);
+    node.pose.y_m = position.number("y", limits::kPlace_m);
     node.has_heading = position.has("theta");
     node.pose.heading_rad = position.number_or("theta", 0, {-3.2, 3.2});
     node.allowed_deviation_xy_m =
-        position.number_or("allowedDeviationXY", node.allowed_deviation_xy_m, {0, 1e3});
+        position.number_or("allowedDeviationXY", node.allowed_deviation_xy_m, limits::kLength_m);
     node.allowed_deviation_theta_rad =
         position.number_or("allowedDeviationTheta", node.allowed_deviation_theta_rad, {-3.2, 3.2});
     node.map_id = position.text("mapId", {1, 200});
@@ -94,7 +95,7 @@ OrderEdge decode_edge(const Json& value, const std::string& pointer, const Order
     edge.edge_id = in.text("edgeId", {1, 200});
     edge.sequence_id = in.integer("sequenceId", kSequence);
     edge.released = in.boolean("released");
-    edge.max_speed_mps = in.number_or("maxSpeed", 0, {0, 1e3});
+    edge.max_speed_mps = in.number_or("maxSpeed", 0, limits::kSpeed_mps);
     edge.corridor = decode_corridor(in);
     in.items("actions", {0, 100}, [&](const Json&, const std::string& at) {
         errors.add(at, {"action_not_supported", {}},

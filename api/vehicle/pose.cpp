@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "api/vehicle/limits.hpp"
 #include "core/base/angle.hpp"
 
 namespace pulseline::vda5050 {
@@ -15,8 +16,8 @@ Json encode_position(const geometry::Pose2& pose, bool initialized, const std::s
 }
 
 geometry::Pose2 decode_position(json::ObjectReader& position) {
-    return {position.number("x", {-1e6, 1e6}), position.number("y", {-1e6, 1e6}),
-            wrap(position.number("theta", {-100, 100}))};
+    return {position.number("x", limits::kPlace_m), position.number("y", limits::kPlace_m),
+            wrap(position.number("theta", limits::kAngle_rad))};
 }
 
 Json encode_velocity(double velocity_mps, double turn_rate_radps) {
@@ -26,10 +27,10 @@ Json encode_velocity(double velocity_mps, double turn_rate_radps) {
 Velocity decode_velocity(json::ObjectReader& message) {
     auto velocity = message.object_if_any("velocity");
     if (!velocity) return {};
-    const double vx = velocity->number_or("vx", 0, {-1e3, 1e3});
-    const double vy = velocity->number_or("vy", 0, {-1e3, 1e3});
+    const double vx = velocity->number_or("vx", 0, limits::kVelocity_mps);
+    const double vy = velocity->number_or("vy", 0, limits::kVelocity_mps);
     const double speed = std::hypot(vx, vy);
-    return {vx < 0 ? -speed : speed, velocity->number_or("omega", 0, {-1e3, 1e3})};
+    return {vx < 0 ? -speed : speed, velocity->number_or("omega", 0, limits::kTurnRate_radps)};
 }
 
 }  // namespace pulseline::vda5050

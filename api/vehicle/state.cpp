@@ -7,6 +7,7 @@
 
 #include "api/vehicle/action.hpp"
 #include "api/vehicle/information.hpp"
+#include "api/vehicle/limits.hpp"
 #include "api/vehicle/pose.hpp"
 
 namespace pulseline::fleet {
@@ -104,8 +105,12 @@ ActionState decode_action_state(const Json& item, const std::string& at,
     state.result_description = in.text_or("resultDescription", "", {0, kText});
     const bool measures = state.type == "measureStop" || state.type == "adjustToMarker";
     if (measures && state.status == ActionStatus::kFinished) {
+        // A measurement that cannot be one fails the stop and not the message: the vehicle would
+        // send it again with every state. Text of another vehicle is kept as it is.
         if (auto found = decode_measurement(state.result_description)) {
             state.measurement = std::move(*found);
+        } else if (!found.error().field.empty()) {
+            state.result_description = found.error().field + ": " + found.error().what;
         }
     }
     return state;
@@ -132,14 +137,14 @@ void decode_body(json::ObjectReader& in, StateMessage& state) {
         state.pose = decode_position(*position);
         state.map_id = position->text("mapId", {0, 200});
         state.position_initialized = position->boolean("positionInitialized");
-        state.localization_score = position->number_or("localizationScore", 0, {0, 1});
-        state.deviation_range_m = position->number_or("deviationRange", 0, {0, 1e6});
+        state.localization_score = position->number_or("localizationScore", 0, limits::kShare);
+        state.deviation_range_m = position->number_or("deviationRange", 0, limits::kDeviation_m);
     }
     const Velocity velocity = decode_velocity(in);
     state.velocity_mps = velocity.velocity_mps;
     state.turn_rate_radps = velocity.turn_rate_radps;
     auto battery = in.object("batteryState");
-    state.battery_percent = battery.number("batteryCharge", {0, 100});
+    state.battery_percent = battery.number("batteryCharge", limits::kPercent);
     state.charging = battery.boolean("charging");
     auto safety = in.object("safetyState");
     state.e_stop =
@@ -198,7 +203,8 @@ Result<StateMessage> decode_state(const Json& payload) {
     state.driving = in.boolean("driving");
     state.paused = in.boolean_or("paused", false);
     state.new_base_request = in.boolean_or("newBaseRequest", false);
-    state.distance_since_last_node_m = in.number_or("distanceSinceLastNode", 0, {-1e6, 1e6});
+    state.distance_since_last_node_m =
+        in.number_or("distanceSinceLastNode", 0, limits::kDistance_m);
     state.operating_mode =
         in.one_of("operatingMode", {Word{"AUTOMATIC"}, Word{"SEMIAUTOMATIC"}, Word{"MANUAL"},
                                     Word{"SERVICE"}, Word{"TEACHIN"}})

@@ -27,7 +27,13 @@ public:
 constexpr std::int64_t to_ns(Time t) { return t.time_since_epoch().count(); }
 constexpr Time time_from_ns(std::int64_t ns) { return Time{Duration{ns}}; }
 constexpr double seconds(Duration d) { return std::chrono::duration<double>(d).count(); }
+/// No span of the core is longer: what divides by a tiny speed takes for ever, and "now" plus that
+/// must still be a time.
+inline constexpr Duration kForEver = std::chrono::hours(24 * 365 * 200);
+/// At most kForEver, at least its opposite; kForEver when `s` is no number.
 constexpr Duration from_seconds(double s) {
+    if (!(s < seconds(kForEver))) return kForEver;
+    if (s <= -seconds(kForEver)) return -kForEver;
     return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(s));
 }
 

@@ -7,6 +7,12 @@ namespace {
 // A camera's own angle of one code: from the edge fit (vision.md), used only when one code is seen.
 constexpr double kSigmaUp_rad = 2e-4;
 
+/// A vehicle cannot stand outside the walls: a camera or the survey is wrong.
+bool is_in_hall(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
+    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(hall_of(fleet, run)));
+    return hall && geometry::contains(hall->outline, pose.position());
+}
+
 }  // namespace
 
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
@@ -25,7 +31,8 @@ std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& 
     // All its cameras must agree: with one code missing, a person says where it stands.
     if (observations.empty() || observations.size() < run.type->cameras.size()) return std::nullopt;
     const auto fix = localisation::locate(observations, survey);
-    return fix ? std::optional<Pose2>(fix->pose) : std::nullopt;
+    if (!fix || !is_in_hall(fleet, run, fix->pose)) return std::nullopt;
+    return fix->pose;
 }
 
 }  // namespace pulseline::fleet

@@ -121,6 +121,29 @@ Status check_angles(const PoseFix& fix, std::span<const CodeObservation> observa
     return {};
 }
 
+/// No camera of a vehicle sees that far; beyond it sums and products lose the code's place.
+constexpr double kFarthestCode_m = 1e3;
+
+bool can_be_seen(const CodeObservation& seen) {
+    // Comparisons with what is no number are false.
+    return std::abs(seen.centre.x_m) <= kFarthestCode_m &&
+           std::abs(seen.centre.y_m) <= kFarthestCode_m && std::isfinite(seen.up_rad) &&
+           seen.sigma_m >= 0 && std::isfinite(seen.sigma_m) && seen.sigma_up_rad >= 0 &&
+           std::isfinite(seen.sigma_up_rad);
+}
+
+bool is_finite(const PoseFix& fix) {
+    return std::isfinite(fix.pose.x_m) && std::isfinite(fix.pose.y_m) &&
+           std::isfinite(fix.pose.heading_rad) && std::isfinite(fix.sigma_xy_m) &&
+           std::isfinite(fix.sigma_heading_rad);
+}
+
+Result<PoseFix> finite(PoseFix fix) {
+    if (is_finite(fix)) return fix;
+    return fail(Errc::kConflict, "pose_not_finite",
+                "The codes give no place that can be told. Check the survey and the cameras.");
+}
+
 }  // namespace
 
 Result<PoseFix> locate(std::span<const CodeObservation> observations,
@@ -140,6 +163,11 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
                             "\" is not among the surveyed codes of this stop. Check the station or "
                             "survey the code.",
                         {}, {{"payload", seen.payload}});
+        if (!can_be_seen(seen))
+            return fail(Errc::kInvalid, "code_out_of_view",
+                        "The code \"" + seen.payload +
+                            "\" cannot lie where the camera says it sees it. Check the camera.",
+                        {}, {{"payload", seen.payload}});
         const double sigma = std::max(std::hypot(seen.sigma_m, code->sigma_m), kSmallestSigma_m);
         pairs.push_back({seen.centre, code->pose.position(), sigma * sigma});
         fix.payloads.push_back(seen.payload);
@@ -147,7 +175,7 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
 
     if (pairs.size() >= 2) {
         const DistanceCheck worst = worst_distance(pairs);
-        if (std::abs(worst.residual_m) > worst.limit_m)
+        if (!(std::abs(worst.residual_m) <= worst.limit_m))
             return fail(
                 Errc::kConflict, "code_distance_mismatch",
                 "The measured distance between the codes does not fit the survey. A code was "
@@ -161,7 +189,7 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
             if (const auto ok = check_angles(fix, observations, survey); !ok) {
                 return fail(ok.error());
             }
-            return fix;
+            return finite(std::move(fix));
         }
     }
 
@@ -171,7 +199,7 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
     const double sigma_heading = std::hypot(seen.sigma_up_rad, code.sigma_heading_rad);
     set_pose(fix, best->body, best->hall, code.pose.heading_rad - seen.up_rad, best->variance_m2,
              sigma_heading * sigma_heading);
-    return fix;
+    return finite(std::move(fix));
 }
 
 const char* to_string(Method method) {

@@ -54,9 +54,11 @@ struct PoseFix {
 /// angle gives the heading. Fails with
 /// - no_marker_in_view
 /// - unknown_code {payload}: a code the survey given does not contain
+/// - code_out_of_view {payload}: an observation that no camera can have made
 /// - code_distance_mismatch {residual_m, limit_m}: a code moved, a wrong code, wrong camera scale
 /// - code_angle_mismatch {payload, residual_rad, limit_rad}: codes or cameras exchanged for each
 ///   other, a code turned
+/// - pose_not_finite: codes that tell no place
 Result<PoseFix> locate(std::span<const CodeObservation> observations,
                        std::span<const SurveyedCode> survey);
 

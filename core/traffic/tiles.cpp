@@ -28,8 +28,11 @@ TileId tile_id(std::size_t hall, std::int64_t col, std::int64_t row) {
            place(col);
 }
 
+/// Of the outermost tile for all that lies beyond it, and for what is no number.
 std::int64_t index_of(double coordinate_m) {
-    return static_cast<std::int64_t>(std::floor(coordinate_m / kTile_m));
+    constexpr auto kMost = static_cast<double>(kOffset - 1);
+    const double index = std::floor(coordinate_m / kTile_m);
+    return static_cast<std::int64_t>(index < kMost ? std::max(index, -kMost) : kMost);
 }
 
 /// Counterclockwise from the lowest corner, as a convex polygon's edges are sorted by angle.
@@ -129,6 +132,8 @@ TileSet tiles_under(std::size_t hall_index, const std::vector<Polygon>& pieces, 
         if (piece.empty()) continue;
         const Polygon area = grown(piece, margin_m);
         const geometry::Box box = geometry::bounding_box(area);
+        // What lies nowhere covers no floor; its rows would have no end.
+        if (!std::isfinite(box.min.x_m + box.min.y_m + box.max.x_m + box.max.y_m)) continue;
         const std::int64_t first_row = index_of(box.min.y_m - kTouch_m);
         const std::int64_t last_row = index_of(box.max.y_m + kTouch_m);
         const auto runs = runs_of(area, first_row, last_row);

@@ -10,6 +10,7 @@
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/cell_grid.hpp"
 #include "core/vision/level_plane.hpp"
+#include "core/vision/median.hpp"
 #include "core/vision/sample.hpp"
 #include "core/vision/search_image.hpp"
 #include "core/vision/tag_family.hpp"
@@ -49,8 +50,7 @@ double cell_level(const cv::Mat& grey, const plant::Camera& camera, const Placem
             samples[count++] = sample(grey, p);
         }
     }
-    std::ranges::nth_element(samples, samples.begin() + 12);
-    return static_cast<double>(samples[12]);
+    return static_cast<double>(*median(samples));
 }
 
 struct Sampled {

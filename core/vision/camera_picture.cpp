@@ -1,5 +1,6 @@
 #include "core/vision/camera_picture.hpp"
 
+#include <algorithm>
 #include <array>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -19,6 +20,9 @@ cv::Point fixed(Pixel half_size) {
     constexpr double kOne = 1 << kShift;
     return {static_cast<int>(std::lround(half_size.u * kOne)),
             static_cast<int>(std::lround(half_size.v * kOne))};
+}
+cv::Size half_of(cv::Size size) {
+    return {std::max(1, size.width / 2), std::max(1, size.height / 2)};
 }
 Pixel halved(Pixel p) { return {(p.u - 0.5) / 2, (p.v - 0.5) / 2}; }
 
@@ -75,7 +79,7 @@ void offset(cv::Mat& picture, Pixel from, Pixel to) {
 cv::Mat annotate(const cv::Mat& grey, const plant::Camera& camera,
                  const std::optional<geometry::Pose2>& body_from_code, double code_size_m) {
     cv::Mat half;
-    cv::resize(grey, half, cv::Size(grey.cols / 2, grey.rows / 2), 0, 0, cv::INTER_AREA);
+    cv::resize(grey, half, half_of(grey.size()), 0, 0, cv::INTER_AREA);
     cv::Mat picture;
     cv::cvtColor(half, picture, cv::COLOR_GRAY2BGR);
     const Pixel axis = halved({camera.cu_px, camera.cv_px});
@@ -92,8 +96,7 @@ std::vector<std::uint8_t> encode_jpeg(const cv::Mat& image, const plant::Camera&
                                       std::size_t max_bytes) {
     cv::Mat half = image;
     if (image.cols > camera.width_px / 2)
-        cv::resize(image, half, cv::Size(camera.width_px / 2, camera.height_px / 2), 0, 0,
-                   cv::INTER_AREA);
+        cv::resize(image, half, half_of({camera.width_px, camera.height_px}), 0, 0, cv::INTER_AREA);
     std::vector<std::uint8_t> bytes;
     for (int quality = 85; quality >= 5; quality -= 10) {
         cv::imencode(".jpg", half, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});

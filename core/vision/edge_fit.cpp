@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/vision/edge_profile.hpp"
+#include "core/vision/median.hpp"
 
 namespace pulseline::vision {
 namespace {
@@ -77,12 +78,6 @@ Vector gradient(const EdgeObservation& o, Pixel centre, double f_px) {
     return j;
 }
 
-double median_in_place(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Iteratively reweighted least squares on the offsets along the normals.
 Step solve(const std::vector<EdgeObservation>& seen, const State& state, double f_px, int passes) {
     std::vector<Vector> rows;
@@ -102,7 +97,7 @@ Step solve(const std::vector<EdgeObservation>& seen, const State& state, double 
     for (int pass = 0; pass < passes; ++pass) {
         for (std::size_t i = 0; i < seen.size(); ++i)
             magnitude[i] = std::abs(offsets[i] - rows[i].dot(step.change));
-        const double scale = std::max(1.4826 * median_in_place(magnitude), 1e-3);
+        const double scale = std::max(1.4826 * median(magnitude).value_or(0), 1e-3);
         NormalEquations sums;
         double squares = 0;
         double weights = 0;
@@ -127,6 +122,7 @@ Step solve(const std::vector<EdgeObservation>& seen, const State& state, double 
             right[i] += noise2 / (sigma * sigma) * prior_pull[i];
         }
         step.change = step.information.ldlt().solve(right);
+        if (!step.change.allFinite()) break;  // nothing can be put in order by it
     }
     return step;
 }

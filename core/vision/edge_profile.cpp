@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/vision/median.hpp"
 #include "core/vision/sample.hpp"
 
 namespace pulseline::vision {
@@ -26,14 +28,15 @@ struct Levels {
 double patch_level(const cv::Mat& grey, Pixel middle, Pixel normal) {
     const Pixel across = kPatchAcross_px * normal;
     const Pixel along{-kPatchAlong_px * normal.v, kPatchAlong_px * normal.u};
-    const double reach = std::max(kPatchAcross_px, kPatchAlong_px) * 1.5;
-    if (!sampleable(grey, middle - Pixel{reach, reach}) ||
-        !sampleable(grey, middle + Pixel{reach, reach}))
-        return -1;
-    const float sum = sample(grey, middle) + sample(grey, middle + across + along) +
-                      sample(grey, middle + across - along) +
-                      sample(grey, middle - across + along) + sample(grey, middle - across - along);
-    return static_cast<double>(sum) / 5;
+    // The corners and not their usual distance: a lens may stretch the rectangle.
+    const std::array<Pixel, 5> places{middle, middle + across + along, middle + across - along,
+                                      middle - across + along, middle - across - along};
+    float sum = 0;
+    for (const Pixel place : places) {
+        if (!sampleable(grey, place)) return -1;
+        sum += sample(grey, place);
+    }
+    return static_cast<double>(sum) / places.size();
 }
 
 std::vector<Levels> measure_levels(const cv::Mat& grey, const plant::Camera& camera,
@@ -61,12 +64,6 @@ std::vector<Levels> measure_levels(const cv::Mat& grey, const plant::Camera& cam
     return all;
 }
 
-double median_of(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::ranges::nth_element(values, middle);
-    return *middle;
-}
-
 /// Slope [grey levels per px] of a plane through one side's levels, outliers (dirt) trimmed.
 Pixel shading(const std::vector<Levels>& all, double Levels::*level, Pixel about) {
     Eigen::Vector3d plane = Eigen::Vector3d::Zero();
@@ -87,7 +84,7 @@ Pixel shading(const std::vector<Levels>& all, double Levels::*level, Pixel about
             sl += l, slu += l * u, slv += l * v;
         }
         if (residuals.size() < 12) return {};
-        if (pass == 1) limit = std::max(1.0, 4 * median_of(residuals));
+        if (pass == 1) limit = std::max(1.0, 4 * median(residuals).value_or(0));
         Eigen::Matrix3d normal;
         normal << n, su, sv, su, suu, suv, sv, suv, svv;
         plane = normal.ldlt().solve(Eigen::Vector3d{sl, slu, slv});
@@ -107,7 +104,7 @@ EdgeObservations observe_edges(const cv::Mat& grey, const plant::Camera& camera,
     std::vector<double> contrasts;
     contrasts.reserve(all.size());
     for (const Levels& at : all) contrasts.push_back(at.light - at.dark);
-    const double least = std::max(4.0, kLeastContrast * median_of(std::move(contrasts)));
+    const double least = std::max(4.0, kLeastContrast * median(contrasts).value_or(0));
     const Pixel dark_slope = shading(all, &Levels::dark, placement.centre);
     const Pixel light_slope = shading(all, &Levels::light, placement.centre);
     const int reach = shape.reach_px;
@@ -120,6 +117,9 @@ EdgeObservations observe_edges(const cv::Mat& grey, const plant::Camera& camera,
         const double light = at.light - rise_light * shape.reference_px;
         if (light - dark < least) continue;
         const Pixel begin = at.image_foot - static_cast<double>(reach) * at.image_normal;
+        const Pixel end = begin + static_cast<double>(2 * reach) * at.image_normal;
+        // Of a coarse print the profile is longer than the way between its levels.
+        if (!sampleable(grey, begin) || !sampleable(grey, end)) continue;
         double sum = 0;
         for (int i = 0; i <= 2 * reach; ++i) {
             const auto grey_level =

@@ -7,6 +7,7 @@
 
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/level_plane.hpp"
+#include "core/vision/median.hpp"
 #include "core/vision/sample.hpp"
 
 namespace pulseline::vision {
@@ -19,8 +20,9 @@ constexpr double kSector_rad = kPi / 4;
 constexpr double kClipped = 252;
 constexpr double kNearlyClipped = 244;  // what clips in the mean, and noise
 constexpr double kLeastContrast = 8;
-constexpr double kFaint = 0.15;    // step that counts as one where paper is clipped
-constexpr double kPlain = 0.3;     // and elsewhere, relative to ink on paper in that light
+constexpr std::size_t kFewestAround = 4;  // samples of the paper about a dot
+constexpr double kFaint = 0.15;           // step that counts as one where paper is clipped
+constexpr double kPlain = 0.3;            // and elsewhere, relative to ink on paper in that light
 constexpr double kInformed = 0.4;  // least share of the outline that is not clipped on both sides
 
 /// Direction clockwise from "up", as an offset right and down.
@@ -57,14 +59,14 @@ std::optional<double> ink_ratio(const cv::Mat& grey, const plant::Camera& camera
             const Pixel q = distorted(camera, placement.at(at.u, at.v));
             if (sampleable(grey, q)) around.push_back(sample(grey, q));
         }
-        if (around.size() < 4) return std::nullopt;
-        std::ranges::nth_element(around, around.begin() + 4);
-        if (static_cast<double>(around[4] - sample(grey, p)) > kLeastContrast)
-            ratios.push_back(static_cast<double>(sample(grey, p) / around[4]));
+        if (around.size() < kFewestAround) return std::nullopt;
+        const float ink = sample(grey, p);
+        const auto paper = median(around);
+        if (static_cast<double>(*paper - ink) > kLeastContrast)
+            ratios.push_back(static_cast<double>(ink / *paper));
     }
     if (ratios.size() < 3) return std::nullopt;
-    std::ranges::sort(ratios);
-    return ratios[ratios.size() / 2];
+    return median(ratios);
 }
 
 /// Level of white paper over the landmark, from what is surely paper: the ground between the dots

@@ -58,7 +58,8 @@ ReadResult accept(plant::MarkerKind kind, const std::string& payload,
     reading.inlier_share = fit->inlier_share;
     reading.inliers = fit->inliers;
     reading.profiles = fit->profiles;
-    if (reading.inlier_share < options.min_inlier_share ||
+    if (!reading.covariance.allFinite() || !(reading.sigma_angle_rad >= 0) ||
+        reading.inlier_share < options.min_inlier_share ||
         !(reading.rms_px <= options.max_rms_px) || !(reading.sigma_px <= options.max_sigma_px))
         return refuse("fit_poor", {{"inlier_share", reading.inlier_share},
                                    {"rms_px", reading.rms_px},

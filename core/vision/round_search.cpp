@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/imgproc.hpp>
 
 namespace pulseline::vision {
@@ -35,6 +36,7 @@ std::vector<Tap> ring_taps(const RoundPattern& pattern, int shrink) {
         tap.weight -= mean;
         norm2 += tap.weight * tap.weight;
     }
+    if (!(norm2 > 0)) return {};  // smaller than a pixel: no pattern
     for (Tap& tap : taps) tap.weight /= std::sqrt(norm2 * static_cast<float>(taps.size()));
     return taps;
 }
@@ -52,8 +54,9 @@ cv::Mat local_deviation(const cv::Mat& padded, cv::Size size, int reach) {
     const auto share = 1 / static_cast<float>(side * side);
     cv::Mat deviation(size, CV_32F);
     for (int v = 0; v < size.height; ++v) {
-        const int* s0 = sum.ptr<int>(v);
-        const int* s1 = sum.ptr<int>(v + side);
+        // Sums over a large image wrap; their differences over a square do not.
+        const auto* s0 = sum.ptr<std::uint32_t>(v);
+        const auto* s1 = sum.ptr<std::uint32_t>(v + side);
         const double* q0 = squares.ptr<double>(v);
         const double* q1 = squares.ptr<double>(v + side);
         auto* out = deviation.ptr<float>(v);
@@ -104,8 +107,13 @@ std::vector<RoundPeak> find_round(const SearchImage& image, const plant::Camera&
                                   const RoundPattern& pattern, float least_score,
                                   std::size_t most) {
     if (image.small.empty()) return {};
+    // What is larger than the image cannot be on it, and the border around it has to be bounded.
+    if (!(pattern.reach_px / image.shrink <= std::max(image.small.cols, image.small.rows)))
+        return {};
     const int reach = static_cast<int>(std::ceil(pattern.reach_px / image.shrink));
-    const cv::Mat score = correlate(image.small, ring_taps(pattern, image.shrink), reach);
+    const auto taps = ring_taps(pattern, image.shrink);
+    if (taps.empty()) return {};
+    const cv::Mat score = correlate(image.small, taps, reach);
     const int apart = 2 * std::max(1, reach / 3) + 1;
     cv::Mat highest;
     cv::dilate(score, highest, cv::Mat::ones(apart, apart, CV_8U));

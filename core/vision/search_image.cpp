@@ -30,7 +30,9 @@ cv::Rect part_around(const SearchWindow& window, const plant::Camera& camera, co
                      double reach_px, int shrink) {
     const Pixel middle = distorted(camera, window.centre);
     const auto in_whole = [&](double at, int size) {
-        return static_cast<int>(std::clamp(at, 0.0, static_cast<double>(size))) / shrink * shrink;
+        // Expected too far away for numbers, it is none: then 0.
+        const double inside = at > 0 ? std::min(at, static_cast<double>(size)) : 0;
+        return static_cast<int>(inside) / shrink * shrink;
     };
     const int left = in_whole(middle.u - reach_px, grey.cols);
     const int top = in_whole(middle.v - reach_px, grey.rows);

@@ -88,11 +88,11 @@ public:
     Sums about(int u, int v, int half) const {
         const int l = u - half, r = u + half + 1, t = v - half, b = v + half + 1;
         const auto box = [&](const auto& m, auto zero) {
-            using T = decltype(zero);
+            using T = decltype(zero);  // sums over a large image wrap, differences do not
             return static_cast<double>(m.template at<T>(b, r) - m.template at<T>(t, r) -
                                        m.template at<T>(b, l) + m.template at<T>(t, l));
         };
-        return {static_cast<double>(r - l) * (b - t), box(sum_, 0), box(square_sum_, 0.0)};
+        return {static_cast<double>(r - l) * (b - t), box(sum_, 0U), box(square_sum_, 0.0)};
     }
 
 private:
@@ -110,7 +110,7 @@ struct Peak {
 std::vector<Peak> frames(const cv::Mat& upright, double cell_px, const Effort& effort) {
     const BoxSums sums(upright);
     const auto half = [&](double cells) {
-        return static_cast<int>(std::lround(cells * cell_px / 2 - 0.5));
+        return std::max(0, static_cast<int>(std::lround(cells * cell_px / 2 - 0.5)));
     };
     const int outer = half(plant::kTagCells + 2);
     const int border = half(plant::kTagCells);
@@ -160,6 +160,7 @@ std::vector<Placement> search_tags(const SearchImage& image, const plant::Camera
     if (small.empty()) return {};
     const double cell = expected_cell_px / image.shrink;
     const double room = (plant::kTagCells + 2) * cell;  // margins may reach out of the image
+    if (!(room <= small.cols + small.rows)) return {};  // larger than the image
     struct Candidate {
         Placement placement;
         float score;

@@ -241,12 +241,23 @@ fleet::StateMessage Vehicle::state() {
     return state;
 }
 
+template <class Put>
+void Vehicle::put_whole(Put put) {
+    try {
+        put();
+    } catch (const vda5050::NotFinite& broken) {
+        spdlog::error("{}: a message was left out: {}", vehicle_.id.str(), broken.what());
+    }
+}
+
 void Vehicle::send_state(Steady::time_point now) {
     last_state_ = now;
     state_due_ = false;
-    outbox_.put_state(vda5050::encode_frame(
-        Topic::kState, false,
-        vda5050::encode_state(state(), headers_.next(Topic::kState, utc_now()))));
+    put_whole([&] {
+        outbox_.put_state(vda5050::encode_frame(
+            Topic::kState, false,
+            vda5050::encode_state(state(), headers_.next(Topic::kState, utc_now()))));
+    });
 }
 
 void Vehicle::send_visualization() {
@@ -254,10 +265,12 @@ void Vehicle::send_visualization() {
                                               drive_->turn_rate_radps()};
     fleet::StateMessage map;
     executor_.write_state(map);
-    outbox_.put_visualization(vda5050::encode_frame(
-        Topic::kVisualization, false,
-        vda5050::encode_visualization(message, map.map_id,
-                                      headers_.next(Topic::kVisualization, utc_now()))));
+    put_whole([&] {
+        outbox_.put_visualization(vda5050::encode_frame(
+            Topic::kVisualization, false,
+            vda5050::encode_visualization(message, map.map_id,
+                                          headers_.next(Topic::kVisualization, utc_now()))));
+    });
 }
 
 void Vehicle::send_pictures(Steady::time_point now) {
@@ -279,9 +292,11 @@ void Vehicle::send_factsheet() {
     source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
                                equipment_.action_types().end());
     source.instant_actions = simulation::instant_action_types();
-    outbox_.put_event(vda5050::encode_frame(
-        Topic::kFactsheet, true,
-        vda5050::encode_factsheet(source, headers_.next(Topic::kFactsheet, utc_now()))));
+    put_whole([&] {
+        outbox_.put_event(vda5050::encode_frame(
+            Topic::kFactsheet, true,
+            vda5050::encode_factsheet(source, headers_.next(Topic::kFactsheet, utc_now()))));
+    });
 }
 
 void Vehicle::link_up() {

@@ -68,6 +68,9 @@ private:
     fleet::StateMessage state();
     void report(const Error& error, const char* topic);
     void send_factsheet();
+    /// Leaves out a message that cannot be written, and says so.
+    template <class Put>
+    void put_whole(Put put);
     void send_state(Steady::time_point now);
     void send_visualization();
     void send_pictures(Steady::time_point now);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 
 #include "api/vehicle/connection.hpp"
 #include "api/vehicle/factsheet.hpp"
@@ -176,6 +177,37 @@ TEST(State, AForeignResultDescriptionIsKeptAsText) {
     ASSERT_TRUE(read);
     EXPECT_FALSE(read->action_states[0].measurement);
     EXPECT_EQ(read->action_states[0].result_description, "well done");
+}
+
+TEST(State, AMeasurementThatCannotBeOneFailsTheStopAndNotTheMessage) {
+    auto sent = testing::state();
+    sent.action_states[0].measurement->pose.x_m = 1e300;
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read);
+    EXPECT_FALSE(read->action_states[0].measurement);
+    EXPECT_TRUE(read->action_states[0].result_description.starts_with("/x_m: "))
+        << read->action_states[0].result_description;
+}
+
+TEST(State, ANumberThatIsNoneIsAnErrorOfItsMessage) {
+    auto state = testing::state();
+    state.cameras[0].code.x_m = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW((void)encode_state(state, header()), NotFinite);
+    auto order = testing::order();
+    order.nodes[2].pose.y_m = -std::numeric_limits<double>::infinity();
+    EXPECT_THROW((void)encode_order(order, header()), NotFinite);
+}
+
+TEST(Factsheet, ATopSpeedThatIsNoneIsRefused) {
+    auto message = parsed(factsheet_text());
+    for (const double speed : {5e-324, 1e-300, 1e-6, 1e4, 1e300, -1.0}) {
+        message["physicalParameters"]["speedMax"] = speed;
+        const auto read = decode_factsheet(message);
+        ASSERT_FALSE(read) << speed;
+        EXPECT_EQ(read.error().field, "/physicalParameters/speedMax");
+    }
+    message["physicalParameters"]["speedMax"] = 0;  // not told
+    EXPECT_TRUE(decode_factsheet(message));
 }
 
 TEST(Others, VisualizationConnectionAndFactsheetRoundTrip) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 namespace pulseline::localisation {
@@ -189,6 +191,33 @@ TEST_F(LocateRandomPoses, OneCodeSeenTwiceCountsAsOne) {
     ASSERT_TRUE(fix);
     EXPECT_EQ(fix->method, Method::kSingleCamera);
     EXPECT_NEAR(fix->pose.heading_rad, 1, 1e-12);
+}
+
+/// An observation that no camera can have made gives an error: never a pose of infinities.
+TEST_F(LocateRandomPoses, WhatCannotBeSeenGivesNoPose) {
+    add_code({3, 4, 1}, {5, 0, 0.2}, 1e-4);
+    add_code({3, 4, 1}, {-5, 0, -0.1}, 1e-4);
+    constexpr double kInfinite = std::numeric_limits<double>::infinity();
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    for (const std::size_t codes : {1, 2}) {
+        for (const double value : {1.7e308, -1.7e308, 1e300, 1e4, kInfinite, -kInfinite, kNone}) {
+            for (double CodeObservation::*sigma :
+                 {&CodeObservation::up_rad, &CodeObservation::sigma_m}) {
+                auto seen = std::vector(seen_.begin(), seen_.begin() + codes);
+                seen[0].*sigma = value;
+                const auto fix = locate(seen, survey_);
+                EXPECT_TRUE(!fix || std::isfinite(fix->pose.x_m + fix->pose.heading_rad)) << value;
+            }
+            for (const Point2 centre :
+                 {Point2{value, 0}, Point2{0, value}, Point2{value, -value}}) {
+                auto seen = std::vector(seen_.begin(), seen_.begin() + codes);
+                seen[0].centre = centre;
+                const auto fix = locate(seen, survey_);
+                ASSERT_FALSE(fix) << value;
+                EXPECT_EQ(fix.error().reason.code, "code_out_of_view");
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 
 #include "core/traffic/tiles.hpp"
@@ -51,6 +52,14 @@ TEST(TilesUnder, TouchingATileCounts) {
     // The square's sides lie on tile borders: the neighbours outside are touched too.
     const TileSet tiles = tiles_under(0, {{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}, 0);
     EXPECT_EQ(tiles.size(), 16u);
+}
+
+TEST(TilesUnder, WhatLiesNowhereCoversNone) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(tiles_under(0, {{{infinite, 0}, {1, 0}, {1, 1}}}, 0.1).empty());
+    EXPECT_TRUE(tiles_under(0, {{{0, 0}, {1, -infinite}, {1, 1}}}, 0).empty());
+    // Beyond what a tile can name lies its outermost one.
+    EXPECT_EQ(tiles_under(0, {{{1e300, 1e300}}}, 0).size(), 1u);
 }
 
 TEST(TilesUnder, AreSortedUniqueAndCarryTheirPlace) {
