@@ -16,10 +16,12 @@ struct UserRow {
 
 struct SessionRow {
     static constexpr const char* kColumns =
-        "token_sha256, csrf_token, user, created_ns, expires_ns";
+        "token_sha256, csrf_token, user, created_ns, expires_ns, used_ns";
     std::string token_sha256, csrf_token, user;
-    std::int64_t created_ns = 0, expires_ns = 0;
-    auto fields() { return std::tie(token_sha256, csrf_token, user, created_ns, expires_ns); }
+    std::int64_t created_ns = 0, expires_ns = 0, used_ns = 0;
+    auto fields() {
+        return std::tie(token_sha256, csrf_token, user, created_ns, expires_ns, used_ns);
+    }
 };
 
 struct TokenRow {
@@ -75,13 +77,11 @@ std::vector<access::User> AccessStore::users() {
 
 std::vector<access::Session> AccessStore::sessions() {
     std::vector<access::Session> sessions;
-    read_all<SessionRow>(
-        database_,
-        "sessions WHERE expires_ns > (SELECT MAX(created_ns) FROM sessions) ORDER BY created_ns",
-        [&](const SessionRow& row) {
-            sessions.push_back({row.token_sha256, row.csrf_token, row.user,
-                                time_from_ns(row.created_ns), time_from_ns(row.expires_ns)});
-        });
+    read_all<SessionRow>(database_, "sessions ORDER BY created_ns", [&](const SessionRow& row) {
+        sessions.push_back({row.token_sha256, row.csrf_token, row.user,
+                            time_from_ns(row.created_ns), time_from_ns(row.expires_ns),
+                            time_from_ns(row.used_ns)});
+    });
     return sessions;
 }
 
@@ -120,6 +120,7 @@ void AccessStore::put(const access::Session& session) {
     row.user = session.user;
     row.created_ns = to_ns(session.created);
     row.expires_ns = to_ns(session.expires);
+    row.used_ns = to_ns(session.used);
     database_.transaction([&] {
         Statement(database_.sql(), upsert_into("sessions", SessionRow::kColumns, "token_sha256"),
                   row.fields())
@@ -127,6 +128,16 @@ void AccessStore::put(const access::Session& session) {
         // A sign-in is the moment to drop what has run out: nobody else ever would.
         Statement(database_.sql(), "DELETE FROM sessions WHERE expires_ns <= :now",
                   std::tie(row.created_ns))
+            .run();
+    });
+}
+
+void AccessStore::put_use(const std::string& token_sha256, Time used) {
+    std::string key = token_sha256;
+    std::int64_t used_ns = to_ns(used);
+    database_.transaction([&] {
+        Statement(database_.sql(), "UPDATE sessions SET used_ns = :used WHERE token_sha256 = :key",
+                  std::tie(used_ns, key))
             .run();
     });
 }

@@ -16,6 +16,7 @@ public:
     std::vector<access::Token> tokens() override;
     void put(const access::User& user) override;
     void put(const access::Session& session) override;
+    void put_use(const std::string& token_sha256, Time used) override;
     void remove_session(const std::string& token_sha256) override;
     void put(const access::Token& token) override;
 

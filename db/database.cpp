@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <soci/sqlite3/soci-sqlite3.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -46,6 +47,22 @@ void open(soci::session& sql, const std::string& path, const std::string& option
         sql << "PRAGMA trusted_schema = OFF";
     } catch (const soci::soci_error& error) {
         throw Error(Error::Kind::kUnusable, path + ": " + error.what() + ". " + kRemedy);
+    }
+}
+
+/// The file holds password hashes: made for its owner alone, and SQLite gives the files beside it
+/// the same mode. One that everybody may read was made by an older program; a group's right was
+/// given by a person and stays.
+void make_private(const std::string& path) {
+    if (path.find('"') != std::string::npos) return;  // will be refused
+    const int made = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (made >= 0) ::close(made);  // what cannot be opened is told by SQLite's own attempt
+    for (const char* ending : {"", "-wal", "-shm"}) {
+        const std::string file = path + ending;
+        struct stat found {};
+        if (::stat(file.c_str(), &found) == 0 && (found.st_mode & S_IRWXO) != 0) {
+            ::chmod(file.c_str(), S_IRUSR | S_IWUSR);
+        }
     }
 }
 
@@ -117,7 +134,10 @@ WriteLock::WriteLock(const std::string& database_path) {
 WriteLock::~WriteLock() { ::close(file_); }
 
 Database::Database(const std::string& path) : path_(path) {
-    if (!in_memory(path)) lock_ = std::make_unique<WriteLock>(path);
+    if (!in_memory(path)) {
+        lock_ = std::make_unique<WriteLock>(path);
+        make_private(path);
+    }
     open(sql_, path, "");
     try {
         refuse_foreign(sql_, path_);

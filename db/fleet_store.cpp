@@ -55,6 +55,9 @@ struct ClosureRow {
 constexpr const char* kDropClosure = "DELETE FROM closures WHERE id = :id";
 constexpr const char* kDropSteps =
     "DELETE FROM job_order_steps WHERE order_id = :order_id AND position >= :count";
+constexpr const char* kDropEvents = "DELETE FROM events WHERE seq <= :upto";
+constexpr const char* kTimeOfEvent = "SELECT at_ns FROM events WHERE seq = ";
+constexpr std::int64_t kEventsDroppedAtOnce = 64;  // with one commit
 constexpr const char* kDropKeys = "DELETE FROM idempotency_keys WHERE at_ns < :before";
 
 // Open orders and those of the last days, each part by an index of its own.
@@ -71,16 +74,19 @@ std::int64_t scalar(soci::session& sql, const std::string& query) {
 /// Newest time of all tables, from the ends of their indexes: what is stored of an order later than
 /// its creation and before its end comes with an event.
 std::int64_t newest_time(soci::session& sql) {
+    // By their numbers, which always grow: a clock that once was ahead left later times behind.
+    const std::int64_t told = std::max(
+        scalar(sql, "SELECT COALESCE((SELECT at_ns FROM events ORDER BY seq DESC LIMIT 1), 0)"),
+        scalar(sql, "SELECT COALESCE((SELECT at_ns FROM journal ORDER BY seq DESC LIMIT 1), 0)"));
+    if (told > 0) return told;
     return std::max(
-        {scalar(sql, "SELECT COALESCE((SELECT at_ns FROM events ORDER BY seq DESC LIMIT 1), 0)"),
-         scalar(sql,
+        {scalar(sql,
                 "SELECT COALESCE((SELECT MAX(created_ns, started_ns, ended_ns) FROM orders ORDER "
                 "BY number DESC LIMIT 1), 0)"),
          scalar(sql, "SELECT COALESCE(MAX(ended_ns), 0) FROM orders WHERE ended_ns > 0"),
          scalar(sql,
                 "SELECT COALESCE((SELECT at_ns FROM stop_records ORDER BY id DESC LIMIT 1), 0)"),
-         scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys"),
-         scalar(sql, "SELECT COALESCE((SELECT at_ns FROM journal ORDER BY seq DESC LIMIT 1), 0)")});
+         scalar(sql, "SELECT COALESCE(MAX(at_ns), 0) FROM idempotency_keys")});
 }
 
 /// Two passes in the same order: a query for the steps of each order would take ten times as long.
@@ -123,6 +129,7 @@ struct FleetStore::Statements {
           drop_steps(sql, kDropSteps, std::tie(order.id, step_count)),
           put_stop(sql, insert_into("stop_records", StopRow::kColumns), stop.fields()),
           put_event(sql, insert_into("events", EventRow::kColumns), event.fields()),
+          drop_events(sql, kDropEvents, std::tie(events_upto)),
           put_vehicle(sql, upsert_into("vehicles_state", VehicleRow::kColumns, "id"),
                       vehicle.fields()),
           put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
@@ -150,8 +157,10 @@ struct FleetStore::Statements {
     TemplateRow order_template;
     std::int64_t step_count = 0;
     std::int64_t keys_before = 0;
-    Statement put_order, put_step, drop_steps, put_stop, put_event, put_vehicle, put_key, drop_keys,
-        put_closure, drop_closure, put_schedule, drop_schedule, put_template, drop_template;
+    std::int64_t events_upto = 0;
+    Statement put_order, put_step, drop_steps, put_stop, put_event, drop_events, put_vehicle,
+        put_key, drop_keys, put_closure, drop_closure, put_schedule, drop_schedule, put_template,
+        drop_template;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -159,8 +168,11 @@ FleetStore::FleetStore(Database& database)
       statements_(
           reading(database.path(), [&] { return std::make_unique<Statements>(database.sql()); })),
       journal_(database),
-      last_seq_(reading(database.path(), [&] {
-          return scalar(database.sql(), "SELECT COALESCE(MAX(seq), 0) FROM events");
+      last_seq_(reading(
+          database.path(),
+          [&] { return scalar(database.sql(), "SELECT COALESCE(MAX(seq), 0) FROM events"); })),
+      first_seq_(reading(database.path(), [&] {
+          return scalar(database.sql(), "SELECT COALESCE(MIN(seq), 1) FROM events");
       })) {}
 
 FleetStore::~FleetStore() = default;
@@ -191,11 +203,27 @@ void FleetStore::put_standing(const fleet::Records& records) {
     }
 }
 
+void FleetStore::drop_old_events(const fleet::Event& newest) {
+    Statements& s = *statements_;
+    const std::int64_t upto =
+        std::min(first_seq_ + kEventsDroppedAtOnce, newest.seq) - 1;  // the newest stays
+    if (upto < first_seq_) return;
+    const bool many = newest.seq - upto >= events_kept_.newest;
+    // One look at the last of them tells of them all.
+    const bool old = !many && scalar(database_.sql(), kTimeOfEvent + std::to_string(upto)) <
+                                  to_ns(newest.at - events_kept_.age);
+    if (!many && !old) return;
+    s.events_upto = upto;
+    s.drop_events.run();
+    first_seq_ = upto + 1;
+}
+
 void FleetStore::commit(const fleet::Records& records) {
     if (records.empty()) return;
     Statements& s = *statements_;
     std::int64_t seq = last_seq_;
-    database_.transaction([&] {
+    const std::int64_t first = first_seq_;
+    const auto work = [&] {
         for (const auto& order : records.orders) put(order);
         for (const auto& vehicle : records.vehicles) {
             s.vehicle.set(vehicle);
@@ -239,7 +267,14 @@ void FleetStore::commit(const fleet::Records& records) {
         }
         put_standing(records);
         journal_.put(records.journal);
-    });
+        if (!records.events.empty()) drop_old_events(records.events.back());
+    };
+    try {
+        database_.transaction(work);
+    } catch (...) {
+        first_seq_ = first;
+        throw;
+    }
     journal_.committed();
     last_seq_ = seq;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -8,6 +7,7 @@
 
 #include "core/base/result.hpp"
 #include "server/fleet_runtime.hpp"
+#include "server/lane.hpp"
 #include "server/log.hpp"
 #include "server/net.hpp"
 
@@ -28,23 +28,44 @@ net::awaitable<Result<R>> callback(std::function<void(Done<R>)> start) {
         net::use_awaitable, std::move(start));
 }
 
-/// Runs `f` on the pool and comes back to the network thread. What `f` throws is logged and becomes
-/// the error `internal`.
+/// Why a lane did not run a job. The words tell the caller what to do about it.
+inline Error not_run(Lane::Taken why) {
+    if (why == Lane::Taken::kShareIsUsed) {
+        return {Errc::kUnavailable,
+                {"too_many_requests", {{"retry_after_s", std::int64_t{1}}}},
+                "Too many requests of this account wait; wait for their answers first.",
+                {}};
+    }
+    if (why == Lane::Taken::kFull) {
+        return {Errc::kUnavailable,
+                {"overloaded", {{"retry_after_s", std::int64_t{2}}}},
+                "Too many requests of this kind wait. Try again in 2 seconds.",
+                {}};
+    }
+    return {Errc::kUnavailable, {"stopping", {}}, "The server is stopping.", {}};
+}
+
+/// Runs `f` on the lane for `whose` and comes back to the network thread. What `f` throws is logged
+/// and becomes the error `internal`.
 template <class R>
-net::awaitable<Result<R>> on(net::thread_pool& pool, net::io_context& home, std::function<R()> f) {
-    return callback<R>([&pool, &home, f = std::move(f)](Done<R> done) {
-        net::post(pool, [&home, f, done = std::move(done)] {
-            std::optional<Result<R>> result;
+net::awaitable<Result<R>> on(Lane& lane, net::io_context& home, std::function<R()> f,
+                             std::string whose = {}) {
+    return callback<R>([&lane, &home, f = std::move(f), whose = std::move(whose)](Done<R> done) {
+        const auto give = [&home, done](Result<R> result) {
+            net::post(home, [done, result = std::move(result)] { done(result); });
+        };
+        const auto taken = lane.take(whose, [f, give](bool run) {
+            if (!run) return give(fail(not_run(Lane::Taken::kStopped)));
             try {
-                result = f();
+                give(f());
             } catch (const StoreUnavailable& e) {
-                result = fail(Errc::kUnavailable, "store_unavailable", e.what());
+                give(fail(Errc::kUnavailable, "store_unavailable", e.what()));
             } catch (const std::exception& e) {
                 log::error("task_threw", {{"what", e.what()}});
-                result = fail(Errc::kUnavailable, "internal", "The server met a fault of its own.");
+                give(fail(Errc::kUnavailable, "internal", "The server met a fault of its own."));
             }
-            net::post(home, [done, result = std::move(*result)] { done(result); });
         });
+        if (taken != Lane::Taken::kYes) give(fail(not_run(taken)));
     });
 }
 

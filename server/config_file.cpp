@@ -39,10 +39,10 @@ Setter texts(std::vector<std::string>& to) {
     };
 }
 template <class T>
-Setter count(T& to) {
-    return [&to](const toml::node& node) {
+Setter count(T& to, std::int64_t least = 1) {
+    return [&to, least](const toml::node& node) {
         const auto value = node.value_exact<std::int64_t>();
-        if (!value || *value < 1 || *value > 1'000'000'000) return false;
+        if (!value || *value < least || *value > 1'000'000'000) return false;
         to = static_cast<T>(*value);
         return true;
     };
@@ -90,6 +90,8 @@ Status read_config_file(const std::string& path, const std::set<std::string>& gi
     Limits& limits = options.limits;
     const std::map<std::string, Setter> limit_keys = {
         {"limits.body_bytes", count(limits.body_bytes)},
+        {"limits.bodies_of_one_bytes", count(limits.bodies_of_one_bytes)},
+        {"limits.bodies_bytes", count(limits.bodies_bytes)},
         {"limits.connections", count(limits.connections)},
         {"limits.connections_per_peer", count(limits.connections_per_peer)},
         {"limits.streams_per_user", count(limits.streams_per_user)},
@@ -101,13 +103,16 @@ Status read_config_file(const std::string& path, const std::set<std::string>& gi
         table.erase("limits");
     }
     const std::map<std::string, Setter> keys = {
+        // Not fewer than the journal may refer to.
+        {"events_kept", count(options.events_kept, 100'000)},
+        {"events_kept_days", count(options.events_kept_days, 7)},
         {"db", text(options.database)},
         {"plant", text(options.plant_file)},
         {"listen", text(options.listen)},
         {"tls_cert", text(options.tls_cert)},
         {"tls_key", text(options.tls_key)},
         {"tls_self_signed", boolean(options.tls_self_signed)},
-        {"behind_proxy", boolean(options.behind_proxy)},
+        {"behind_proxy", texts(options.behind_proxy)},
         {"allow_origins", texts(options.allow_origins)},
         {"log_json", boolean(options.log_json)},
     };

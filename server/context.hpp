@@ -9,8 +9,11 @@
 #include "server/camera_store.hpp"
 #include "server/connections.hpp"
 #include "server/fleet_runtime.hpp"
+#include "server/lane.hpp"
 #include "server/metrics.hpp"
 #include "server/options.hpp"
+#include "server/proxies.hpp"
+#include "server/sign_in_gate.hpp"
 #include "server/stream_hub.hpp"
 #include "server/vehicle_gateway.hpp"
 
@@ -32,14 +35,19 @@ struct Context {
     VehicleGateway& gateway;
     api::AccessPolicy policy;
     net::io_context& io;
-    net::thread_pool& history_pool;
-    net::thread_pool& workers;
-    std::size_t workers_waiting = 0;
+    Lane& lists;           // reads of the history that take milliseconds
+    Lane& heavy;           // marker sheets, previews, images: a second each
+    Lane& workers;         // waits for the store
+    Lane& known_sign_ins;  // hash passwords
+    Lane& stranger_sign_ins;
+    SignInGate& gate;
+    const TrustedProxies& proxies;
     StopList stops;
     Quota peers;
     Quota streams;
+    Quota bodies;
     std::size_t connections = 0;
-    fleet::MotionPreviewer previewer = {};  // of the history thread
+    fleet::MotionPreviewer previewer = {};  // of the heavy lane
 };
 
 /// A request that asks to become a WebSocket, and what came behind it.

@@ -1,6 +1,7 @@
 #include "server/dispatch.hpp"
 
 #include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
 
 namespace pulseline::server {
 namespace {
@@ -15,11 +16,13 @@ Response refused(const Error& error, const Request& request) {
 
 // `request` lives in the session's coroutine, which waits: references to it stay good.
 net::awaitable<Response> on_history(Context& context, const Request& request,
-                                    std::function<Response(const api::HistoryContext&)> handler) {
+                                    std::function<Response(const api::HistoryContext&)> handler,
+                                    bool heavy) {
     const std::function<Response()> job = [&context, handler = std::move(handler)] {
         return handler(api::HistoryContext{context.history, context.plant, context.previewer});
     };
-    auto result = co_await on<Response>(context.history_pool, context.io, job);
+    auto result = co_await on<Response>(heavy ? context.heavy : context.lists, context.io, job,
+                                        request.identity.name);
     co_return result ? std::move(*result) : refused(result.error(), request);
 }
 
@@ -42,26 +45,53 @@ net::awaitable<Response> on_fleet(Context& context, const api::Route& route,
     auto answer = co_await callback<FleetAnswer>(begin);
     if (!answer) co_return refused(answer.error(), request);
     if (!answer->then) co_return std::move(answer->response);
-    co_return co_await on_history(context, request, std::move(answer->then));
+    // What the fleet hands on is a preview, and those belong to the heavy lane.
+    co_return co_await on_history(context, request, std::move(answer->then), true);
+}
+
+/// Refused at once, a program that floods would only ask the faster.
+net::awaitable<Response> refuse_sign_in(Context& context, const Request& request) {
+    net::steady_timer timer(context.io, context.options.limits.sign_in_refusal);
+    StopList::Entry stop(context.stops, [&] { timer.cancel(); });
+    error_code ec;
+    co_await timer.async_wait(into(ec));
+    co_return api::problem(Error{Errc::kUnavailable,
+                                 {"too_many_sign_ins", {{"retry_after_s", std::int64_t{6}}}},
+                                 "Too many sign-ins are being checked. Try again in 6 seconds.",
+                                 {}},
+                           request);
+}
+
+net::awaitable<Response> on_sign_in(Context& context, const api::WorkerHandler handler,
+                                    const Request& request) {
+    const auto now = context.clock.now();
+    const auto sent = api::read_sign_in(request);
+    if (!sent) co_return handler(api::WorkerContext{context.access, now}, request);
+    const std::string peer = neighbourhood(request.peer);
+    const auto way = context.gate.admit(sent->name, peer, context.known_sign_ins.fullness(), now);
+    if (way == SignInGate::Way::kLater) co_return co_await refuse_sign_in(context, request);
+    const bool known = way == SignInGate::Way::kKnown;
+    const std::function<Response()> job = [&context, handler, &request] {
+        return handler(api::WorkerContext{context.access, context.clock.now()}, request);
+    };
+    auto result = co_await on<Response>(known ? context.known_sign_ins : context.stranger_sign_ins,
+                                        context.io, job);
+    if (!result && result.error().reason.code == "overloaded") {
+        co_return co_await refuse_sign_in(context, request);
+    }
+    if (result && result->status == 200) context.gate.succeeded(sent->name, peer, now);
+    context.hub.wake_all();  // the session this browser had before has ended, its streams with it
+    co_return result ? std::move(*result) : refused(result.error(), request);
 }
 
 net::awaitable<Response> on_worker(Context& context, const api::Route& route,
                                    const Request& request) {
-    if (context.workers_waiting >= context.options.limits.workers_waiting) {
-        co_return api::problem(429,
-                               Error{Errc::kUnavailable,
-                                     {"too_many_sign_ins", {{"retry_after_s", std::int64_t{2}}}},
-                                     "Too many sign-ins are being checked. Try again in 2 seconds.",
-                                     {}},
-                               request);
-    }
-    ++context.workers_waiting;
     const auto handler = std::get<api::WorkerHandler>(route.handler);
+    if (route.hashes) co_return co_await on_sign_in(context, handler, request);
     const std::function<Response()> job = [&context, handler, &request] {
         return handler(api::WorkerContext{context.access, context.clock.now()}, request);
     };
-    auto result = co_await on<Response>(context.workers, context.io, job);
-    --context.workers_waiting;
+    auto result = co_await on<Response>(context.workers, context.io, job, request.identity.name);
     context.hub.wake_all();  // a sign-out ends that session's open streams at once
     co_return result ? std::move(*result) : refused(result.error(), request);
 }
@@ -87,7 +117,8 @@ net::awaitable<Response> dispatch(Context& context, const api::Route& route,
         const auto run = *handler;
         co_return co_await on_history(
             context, request,
-            [run, &request](const api::HistoryContext& with) { return run(with, request); });
+            [run, &request](const api::HistoryContext& with) { return run(with, request); },
+            route.heavy);
     }
     co_return co_await on_worker(context, route, request);
 }

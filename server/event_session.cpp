@@ -32,7 +32,8 @@ Result<std::int64_t> start_behind(const api::Request& request, std::int64_t newe
 }
 
 /// Events behind `seq`, ready to send: from memory, else one page of the history.
-net::awaitable<Result<std::string>> read_behind(Context& context, std::int64_t& seq) {
+net::awaitable<Result<std::string>> read_behind(Context& context, const api::Request& request,
+                                                std::int64_t& seq) {
     std::string text;
     for (int i = 0; i < kPage; ++i) {
         const auto frame = context.hub.event(seq + 1);
@@ -44,8 +45,14 @@ net::awaitable<Result<std::string>> read_behind(Context& context, std::int64_t& 
     const std::function<std::vector<fleet::Event>()> job = [&context, seq] {
         return context.history.events_after(seq, kPage);
     };
-    const auto page = co_await on<std::vector<fleet::Event>>(context.history_pool, context.io, job);
+    const auto page = co_await on<std::vector<fleet::Event>>(context.lists, context.io, job,
+                                                             request.identity.name);
     if (!page) co_return fail(page.error());
+    if (!page->empty() && page->front().seq > seq + 1) {
+        // Those in between are kept no longer.
+        text += events::sse_reset(seq + 1, page->front().seq);
+        seq = page->front().seq - 1;
+    }
     for (const auto& event : *page) {
         if (event.seq != seq + 1) {
             co_return fail(Errc::kUnavailable, "event_gap", "The event sequence has a gap.");
@@ -57,24 +64,30 @@ net::awaitable<Result<std::string>> read_behind(Context& context, std::int64_t& 
 }
 
 template <class Stream>
-net::awaitable<bool> send_chunk(Context& context, Stream& stream, const std::string& text) {
+net::awaitable<bool> send_text(Context& context, Stream& stream, unsigned version,
+                               const std::string& text) {
     error_code ec;
     beast::get_lowest_layer(stream).expires_after(context.options.limits.write_time);
-    co_await net::async_write(stream, http::make_chunk(net::buffer(text)), into(ec));
+    if (version >= 11) {
+        co_await net::async_write(stream, http::make_chunk(net::buffer(text)), into(ec));
+    } else {
+        co_await net::async_write(stream, net::buffer(text), into(ec));  // to the connection's end
+    }
     co_return !ec;
 }
 
 template <class Stream>
-net::awaitable<bool> send_head(Context& context, Stream& stream, const api::Request& request) {
+net::awaitable<bool> send_head(Context& context, Stream& stream, const api::Request& request,
+                               unsigned version) {
     http::response<http::empty_body> head;
-    head.version(11);
+    head.version(version);
     head.result(http::status::ok);
     add_security_headers(head, request.secure);
     head.set("X-Request-Id", request.request_id);
     head.set("X-Accel-Buffering", "no");  // a proxy that gathers would hold events back
     head.set(http::field::content_type, "text/event-stream");
     head.set(http::field::cache_control, "no-store");
-    head.chunked(true);
+    if (version >= 11) head.chunked(true);
     head.keep_alive(false);
     http::response_serializer<http::empty_body> serializer(head);
     error_code ec;
@@ -112,7 +125,8 @@ struct Counted {
 }  // namespace
 
 template <class Stream>
-net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request) {
+net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request,
+                                   unsigned version) {
     const auto slot = context.streams.take(request.identity.name);
     auto start = start_behind(request, context.hub.last_event_seq());
     if (!slot) {
@@ -122,36 +136,37 @@ net::awaitable<void> event_session(Context& context, Stream& stream, api::Reques
     if (!start) {
         const auto response = slot ? api::problem(400, start.error(), request)
                                    : api::problem(429, start.error(), request);
-        co_await write_response(context, stream, request, response, 11, false);
+        co_await write_response(context, stream, request, response, version, false);
         co_return;
     }
     const Counted counted(context.metrics.event_clients);
     std::int64_t seq = *start;
-    bool open = co_await send_head(context, stream, request);
+    bool open = co_await send_head(context, stream, request, version);
+    if (request.method == "HEAD") co_return;
     bool stopped = context.stops.stopping();
     // The first comment tells a client at once that it is through.
-    if (open) open = co_await send_chunk(context, stream, events::sse_keep_alive());
+    if (open) open = co_await send_text(context, stream, version, events::sse_keep_alive());
     while (open && !stopped && !context.stops.stopping()) {
         if (!context.access.still_valid(request.identity, context.clock.now())) break;
-        const auto text = co_await read_behind(context, seq);
+        const auto text = co_await read_behind(context, request, seq);
         if (!text) {
             log::error("event_stream_failed",
                        {{"request", request.request_id}, {"what", text.error().what}});
             break;  // the client comes back with Last-Event-ID
         }
         if (!text->empty()) {
-            open = co_await send_chunk(context, stream, *text);
+            open = co_await send_text(context, stream, version, *text);
         } else if (!co_await wait(context, stopped) && !stopped) {
-            open = co_await send_chunk(context, stream, events::sse_keep_alive());
+            open = co_await send_text(context, stream, version, events::sse_keep_alive());
         }
     }
-    if (open) {
+    if (open && version >= 11) {
         error_code ec;
         co_await net::async_write(stream, http::make_chunk_last(), into(ec));
     }
 }
 
-template net::awaitable<void> event_session(Context&, PlainStream&, api::Request);
-template net::awaitable<void> event_session(Context&, TlsStream&, api::Request);
+template net::awaitable<void> event_session(Context&, PlainStream&, api::Request, unsigned);
+template net::awaitable<void> event_session(Context&, TlsStream&, api::Request, unsigned);
 
 }  // namespace pulseline::server

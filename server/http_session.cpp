@@ -1,3 +1,7 @@
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
+
+#include <algorithm>
 #include <chrono>
 #include <limits>
 
@@ -11,37 +15,52 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
+// A body may begin this much later than its head.
+constexpr auto kBodyStart = std::chrono::seconds(2);
+
+constexpr std::size_t kMostPathLogged = 256;
+
 template <class Stream>
 constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
 
-/// What was read, or how the reading ended.
+/// How the reading of a request's head ended.
 struct Incoming {
     error_code ec;
     bool nothing = false;  // ended between two requests
-    std::size_t body_limit = 0;
+    Steady::time_point begin;
 };
 
-/// A stranger gets no more than the usual; who may ask a question that holds images gets room for
-/// them.
-std::size_t body_limit(Context& context, const Upgrade& header) {
-    const std::size_t usual = context.options.limits.body_bytes;
-    auto request = to_request(context, header, {}, false);
-    if (!request) return usual;
-    const auto known = api::match(*request);
-    if (!known.route || known.route->body_bytes <= usual) return usual;
-    request->identity = context.access.identify(request->headers, context.clock.now());
-    return api::admit(*request, context.policy).refusal ? usual : known.route->body_bytes;
+/// Bytes that the other side has not taken yet.
+template <class Stream>
+int unread(Stream& stream) {
+    int bytes = 0;
+    ::ioctl(beast::get_lowest_layer(stream).socket().native_handle(), SIOCOUTQ, &bytes);
+    return bytes;
+}
+
+/// Abruptly: close() throws away what the other side has not read. Who reads slowly is then cut and
+/// not served by the kernel for as long as it likes.
+template <class Stream>
+void end_abruptly(Stream& stream, bool abruptly) {
+    error_code ec;
+    beast::get_lowest_layer(stream).socket().set_option(net::socket_base::linger(abruptly, 0), ec);
 }
 
 template <class Stream>
-net::awaitable<Incoming> read_request(Context& context, Stream& stream, beast::flat_buffer& buffer,
-                                      Parser& parser, bool first) {
+net::awaitable<Incoming> read_head(Context& context, Stream& stream, beast::flat_buffer& buffer,
+                                   Parser& parser, bool first) {
     const Limits& limits = context.options.limits;
     auto& socket = beast::get_lowest_layer(stream);
     Incoming in;
+    in.begin = Steady::now();
     if (buffer.size() == 0) {
-        // Between requests a client may wait longer than within one.
-        socket.expires_after(first ? limits.header_time : limits.keep_alive);
+        // Between requests a client may wait longer than within one, but not to read an answer.
+        auto wait = limits.keep_alive;
+        if (first) wait = limits.header_time;
+        const bool behind = !first && unread(stream) > 0;
+        if (behind) wait = std::min(wait, limits.write_time);
+        end_abruptly(stream, behind);
+        socket.expires_after(wait);
         bool ended = false;
         StopList::Entry stop(context.stops, [&] {
             ended = true;
@@ -53,24 +72,69 @@ net::awaitable<Incoming> read_request(Context& context, Stream& stream, beast::f
             in.nothing = true;
             co_return in;
         }
+        if (!first) in.begin = Steady::now();
     }
-    socket.expires_after(limits.header_time);
+    end_abruptly(stream, true);
+    // One deadline for all of it: each byte may come late, not every byte.
+    socket.expires_at(in.begin + limits.header_time);
     co_await http::async_read_header(stream, buffer, parser, into(in.ec));
-    if (in.ec || parser.is_done()) co_return in;
-    in.body_limit = body_limit(context, parser.get());
-    parser.body_limit(in.body_limit);
-    if (parser.content_length().value_or(0) > in.body_limit) {
-        in.ec = http::error::body_limit;
-        co_return in;
+    co_return in;
+}
+
+/// What the head alone decides about the body that follows it.
+struct BodyRule {
+    std::optional<api::Response> refusal;  // nothing of the body is read
+    std::size_t most_bytes = 0;
+    Quota::Slot slot;  // held while the body is in memory
+};
+
+/// A stranger may send what a sign-in needs; who may ask a question that holds images gets room for
+/// them. Whoever would be refused is refused before anything of the body is kept.
+BodyRule body_rule(Context& context, api::Request request, const Parser& parser) {
+    const Limits& limits = context.options.limits;
+    BodyRule rule;
+    request.identity = context.access.identify(request.headers, context.clock.now());
+    const auto known = api::match(request);
+    if (known.route || request.path.rfind("/api/", 0) == 0) {
+        auto admitted = api::admit(request, context.policy);
+        rule.refusal = std::move(admitted.refusal);
     }
+    const bool stranger = request.identity.kind == access::Identity::Kind::kAnonymous;
+    rule.most_bytes = stranger ? limits.stranger_body_bytes : limits.body_bytes;
+    if (!stranger && known.route) {
+        rule.most_bytes = std::max(rule.most_bytes, known.route->body_bytes);
+    }
+    const auto length = parser.content_length();
+    if (!rule.refusal && length.value_or(0) > rule.most_bytes) {
+        rule.refusal = api::too_large(request, rule.most_bytes);
+    }
+    if (rule.refusal || stranger) return rule;
+    rule.slot = context.bodies.take(request.identity.name,
+                                    length ? static_cast<std::size_t>(*length) : rule.most_bytes);
+    if (!rule.slot) rule.refusal = api::problem(not_run(Lane::Taken::kShareIsUsed), request);
+    return rule;
+}
+
+/// Reads the body, which must come in time and at a rate that is no siege.
+template <class Stream>
+net::awaitable<error_code> read_body(Context& context, Stream& stream, beast::flat_buffer& buffer,
+                                     Parser& parser, Steady::time_point begin) {
+    const Limits& limits = context.options.limits;
+    auto& socket = beast::get_lowest_layer(stream);
+    error_code ec;
     if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
         static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
-        co_await net::async_write(stream, net::buffer(kContinue), into(in.ec));
-        if (in.ec) co_return in;
+        co_await net::async_write(stream, net::buffer(kContinue), into(ec));
+        if (ec) co_return ec;
     }
-    socket.expires_after(limits.body_time);
-    co_await http::async_read(stream, buffer, parser, into(in.ec));
-    co_return in;
+    const auto body_begin = Steady::now();
+    std::size_t read = 0;
+    while (!ec && !parser.is_done()) {
+        const auto paid = std::chrono::milliseconds(1000 * read / limits.body_bytes_per_second);
+        socket.expires_at(std::min(begin + limits.request_time, body_begin + kBodyStart + paid));
+        read += co_await http::async_read_some(stream, buffer, parser, into(ec));
+    }
+    co_return ec;
 }
 
 /// Ends the connection. With `linger` what the client still sends is read and dropped: a close with
@@ -79,6 +143,7 @@ template <class Stream>
 net::awaitable<void> close_gently(Stream& stream, bool linger) {
     auto& socket = beast::get_lowest_layer(stream);
     error_code ec;
+    end_abruptly(stream, false);
     socket.expires_after(std::chrono::seconds(1));
     if constexpr (kIsTls<Stream>) co_await stream.async_shutdown(into(ec));
     socket.socket().shutdown(tcp::socket::shutdown_send, ec);
@@ -105,7 +170,7 @@ void note(Context& context, const api::Request& request, const char* route, int 
         return;
     log::info("request", {{"request", request.request_id},
                           {"method", request.method},
-                          {"path", request.path},
+                          {"path", request.path.substr(0, kMostPathLogged)},
                           {"status", std::to_string(status)},
                           {"ms", std::to_string(static_cast<int>(took * 1000))},
                           {"peer", request.peer},
@@ -170,57 +235,85 @@ api::Response upgrade_required(const api::Request& request) {
     return response;
 }
 
+/// A request of which no more is known than that it cannot be answered.
+template <class Stream>
+api::Request unreadable(const Upgrade& message, const std::string& peer) {
+    api::Request partial;
+    partial.peer = peer;
+    partial.secure = kIsTls<Stream>;
+    partial.method = message.method() == http::verb::head ? "HEAD" : "GET";
+    partial.request_id = request_id(message["X-Request-Id"]);
+    return partial;
+}
+
+/// The request without its body, or the answer to what is no request.
+template <class Stream>
+tl::expected<api::Request, api::Response> understand(Context& context, const Upgrade& message,
+                                                     const std::string& peer) {
+    auto read = to_request(context, message, peer, kIsTls<Stream>);
+    if (read) return std::move(*read);
+    const auto partial = unreadable<Stream>(message, peer);
+    return tl::unexpected<api::Response>(
+        api::bad_request(partial, read.error().reason.code, read.error().what));
+}
+
 }  // namespace
 
 template <class Stream>
 net::awaitable<void> http_session(Context& context, Stream stream, std::string peer) {
     const Limits& limits = context.options.limits;
+    error_code ignored;
+    beast::get_lowest_layer(stream).socket().set_option(
+        net::socket_base::send_buffer_size(limits.send_buffer_bytes), ignored);
     beast::flat_buffer buffer(limits.header_bytes + 64 * 1024);
     bool keep = true;
     bool linger = false;
     for (int count = 0; keep && count < limits.requests_per_connection; ++count) {
         Parser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits.header_bytes));
-        // read_request sets it once it knows who asks for what. Not none: Beast 1.74 takes any
+        // body_rule() knows once it is known who asks for what. Not none: Beast 1.74 takes any
         // length for more than none.
         parser.body_limit(std::numeric_limits<std::uint64_t>::max());
-        const auto in = co_await read_request(context, stream, buffer, parser, count == 0);
+        auto in = co_await read_head(context, stream, buffer, parser, count == 0);
         if (in.nothing) break;
-        const auto start = Steady::now();
         const unsigned version = parser.get().version() >= 11 ? 11 : 10;
-        if (in.ec) {
-            api::Request partial;
-            partial.peer = peer;
-            partial.secure = kIsTls<Stream>;
-            partial.method = "GET";
-            partial.request_id = request_id(parser.get()["X-Request-Id"]);
-            const auto response = answer_to(in.ec, partial, in.body_limit);
-            if (response) {
-                linger = true;
-                note(context, partial, "unreadable", response->status, start);
-                co_await write_response(context, stream, partial, *response, 11, false);
+        // What is refused here may have a body behind it that nobody reads: the connection ends.
+        std::optional<api::Response> refusal;
+        std::optional<api::Request> understood;
+        BodyRule rule;
+        if (!in.ec) {
+            auto read = understand<Stream>(context, parser.get(), peer);
+            if (read) {
+                understood = std::move(*read);
+            } else {
+                refusal = std::move(read.error());
             }
+        }
+        if (understood && !parser.is_done()) {
+            rule = body_rule(context, *understood, parser);
+            refusal = std::move(rule.refusal);
+            if (!refusal) {
+                parser.body_limit(rule.most_bytes);
+                in.ec = co_await read_body(context, stream, buffer, parser, in.begin);
+            }
+        }
+        const auto start = Steady::now();
+        if (in.ec) {
+            refusal = answer_to(in.ec, unreadable<Stream>(parser.get(), peer), rule.most_bytes);
+            if (!refusal) break;
+        }
+        if (refusal) {
+            linger = true;
+            const auto partial = understood ? *understood : unreadable<Stream>(parser.get(), peer);
+            note(context, partial, "unreadable", refusal->status, start);
+            co_await write_response(context, stream, partial, *refusal, version, false);
             break;
         }
         const bool upgrade = websocket::is_upgrade(parser.get());
         keep = parser.get().keep_alive() && !context.stops.stopping() &&
                count + 1 < limits.requests_per_connection;
         auto message = parser.release();
-        auto read = to_request(context, message, peer, kIsTls<Stream>);
-        if (!read) {
-            api::Request partial;
-            partial.method = "GET";
-            partial.peer = peer;
-            partial.secure = kIsTls<Stream>;
-            partial.request_id = request_id(message["X-Request-Id"]);
-            const auto response =
-                api::bad_request(partial, read.error().reason.code, read.error().what);
-            linger = true;
-            note(context, partial, "unreadable", response.status, start);
-            co_await write_response(context, stream, partial, response, version, false);
-            break;
-        }
-        auto request = std::move(*read);
+        auto request = std::move(*understood);
         request.body = std::move(message.body());
 
         if (is_vehicle_path(request.path)) {
@@ -229,6 +322,7 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
                  admitted ? 101 : admitted.error().status, start);
             if (admitted) {
                 buffer = beast::flat_buffer{};  // a vehicle stays for days
+                end_abruptly(stream, false);
                 co_await vehicle_session(context, std::move(stream), std::move(message), *admitted);
                 co_return;
             }
@@ -242,11 +336,12 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
                 std::get<api::Socket>(out.socket->handler) == api::Socket::kEventStream;
             if (events) {
                 note(context, request, out.route, 200, start);
-                co_await event_session(context, stream, std::move(request));
+                co_await event_session(context, stream, std::move(request), version);
                 break;
             }
             if (upgrade) {
                 note(context, request, out.route, 101, start);
+                end_abruptly(stream, false);
                 co_await stream_session(context, std::move(stream), std::move(message),
                                         std::move(request));
                 co_return;

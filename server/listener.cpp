@@ -1,9 +1,12 @@
 #include "server/listener.hpp"
 
+#include "server/descriptors.hpp"
 #include "server/sessions.hpp"
 
 namespace pulseline::server {
 namespace {
+
+constexpr int kRefusedAtOnce = 256;
 
 void ended(const std::exception_ptr& error) {
     try {
@@ -82,12 +85,15 @@ Status check_exposure(const Options& options, const Address& address) {
         return fail(Errc::kInvalid, "bad_address",
                     "--listen " + address.host + " is no IP address; write one of this machine");
     }
-    if (ip.is_loopback() || options.tls() || options.behind_proxy) return {};
+    if (const auto proxies = TrustedProxies::parse(options.behind_proxy); !proxies) {
+        return fail(proxies.error());
+    }
+    if (ip.is_loopback() || options.tls() || !options.behind_proxy.empty()) return {};
     return fail(Errc::kInvalid, "tls_required",
                 "refusing to serve " + address.text() +
                     " without encryption: passwords and tokens would travel in clear. Give "
                     "--tls-cert and --tls-key, or --tls-self-signed, or listen on 127.0.0.1, or "
-                    "--behind-proxy when a proxy in front ends TLS");
+                    "--behind-proxy with the addresses of the proxies in front that end TLS");
 }
 
 Result<tcp::acceptor> open_acceptor(net::io_context& io, const Address& address) {
@@ -112,24 +118,32 @@ Result<tcp::acceptor> open_acceptor(net::io_context& io, const Address& address)
 
 net::awaitable<void> accept_loop(Context& context, tcp::acceptor& acceptor, Tls* tls) {
     const Limits& limits = context.options.limits;
+    SpareDescriptor spare;
     for (;;) {
         error_code ec;
         tcp::socket socket(context.io);
         co_await acceptor.async_accept(socket, into(ec));
         if (!acceptor.is_open() || ec == net::error::operation_aborted) co_return;
         if (ec) {
-            // Out of file descriptors: those we have go on, new ones wait.
-            ++context.metrics.connections_refused;
-            net::steady_timer timer(context.io, std::chrono::milliseconds(100));
+            // Out of file descriptors: those we have go on, new ones are closed.
+            context.metrics.connections_refused += spare.refuse_waiting(acceptor, kRefusedAtOnce);
+            net::steady_timer timer(context.io, std::chrono::milliseconds(20));
             co_await timer.async_wait(into(ec));
             continue;
         }
         const auto remote = socket.remote_endpoint(ec);
         if (ec) continue;
-        const std::string peer = remote.address().to_string();
+        const auto address = plain_address(remote.address());
+        const std::string peer = address.to_string();
+        const bool proxy = context.proxies.contains(peer);
+        if (!proxy && !tls && !context.proxies.empty() && !address.is_loopback()) {
+            // Only the proxies end TLS: who comes past them would send secrets in clear.
+            ++context.metrics.connections_refused;
+            continue;
+        }
         // A proxy and the machine itself speak for many; the rest may not crowd others out.
-        const bool many = context.options.behind_proxy || remote.address().is_loopback();
-        auto slot = many ? Quota::Slot{} : context.peers.take(peer);
+        const bool many = proxy || address.is_loopback();
+        auto slot = many ? Quota::Slot{} : context.peers.take(neighbourhood(peer));
         if (context.connections >= limits.connections || (!many && !slot)) {
             ++context.metrics.connections_refused;
             continue;

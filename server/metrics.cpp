@@ -158,10 +158,15 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
            vehicle_messages_out.load());
     single(out, "pulseline_vehicle_messages_malformed_total", "counter",
            "Messages of vehicles that were refused.", vehicle_messages_malformed.load());
+    single(out, "pulseline_vehicle_messages_withheld_total", "counter",
+           "Messages and pictures beyond what a vehicle's link may say.",
+           vehicle_messages_withheld.load());
     single(out, "pulseline_vehicle_takeovers_total", "counter",
            "Sockets replaced by a newer one of the same identity.", vehicle_takeovers.load());
     single(out, "pulseline_event_seq", "gauge", "Newest event of the gapless sequence.",
            event_seq.load());
+    single(out, "pulseline_clock_ahead_milliseconds", "gauge",
+           "How far the server's time is ahead of the system's.", clock_ahead_ms.load());
     single(out, "process_resident_memory_bytes", "gauge", "Resident memory.", resident_bytes());
     return out;
 }

@@ -52,6 +52,8 @@ public:
     std::atomic<std::uint64_t> vehicle_messages_in{0};
     std::atomic<std::uint64_t> vehicle_messages_out{0};
     std::atomic<std::uint64_t> vehicle_messages_malformed{0};
+    std::atomic<std::uint64_t> vehicle_messages_withheld{0};
+    std::atomic<std::int64_t> clock_ahead_ms{0};
     std::atomic<std::uint64_t> vehicle_takeovers{0};
     std::atomic<std::uint64_t> fleet_rebuilds{0};
     std::atomic<int> read_only{0};

@@ -37,7 +37,7 @@ std::vector<std::string> hosts_of_this_machine() {
 
 std::vector<std::string> allowed_origins(const Options& options, const Address& bound) {
     std::vector<std::string> origins = options.allow_origins;
-    if (options.behind_proxy) return origins;  // only the proxy's public name counts
+    if (!options.behind_proxy.empty()) return origins;  // only the proxy's public name counts
     const std::string scheme = options.tls() ? "https" : "http";
     const bool standard = bound.port == (options.tls() ? 443 : 80);
     const auto add = [&](const std::string& host) {

@@ -56,20 +56,22 @@ Result<api::Request> to_request(const Context& context, const Upgrade& message,
     if (message.version() == 11 && message.find(http::field::host) == message.end()) {
         return fail(Errc::kInvalid, "host_missing", "HTTP/1.1 needs the header Host.");
     }
-    if (message.find(http::field::transfer_encoding) != message.end() &&
-        message.find(http::field::content_length) != message.end()) {
-        return fail(Errc::kInvalid, "ambiguous_length",
-                    "Send Content-Length or Transfer-Encoding, not both.");
-    }
-    if (context.options.behind_proxy) {
-        request.secure = request.header("x-forwarded-proto") == "https";
-        const auto& forwarded = request.header("x-forwarded-for");
-        if (!forwarded.empty()) {
-            // The last entry is the one our own proxy wrote.
-            auto last = forwarded.substr(forwarded.rfind(',') + 1);
-            last.erase(0, last.find_first_not_of(' '));
-            if (!last.empty() && last.size() <= 64) request.peer = last;
+    if (message.find(http::field::transfer_encoding) != message.end()) {
+        if (message.find(http::field::content_length) != message.end()) {
+            return fail(Errc::kInvalid, "ambiguous_length",
+                        "Send Content-Length or Transfer-Encoding, not both.");
         }
+        // Read as "no body", the body would be the next request: a proxy in front may see it
+        // otherwise (RFC 9112, 6.1).
+        if (message.version() < 11 ||
+            !beast::iequals(request.header("transfer-encoding"), "chunked")) {
+            return fail(Errc::kInvalid, "bad_transfer_encoding",
+                        "The only transfer coding is chunked, in HTTP/1.1; send Content-Length.");
+        }
+    }
+    if (context.proxies.contains(peer)) {
+        request.secure = request.header("x-forwarded-proto") == "https";
+        request.peer = context.proxies.client(peer, request.header("x-forwarded-for"));
     }
     const auto target = message.target();
     if (!api::parse_target({target.data(), target.size()}, request)) {

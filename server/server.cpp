@@ -2,12 +2,14 @@
 
 #include <sodium.h>
 
+#include <cmath>
 #include <csignal>
 
 #include "api/http/documents.hpp"
 #include "core/base/crash_point.hpp"
 #include "server/context.hpp"
 #include "server/listener.hpp"
+#include "server/locked_history.hpp"
 #include "server/origins.hpp"
 #include "server/server_clock.hpp"
 
@@ -16,7 +18,11 @@ namespace {
 
 constexpr auto kPosePeriod = std::chrono::milliseconds(100);
 constexpr auto kStopGrace = std::chrono::milliseconds(1500);
+constexpr auto kKeepUses = std::chrono::seconds(30);
+constexpr auto kFollowClock = std::chrono::seconds(1);
 constexpr int kStopsShown = 50;
+constexpr int kNiceOfHeavy = 5;
+constexpr int kNiceOfStrangers = 10;  // behind all else, but not starved on a busy machine
 
 std::uint64_t random_seed() {
     std::uint64_t seed = 0;
@@ -53,6 +59,8 @@ public:
     FleetRuntime::Ports runtime_ports();
     VehicleGateway::Ports gateway_ports();
     net::awaitable<void> offer_poses();
+    net::awaitable<void> keep_uses();
+    net::awaitable<void> follow_clock();
     net::awaitable<void> finish();
 
     Options options_;
@@ -71,16 +79,18 @@ public:
     std::optional<FleetRuntime> runtime_;
     std::optional<access::AccessControl> access_;
     std::optional<VehicleGateway> gateway_;
-    std::optional<net::thread_pool> history_pool_;
-    std::optional<net::thread_pool> workers_;
+    std::optional<LockedHistory> history_;
+    TrustedProxies proxies_;
+    SignInGate gate_;
+    // The threads beside the fleet's, each with a queue of its own that is dropped at the end.
+    std::vector<std::unique_ptr<Lane>> lanes_;
     std::optional<Context> context_;
     bool stopping_ = false;
 };
 
 Server::Impl::~Impl() {
     if (runtime_) runtime_->stop();
-    if (history_pool_) history_pool_->join();
-    if (workers_) workers_->join();
+    lanes_.clear();
     acceptor_.reset();
     signals_.reset();
     io_.reset();
@@ -91,6 +101,9 @@ Status Server::Impl::start() {
     if (!address) return fail(address.error());
     address_ = *address;
     if (auto exposed = check_exposure(options_, address_); !exposed) return exposed;
+    auto proxies = TrustedProxies::parse(options_.behind_proxy);
+    if (!proxies) return fail(proxies.error());
+    proxies_ = std::move(*proxies);
     if (options_.tls()) {
         auto tls = make_tls(options_, address_.host);
         if (!tls) return fail(tls.error());
@@ -117,8 +130,18 @@ Status Server::Impl::start() {
         },
         clock_->now());
     gateway_.emplace(gateway_ports());
-    history_pool_.emplace(1);
-    workers_.emplace(2);
+    history_.emplace(parts_.history);
+    const Limits& limits = options_.limits;
+    const auto lane = [this](std::size_t waiting, std::size_t of_one, int nice) -> Lane& {
+        return *lanes_.emplace_back(std::make_unique<Lane>(Lane::Limits{waiting, of_one, nice}));
+    };
+    Lane& lists = lane(limits.lists_waiting, limits.lists_of_one, 0);
+    Lane& heavy = lane(limits.heavy_waiting, limits.heavy_of_one, kNiceOfHeavy);
+    Lane& workers = lane(limits.lists_waiting, limits.lists_of_one, 0);
+    Lane& known_sign_ins = lane(limits.sign_ins_waiting, limits.sign_ins_waiting, kNiceOfHeavy);
+    Lane& stranger_sign_ins =
+        lane(limits.sign_ins_waiting, limits.sign_ins_waiting, kNiceOfStrangers);
+    for (const auto& name : access_->signed_in(clock_->now())) gate_.remember(name, clock_->now());
     context_.emplace(Context{options_,
                              parts_.plant,
                              documents_,
@@ -128,17 +151,22 @@ Status Server::Impl::start() {
                              images_,
                              *runtime_,
                              *access_,
-                             parts_.history,
+                             *history_,
                              *hub_,
                              *gateway_,
                              api::AccessPolicy{allowed_origins(options_, address_)},
                              *io_,
-                             *history_pool_,
-                             *workers_,
-                             0,
+                             lists,
+                             heavy,
+                             workers,
+                             known_sign_ins,
+                             stranger_sign_ins,
+                             gate_,
+                             proxies_,
                              StopList{},
                              Quota(options_.limits.connections_per_peer),
                              Quota(options_.limits.streams_per_user),
+                             Quota(limits.bodies_of_one_bytes, limits.bodies_bytes),
                              0});
     if (auto started = runtime_->start(std::move(stored)); !started) return started;
     runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
@@ -146,6 +174,8 @@ Status Server::Impl::start() {
     });
     net::co_spawn(*io_, accept_loop(*context_, *acceptor_, tls_.get()), rethrow);
     net::co_spawn(*io_, offer_poses(), rethrow);
+    net::co_spawn(*io_, keep_uses(), rethrow);
+    net::co_spawn(*io_, follow_clock(), rethrow);
     return {};
 }
 
@@ -182,6 +212,44 @@ net::awaitable<void> Server::Impl::offer_poses() {
     }
 }
 
+/// Core time follows UTC; people hear of it when the two differ.
+net::awaitable<void> Server::Impl::follow_clock() {
+    net::steady_timer timer(*io_);
+    bool told = false;
+    while (!stopping_) {
+        clock_->follow();
+        const Duration ahead = clock_->ahead();
+        const bool differs = std::chrono::abs(ahead) > ServerClock::kWorthTelling;
+        if (differs != told) {
+            log::warn(differs ? "clock_differs" : "clock_agrees",
+                      {{"ahead_s", std::to_string(std::llround(seconds(ahead)))},
+                       {"remedy", differs && ahead > ServerClock::kTolerated
+                                      ? "restart the server: it then starts at UTC"
+                                      : ""}});
+        }
+        told = differs;
+        metrics_.clock_ahead_ms = ahead / std::chrono::milliseconds(1);
+        timer.expires_after(kFollowClock);
+        error_code ec;
+        co_await timer.async_wait(into(ec));
+    }
+}
+
+/// When sessions were used, written down now and then.
+net::awaitable<void> Server::Impl::keep_uses() {
+    net::steady_timer timer(*io_);
+    while (!stopping_) {
+        timer.expires_after(kKeepUses);
+        error_code ec;
+        co_await timer.async_wait(into(ec));
+        const std::function<bool()> save = [this] {
+            access_->save_uses();
+            return true;
+        };
+        co_await on<bool>(context_->workers, *io_, save, "uses of sessions");
+    }
+}
+
 void Server::Impl::run() {
     for (;;) {
         try {
@@ -201,6 +269,7 @@ void Server::Impl::begin_stop() {
     signals_->cancel(ec);
     acceptor_->close(ec);
     context_->stops.stop_all();
+    for (auto& lane : lanes_) lane->stop();
     crash_point(CrashPoint::kStopBeforeLastCommit);
     runtime_->stop();  // what was asked before is committed; its answers wait in io_
     crash_point(CrashPoint::kStopAfterLastCommit);

@@ -1,27 +1,47 @@
 #pragma once
 
-#include <chrono>
+#include <functional>
+#include <mutex>
 
 #include "core/base/time.hpp"
 
 namespace pulseline::server {
 
-/// The steady clock, offset once to UTC so that it never precedes the last stored time.
+/// Core time: never goes back while the server runs, and follows UTC. At start it is UTC, unless
+/// the newest stored time is a little later. When that is much later, a clock once was ahead, or
+/// this one is behind; UTC is taken when it can be true, and the fleet takes back what it stored
+/// (StoredFleet::last_time). Later differences are made up slowly, a tenth faster or slower,
+/// because silence is counted in core time. Thread safety: full.
 class ServerClock : public Clock {
 public:
-    explicit ServerClock(Time last_stored) {
-        const Time utc{std::chrono::duration_cast<Duration>(
-            std::chrono::system_clock::now().time_since_epoch())};
-        offset_ = std::max(utc, last_stored) - steady();
-    }
-    Time now() const override { return steady() + offset_; }
+    using Source = std::function<Time()>;
+
+    /// What a stored time may be ahead of UTC before UTC is believed instead.
+    static constexpr Duration kTolerated = std::chrono::minutes(5);
+    /// A difference that people should know of.
+    static constexpr Duration kWorthTelling = std::chrono::seconds(10);
+
+    explicit ServerClock(Time last_stored);
+    ServerClock(Time last_stored, Source utc, Source steady);
+
+    Time now() const override;
+    /// To be called about once a second: compares with UTC and sets the rate.
+    void follow();
+    /// How far core time is ahead of UTC, as follow() saw it last.
+    Duration ahead() const;
+    /// Time of the build: no clock that is right is behind it.
+    static Time built();
 
 private:
-    static Time steady() {
-        return Time{std::chrono::duration_cast<Duration>(
-            std::chrono::steady_clock::now().time_since_epoch())};
-    }
-    Duration offset_{};
+    Time now_at(Time steady) const;
+
+    Source utc_;
+    Source steady_;
+    mutable std::mutex mutex_;  // guards what follows
+    Time begin_;                // core time at begin_steady_
+    Time begin_steady_;
+    int per_mille_ = 1000;  // of the steady clock's speed
+    Duration ahead_{};
 };
 
 }  // namespace pulseline::server

@@ -18,7 +18,8 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
 
 /// /api/v1/events.
 template <class Stream>
-net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request);
+net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request,
+                                   unsigned version);
 
 /// /vehicles/{manufacturer}/{serialNumber}, after the token was checked.
 template <class Stream>

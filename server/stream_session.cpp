@@ -116,6 +116,8 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
     beast::get_lowest_layer(stream).socket().set_option(net::socket_base::send_buffer_size(65536),
                                                         ec);
     beast::get_lowest_layer(stream).expires_never();  // the WebSocket keeps its own time
+    beast::get_lowest_layer(stream).rate_policy().read_limit(
+        context.options.limits.stream_bytes_per_second);
     auto session = std::make_shared<Session<Stream>>(context, std::move(stream), request.identity);
     auto& socket = session->socket;
     socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10),

@@ -21,6 +21,8 @@ constexpr std::size_t kMostTakeovers = 3;
 // Silence is counted in seconds, so the fleet need not hear of every frame.
 constexpr auto kTellHeard = std::chrono::milliseconds(500);
 constexpr auto kShowRefused = std::chrono::seconds(60);
+constexpr auto kLogRefusedEvery = std::chrono::seconds(10);
+constexpr std::size_t kMostFieldLogged = 128;
 
 bool offers_subprotocol(const std::string& header) {
     std::size_t at = 0;
@@ -176,6 +178,36 @@ void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socke
     if (!row) return;
     ++ports_.metrics.vehicle_messages_in;
     heard(id, socket);
+    switch (budget(*row).message(frame.size(), Steady::now())) {
+        case LinkBudget::Verdict::kTake:
+            row->withheld.reset();  // a newer one has come
+            return take_text(id, *row, frame);
+        case LinkBudget::Verdict::kWithhold:
+            ++ports_.metrics.vehicle_messages_withheld;
+            row->withheld = std::string(frame);
+            if (row->budget->excess_begins()) too_many(id, *row);
+            return;
+        case LinkBudget::Verdict::kClose:
+            row->withheld.reset();
+            row->socket->close(1008, "too many messages");
+    }
+}
+
+LinkBudget& VehicleGateway::budget(Row& row) {
+    if (!row.budget) row.budget.emplace(ports_.limits);
+    return *row.budget;
+}
+
+void VehicleGateway::take_withheld(const plant::VehicleId& id, const VehicleSocket* socket) {
+    Row* row = current(id, socket);
+    if (!row || !row->withheld) return;
+    if (!budget(*row).again(row->withheld->size(), Steady::now())) return;
+    const std::string frame = *std::exchange(row->withheld, std::nullopt);
+    take_text(id, *row, frame);
+}
+
+void VehicleGateway::take_text(const plant::VehicleId& id, Row& at, std::string_view frame) {
+    Row* const row = &at;
     auto decoded = read_vehicle_frame(frame, *plant::find_vehicle(ports_.plant, id));
     if (!decoded) {
         malformed(id, *row, decoded.error());
@@ -235,20 +267,43 @@ void VehicleGateway::hand_over_state(const plant::VehicleId& id, const Row& row)
     });
 }
 
+/// Told once: in the vehicle's errors for a minute, and as an event.
+void VehicleGateway::too_many(const plant::VehicleId& id, Row& row) {
+    log::warn("vehicle_says_too_much", {{"vehicle", id.str()}});
+    row.refused = fleet::VehicleError{
+        "messageRefused",
+        false,
+        "The vehicle sends more messages than one link may; only the newest are taken.",
+        {{"field", ""}, {"code", "too_many_messages"}}};
+    row.refused_at = Steady::now();
+    ports_.runtime.input([id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
+        fleet.vehicle_message_refused(id, refused, at);
+    });
+}
+
 void VehicleGateway::malformed(const plant::VehicleId& id, Row& row, const Error& error) {
     ++ports_.metrics.vehicle_messages_malformed;
     ++row.malformed_in_a_row;
-    log::warn("vehicle_message_refused", {{"vehicle", id.str()},
-                                          {"field", error.field},
-                                          {"code", error.reason.code},
-                                          {"what", error.what}});
+    const auto now = Steady::now();
+    if (now - row.logged >= kLogRefusedEvery) {
+        row.logged = now;
+        log::warn("vehicle_message_refused",
+                  {{"vehicle", id.str()},
+                   {"field", error.field.substr(0, kMostFieldLogged)},
+                   {"code", error.reason.code},
+                   {"what", error.what},
+                   {"not_logged", std::to_string(std::exchange(row.not_logged, 0))}});
+    } else {
+        ++row.not_logged;
+    }
     const bool fresh = !row.refused || row.refused->description != error.what ||
                        Steady::now() - row.refused_at >= kShowRefused;
     row.refused = fleet::VehicleError{
         "messageRefused", false, error.what, {{"field", error.field}, {"code", error.reason.code}}};
     row.refused_at = Steady::now();
-    if (row.malformed_in_a_row >= ports_.limits.vehicle_malformed_in_a_row) {
-        row.socket->close(1008, "too many malformed messages in a row");
+    const bool bearable = budget(row).malformed(now);
+    if (!bearable || row.malformed_in_a_row >= ports_.limits.vehicle_malformed_in_a_row) {
+        row.socket->close(1008, "too many malformed messages");
     } else if (fresh) {
         ports_.runtime.input([id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
             fleet.vehicle_message_refused(id, refused, at);
@@ -262,6 +317,10 @@ void VehicleGateway::binary(const plant::VehicleId& id, const VehicleSocket* soc
     if (!row) return;
     ++ports_.metrics.vehicle_messages_in;
     heard(id, socket);
+    if (!budget(*row).picture(Steady::now())) {
+        ++ports_.metrics.vehicle_messages_withheld;  // the next one is newer
+        return;
+    }
     const auto picture = vda5050::decode_camera_frame(frame);
     if (!picture) {
         malformed(id, *row, picture.error());

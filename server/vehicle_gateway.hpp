@@ -17,6 +17,7 @@
 #include "api/vehicle/header.hpp"
 #include "server/camera_store.hpp"
 #include "server/fleet_runtime.hpp"
+#include "server/link_budget.hpp"
 #include "server/metrics.hpp"
 #include "server/net.hpp"
 #include "server/options.hpp"
@@ -57,6 +58,8 @@ public:
     void closed(const plant::VehicleId& id, const VehicleSocket* socket);
     void heard(const plant::VehicleId& id, const VehicleSocket* socket);
     void text(const plant::VehicleId& id, const VehicleSocket* socket, std::string_view frame);
+    /// The newest message that came too soon, when its time has come.
+    void take_withheld(const plant::VehicleId& id, const VehicleSocket* socket);
     void binary(const plant::VehicleId& id, const VehicleSocket* socket, std::string_view frame);
 
     /// Committed messages of the fleet. A vehicle without a socket gets none: the fleet sends
@@ -88,11 +91,18 @@ private:
         Steady::time_point refused_at{};
         std::optional<Steady::time_point> told_not_sent;
         int malformed_in_a_row = 0;
+        std::optional<LinkBudget> budget;     // lasts longer than a connection
+        std::optional<std::string> withheld;  // newest message beyond it
+        Steady::time_point logged{};          // newest line about a refused message
+        std::int64_t not_logged = 0;
         std::optional<vda5050::HeaderSource> headers;
         bool said_offline = false;
     };
 
     Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
+    void take_text(const plant::VehicleId& id, Row& row, std::string_view frame);
+    LinkBudget& budget(Row& row);
+    void too_many(const plant::VehicleId& id, Row& row);
     void malformed(const plant::VehicleId& id, Row& row, const Error& error);
     void pass_state(const plant::VehicleId& id, Row& row, fleet::StateMessage state);
     void hand_over_factsheet(const plant::VehicleId& id, const Row& row);

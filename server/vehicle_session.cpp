@@ -78,6 +78,7 @@ net::awaitable<void> ping_loop(std::shared_ptr<Session<Stream>> session) {
         if (ec) break;
         timer.expires_after(kPing);
         co_await timer.async_wait(into(ec));
+        session->context.gateway.take_withheld(session->id, session.get());
     }
 }
 
@@ -123,6 +124,8 @@ net::awaitable<void> vehicle_session(Context& context, Stream stream, Upgrade up
                                      plant::VehicleId vehicle) {
     error_code ec;
     beast::get_lowest_layer(stream).expires_never();
+    beast::get_lowest_layer(stream).rate_policy().read_limit(
+        context.options.limits.link_bytes_per_second);
     auto session = std::make_shared<Session<Stream>>(context, std::move(stream), vehicle);
     auto& socket = session->socket;
     socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), kDead, false});

@@ -19,6 +19,8 @@ constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kSecretBytes = 32;
 constexpr std::size_t kTokenIdLength = 12;
 constexpr const char* kTokenActor = "token:";
+constexpr Duration kClockTolerance = std::chrono::minutes(5);
+constexpr Duration kStoreUse = std::chrono::minutes(1);
 
 bool usable_name(const std::string& name) {
     return !name.empty() && name.size() <= kMaxNameBytes &&
@@ -61,6 +63,9 @@ void apply(Store& store, const Change& change) {
         void operator()(const Token& token) const { store.put(token); }
         void operator()(const RemoveSession& gone) const {
             store.remove_session(gone.token_sha256);
+        }
+        void operator()(const SessionUses& all) const {
+            for (const auto& [token_sha256, used] : all.uses) store.put_use(token_sha256, used);
         }
     };
     std::visit(Writer{store}, change);
@@ -143,7 +148,11 @@ AccessControl::AccessControl(Store& store, Save save, Time now, Limits limits, H
     : impl_(std::make_unique<Impl>(std::move(save), limits, cost)) {
     for (auto& user : store.users()) impl_->users.emplace(user.name, user);
     for (auto& session : store.sessions()) {
-        impl_->sessions.emplace(session.token_sha256, Impl::LiveSession{session, now});
+        const Impl::LiveSession live{session, session.used};
+        // One of a time that has not come yet was made by a clock that was ahead.
+        const bool possible = session.used <= now + kClockTolerance;
+        if (possible && now < impl_->ends(live))
+            impl_->sessions.emplace(session.token_sha256, live);
     }
     for (auto& token : store.tokens()) impl_->tokens.emplace(token.token_sha256, token);
 }
@@ -213,7 +222,7 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
     session.token_sha256 = sha256_hex(signed_in.cookie_token);
     session.csrf_token = random_text(kSecretBytes);
     session.user = name;
-    session.created = now;
+    session.created = session.used = now;
     session.expires = now + impl_->limits.session_total;
     impl_->save(session);
 
@@ -235,6 +244,33 @@ void AccessControl::sign_out(const Identity& identity) {
     impl_->save(RemoveSession{identity.session_sha256});
     const std::lock_guard lock(impl_->mutex);
     impl_->sessions.erase(identity.session_sha256);
+}
+
+void AccessControl::save_uses() {
+    SessionUses changed;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        for (const auto& [sha256, session] : impl_->sessions) {
+            if (session.used - session.stored.used < kStoreUse) continue;
+            changed.uses.emplace_back(sha256, session.used);
+        }
+    }
+    if (changed.uses.empty()) return;
+    impl_->save(changed);
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& [sha256, used] : changed.uses) {
+        const auto session = impl_->sessions.find(sha256);
+        if (session != impl_->sessions.end()) session->second.stored.used = used;
+    }
+}
+
+std::vector<std::string> AccessControl::signed_in(Time now) const {
+    const std::lock_guard lock(impl_->mutex);
+    std::vector<std::string> names;
+    for (const auto& [sha256, session] : impl_->sessions) {
+        if (now < impl_->ends(session)) names.push_back(session.stored.user);
+    }
+    return names;
 }
 
 Result<User> AccessControl::create_user(const std::string& name, Role role,

@@ -16,8 +16,12 @@ namespace pulseline::access {
 struct RemoveSession {
     std::string token_sha256;
 };
+/// When sessions were used last, by their token_sha256.
+struct SessionUses {
+    std::vector<std::pair<std::string, Time>> uses;
+};
 /// One thing to write through access::Store.
-using Change = std::variant<User, Session, Token, RemoveSession>;
+using Change = std::variant<User, Session, Token, RemoveSession, SessionUses>;
 void apply(Store& store, const Change& change);  // call qualified: std::apply is near
 
 struct Limits {
@@ -66,6 +70,11 @@ public:
     Result<SignedIn> sign_in(const std::string& name, const std::string& password,
                              const std::string& peer, Time now);
     void sign_out(const Identity& identity);
+    /// Stores when sessions were used, so that one left alone does not live again after a restart.
+    /// A use within a minute of the stored one is not worth a write.
+    void save_uses();
+    /// Accounts with a session that may still be used.
+    std::vector<std::string> signed_in(Time now) const;
 
     /// Adds a user, or gives an existing one a new role and password; ends that user's sessions.
     Result<User> create_user(const std::string& name, Role role, const std::string& password,

@@ -78,6 +78,11 @@ std::string sse(const fleet::Event& event) {
                        api::dump(api::event_json(event)));
 }
 
+std::string sse_reset(std::int64_t from, std::int64_t oldest) {
+    return fmt::format("id: {}\nevent: stream.reset\ndata: {{\"from\":{},\"oldest\":{}}}\n\n",
+                       oldest - 1, from, oldest);
+}
+
 std::string sse_keep_alive() { return ": still here\n\n"; }
 
 }  // namespace pulseline::events

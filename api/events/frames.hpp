@@ -41,6 +41,9 @@ std::string event_frame(const fleet::Event& event);
 
 /// One server-sent event: "id: 7\nevent: vehicle.lost\ndata: {...}\n\n".
 std::string sse(const fleet::Event& event);
+/// Says that the events from `from` on are not kept any more, and that `oldest` is the next to
+/// come.
+std::string sse_reset(std::int64_t from, std::int64_t oldest);
 /// A comment that keeps the connection open.
 std::string sse_keep_alive();
 

@@ -36,7 +36,9 @@ std::string shortened(const std::string& field) {
 int http_status(const Error& error) {
     if (error.reason.code == "stale_revision") return 412;
     if (error.reason.code == "idempotency_key_reused") return 422;
-    if (error.reason.code == "too_many_sign_ins") return 429;
+    if (error.reason.code == "too_many_sign_ins" || error.reason.code == "too_many_requests") {
+        return 429;
+    }
     if (error.reason.code == "wrong_credentials") return 401;
     switch (error.code) {
         case Errc::kInvalid:

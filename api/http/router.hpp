@@ -54,6 +54,8 @@ struct Route {
     std::variant<InlineHandler, FleetHandler, HistoryHandler, WorkerHandler, Socket> handler;
     bool only_asks = false;  // a POST that changes nothing: answered while nothing can be stored
     std::size_t body_bytes = 0;  // of those who may use it; 0: what the server allows everybody
+    bool heavy = false;          // takes a good part of a second of the history thread
+    bool hashes = false;         // checks a password: waits behind a gate of its own
 
     bool changes() const;  // not GET
 };

@@ -27,7 +27,7 @@ std::span<const Route> routes() {
     static const std::vector<Route> kRoutes = {
         // method, path, operation, least role, query parameters, handler
         {"GET", "/api/v1/session", "getSession", kViewer, {}, get_session},
-        {"POST", "/api/v1/session", "signIn", kPublic, {}, sign_in},
+        {"POST", "/api/v1/session", "signIn", kPublic, {}, sign_in, false, 0, false, true},
         {"DELETE", "/api/v1/session", "signOut", kViewer, {}, sign_out},
 
         {"GET", "/api/v1/plant", "getPlant", kViewer, {}, get_plant},
@@ -40,7 +40,10 @@ std::span<const Route> routes() {
          "printMarkers",
          kViewer,
          {"stations", "format"},
-         print_markers},
+         print_markers,
+         false,
+         0,
+         true},
 
         {"GET", "/api/v1/vehicles", "listVehicles", kViewer, {}, list_vehicles},
         {"GET", "/api/v1/vehicles/{id}", "getVehicle", kViewer, {}, get_vehicle},
@@ -141,7 +144,15 @@ std::span<const Route> routes() {
 
         {"POST", "/api/v1/routes", "findRoutes", kOperator, {}, find_routes, true},
         {"POST", "/api/v1/motion-previews", "previewMotions", kOperator, {}, preview_motions, true},
-        {"POST", "/api/v1/localizations", "localize", kOperator, {}, localize, true, kImageBody},
+        {"POST",
+         "/api/v1/localizations",
+         "localize",
+         kOperator,
+         {},
+         localize,
+         true,
+         kImageBody,
+         true},
 
         {"GET",
          "/api/v1/stop-records",

@@ -13,6 +13,8 @@ namespace {
 using json::FieldErrors;
 using json::ObjectReader;
 
+// A drive takes longer; what is wanted more often is one order with many steps.
+constexpr std::int64_t kLeastEvery_s = 60;
 constexpr std::int64_t kYear_s = 366LL * 86'400;
 constexpr std::int64_t kDay_s = 86'400;
 constexpr std::int64_t kDailyWindow_s = 3'600;
@@ -44,7 +46,7 @@ fleet::Recurrence read_recurrence(ObjectReader& in) {
         in.errors().add("/every_s", {"every_or_daily", {}},
                         "Give either every_s or daily_at, not both.");
     }
-    if (every) when.every = std::chrono::seconds(in.integer("every_s", {1, kYear_s}));
+    if (every) when.every = std::chrono::seconds(in.integer("every_s", {kLeastEvery_s, kYear_s}));
     in.items_if_any(
         "daily_at", {1, kMaxTimesOfDay}, [&](const Json& item, const std::string& pointer) {
             const std::string text = json::read_text(item, pointer, in.errors(), {1, 8});

@@ -28,6 +28,7 @@ struct Session {
     std::string user;
     Time created;
     Time expires;
+    Time used = {};  // newest use that was stored
 };
 
 /// A bearer token of a program (role) or of one vehicle.
@@ -48,10 +49,12 @@ class Store {
 public:
     virtual ~Store() = default;
     virtual std::vector<User> users() = 0;
-    virtual std::vector<Session> sessions() = 0;  // not expired ones
+    virtual std::vector<Session> sessions() = 0;
     virtual std::vector<Token> tokens() = 0;
     virtual void put(const User& user) = 0;
     virtual void put(const Session& session) = 0;
+    /// Only of sessions that are still there.
+    virtual void put_use(const std::string& token_sha256, Time used) = 0;
     virtual void remove_session(const std::string& token_sha256) = 0;
     virtual void put(const Token& token) = 0;
 };

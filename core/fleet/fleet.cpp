@@ -36,6 +36,8 @@ Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_see
                                          id_seed, now)) {
     FleetState& fleet = state_.for_input();
     fleet.stored_seq = stored.last_event_seq;
+    fleet.event_seq = stored.last_event_seq;
+    bring_back_times(fleet, stored, now);
     restore_standing(fleet, stored);
     restore(fleet, std::move(stored), now);
     require_persons_for_schedules(fleet, now);
@@ -80,6 +82,8 @@ void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& facts
 void Fleet::vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error,
                                     Time now) {
     FleetState& fleet = input<&Fleet::vehicle_message_refused>(now, id, error);
+    VehicleRun* run = fleet.find(id);
+    if (!run || !may_tell_error(fleet, *run, now)) return;
     Params params{{"text", error.description}};
     for (const auto& [key, value] : error.references) params.push_back({key, value});
     add_event(fleet, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "core/fleet/mutation.hpp"
 #include "core/fleet/order_fields.hpp"
@@ -15,6 +16,8 @@ namespace {
 constexpr double kNearlyThere_m = 0.06;
 constexpr double kNearlyThere_rad = radians(0.8);
 constexpr std::size_t kMaxSteps = 100;
+// Each waits in memory, in every dashboard's snapshot and in every look for work.
+constexpr std::size_t kMostOpenOrders = 5000;
 
 std::string step_field(std::size_t step, const char* name) {
     return "/steps/" + std::to_string(step) + "/" + name;
@@ -26,26 +29,36 @@ bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) 
                station.vehicle_types.end();
 }
 
-/// Where the vehicle will stand when all it has to do is done; nullopt: nobody knows.
-std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run) {
-    std::optional<Pose2> pose;
-    if (run.record.pose_known) pose = run.record.pose;
+/// Where vehicles will stand when all they have to do is done; for none: nobody knows. One look at
+/// the open orders serves all vehicles, for there may be thousands of orders.
+using FuturePoses = std::map<plant::VehicleId, Pose2>;
+FuturePoses future_poses(const FleetState& fleet) {
+    FuturePoses poses;
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (run.record.pose_known) poses[id] = run.record.pose;
+    }
+    std::map<plant::VehicleId, plant::StationId> last_stations;
     for (const JobOrderId& id : fleet.orders.open()) {
         const JobOrder& order = *fleet.find(id);
-        if (order.assigned_vehicle != run.record.id && order.wanted_vehicle != run.record.id) {
-            continue;
-        }
-        if (const auto* last = plant::find_station(fleet.plant, order.steps.back().station)) {
-            pose = last->pose;
+        if (order.assigned_vehicle.empty() && order.wanted_vehicle.empty()) continue;
+        for (const auto& vehicle : {order.assigned_vehicle, order.wanted_vehicle}) {
+            if (!vehicle.empty()) last_stations[vehicle] = order.steps.back().station;
         }
     }
-    return pose;
+    for (const auto& [vehicle, station] : last_stations) {
+        const auto* last = plant::find_station(fleet.plant, station);
+        if (last) poses[vehicle] = last->pose;
+    }
+    return poses;
 }
 
-Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run) {
+Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run,
+                            const FuturePoses& future) {
     OrderPlan plan;
     plan.vehicle = run.record.id;
-    std::optional<Pose2> pose = future_pose(fleet, run);
+    const auto stands = future.find(run.record.id);
+    std::optional<Pose2> pose;
+    if (stands != future.end()) pose = stands->second;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!may_stop_at(*station, *run.type)) {
@@ -153,16 +166,17 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
                 "/vehicle",
                 {{"vehicle", order.vehicle.str()}, {"level", to_string(run->record.integration)}});
         }
-        return plan_with(fleet, order, *run);
+        return plan_with(fleet, order, *run, future_poses(fleet));
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
+    const FuturePoses future = future_poses(fleet);
     std::optional<OrderPlan> best;
     double best_s = 0;
     std::optional<Error> why_not;
     for (const auto& [id, run] : fleet.vehicles) {
         if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
         if (run.record.integration != Integration::kUtilise) continue;
-        auto plan = plan_with(fleet, order, run);
+        auto plan = plan_with(fleet, order, run, future);
         if (!plan) {
             if (!why_not) why_not = plan.error();
             continue;
@@ -215,6 +229,13 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
                             " exists already. Use another client_order_id.",
                         "/client_order_id", {{"order", known->id.str()}});
         }
+    }
+    if (fleet.orders.open().size() >= kMostOpenOrders) {
+        return fail(Errc::kConflict, "too_many_open_orders",
+                    "There are " + std::to_string(kMostOpenOrders) +
+                        " open orders. Wait until some have ended, or cancel those that nobody "
+                        "needs; then repeat.",
+                    {}, {{"open", static_cast<std::int64_t>(kMostOpenOrders)}});
     }
     auto fields = resolve_fields(fleet, request, {});
     if (!fields) return fail(fields.error());

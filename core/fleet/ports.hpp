@@ -76,7 +76,9 @@ struct StoredFleet {
     std::int64_t last_event_seq = 0;
     std::int64_t last_order_number = 0;
     std::int64_t last_journal_seq = 0;
-    Time last_time;  // newest stored time; the clock may not start before it
+    /// Newest stored time. The clock starts there or later, unless it was much ahead of the truth:
+    /// then it starts earlier, and the fleet brings back the times in here.
+    Time last_time;
 };
 
 /// Port to the database, implemented by db::FleetStore.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "core/fleet/mutation.hpp"
@@ -28,6 +29,34 @@ void interrupt_after_restart(FleetState& fleet, Time now) {
 
 }  // namespace
 
+namespace {
+
+void bring_back(Time& time, Time now) { time = std::min(time, now); }
+
+}  // namespace
+
+void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
+    if (stored.last_time <= now) return;
+    for (auto& order : stored.orders) {
+        bring_back(order.created, now);
+        bring_back(order.started, now);
+        bring_back(order.ended, now);
+    }
+    for (auto& key : stored.idempotency) bring_back(key.at, now);
+    for (auto& closure : stored.closures) bring_back(closure.created, now);
+    for (auto& schedule : stored.schedules) {
+        // "From now on" was said to that clock.
+        if (schedule.created > now) bring_back(schedule.recurrence.from, now);
+        bring_back(schedule.created, now);
+        if (schedule.next) schedule.next = next_time(schedule.recurrence, now);
+        fleet.standing.changed_schedules.insert(schedule.id);
+    }
+    for (auto& one : stored.templates) bring_back(one.created, now);
+    fleet.ids.next(stored.last_time);  // ids still sort as they were made
+    add_event(fleet, now, "clock.was_ahead", {}, {}, {}, {},
+              {{"ahead_s", seconds(stored.last_time - now)}});
+}
+
 void take_vehicles_of_plant(FleetState& fleet) {
     for (const auto& vehicle : fleet.plant.vehicles) {
         const auto* type = plant::find_vehicle_type(fleet.plant, vehicle.type);
@@ -40,7 +69,6 @@ void take_vehicles_of_plant(FleetState& fleet) {
 }
 
 void restore(FleetState& fleet, StoredFleet stored, Time now) {
-    fleet.event_seq = stored.last_event_seq;
     fleet.order_number = stored.last_order_number;
     take_vehicles_of_plant(fleet);
     for (auto& order : stored.orders) fleet.orders.add(std::move(order));

@@ -51,8 +51,17 @@ Status check_order(const FleetState& fleet, const NewOrder& order, Time now) {
     return fail(plan.error());
 }
 
+/// What bars one time often bars the next thousand: one event tells of them all, and the order that
+/// is made at last says how many they were.
 void skip(FleetState& fleet, Schedule& schedule, Reason why, Time now) {
     ++schedule.skipped;
+    auto& in_a_row = fleet.standing.skipped_in_a_row[schedule.id];
+    const bool again = in_a_row > 0 && schedule.last_skip.code == why.code;
+    in_a_row = again ? in_a_row + 1 : 1;
+    if (again) {
+        schedule.last_skip = std::move(why);
+        return;
+    }
     Params params{{"reason", why.code}};
     params.insert(params.end(), why.params.begin(), why.params.end());
     schedule.last_skip = std::move(why);
@@ -77,8 +86,10 @@ void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
     }
     ++schedule.made;
     schedule.newest_order = created->order.id;
-    note(fleet, now, "job_order_schedule.made", schedule, {},
-         {{"order", "JO-" + std::to_string(created->order.number)}});
+    Params params{{"order", "JO-" + std::to_string(created->order.number)}};
+    const auto left_out = fleet.standing.skipped_in_a_row.extract(schedule.id);
+    if (!left_out.empty()) params.push_back({"skipped_before", left_out.mapped()});
+    note(fleet, now, "job_order_schedule.made", schedule, {}, std::move(params));
 }
 
 }  // namespace
@@ -199,6 +210,7 @@ Status Fleet::delete_schedule(ScheduleId id, std::optional<std::int64_t> if_revi
     gone.deleted = true;
     note(fleet, now, "job_order_schedule.deleted", gone, actor);
     fleet.standing.schedules.erase(id);
+    fleet.standing.skipped_in_a_row.erase(id);
     fleet.standing.changed_schedules.erase(id);
     fleet.standing.deleted_schedules.push_back(std::move(gone));
     return {};

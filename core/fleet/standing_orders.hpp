@@ -73,6 +73,7 @@ struct StandingOrders {
     std::vector<OrderTemplate> changed_templates;
     std::set<ScheduleId> changed_schedules;
     std::vector<Schedule> deleted_schedules;
+    std::map<ScheduleId, std::int64_t> skipped_in_a_row;  // times, for the same reason
 };
 
 }  // namespace pulseline::fleet

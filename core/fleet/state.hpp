@@ -85,6 +85,8 @@ struct VehicleRun {
     std::optional<Time> leg_started;
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
+    Time errors_from;                   // of the minute in which its errors are counted
+    int errors_told = 0;                // as events, in that minute
     std::optional<Reason> charge_wait;  // why it should charge and does not
     std::optional<Time> charge_retry;
 
@@ -226,6 +228,9 @@ void disconnect(FleetState& fleet, VehicleRun& run, Time now);
 void hear(FleetState& fleet, VehicleRun& run, Time now);
 /// The vehicle stops taking new floor until a person allows it; its order is interrupted.
 void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
+/// Counts an error of the vehicle. False: it has told of so many in this minute that no more become
+/// events.
+bool may_tell_error(FleetState& fleet, VehicleRun& run, Time now);
 /// Until a person lets it go on, no order and no update of one goes to it, new or again.
 bool waits_for_person(const VehicleRun& run);
 /// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
@@ -334,6 +339,9 @@ std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& 
 void take_vehicles_of_plant(FleetState& fleet);
 /// Fills an empty fleet from plant and store. Open orders wait for a person's act.
 void restore(FleetState& fleet, StoredFleet stored, Time now);
+/// What was stored by a clock that was ahead of the truth: no time lies in the future any more.
+/// Before restore_standing() and restore(); event_seq is set.
+void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now);
 
 // --- views (views.cpp) ---
 StationView station_view(const FleetState& fleet, const plant::Station& station);

@@ -8,6 +8,8 @@
 namespace pulseline::fleet {
 namespace {
 
+constexpr int kErrorsPerMinute = 10;  // of one vehicle that become events
+
 constexpr Duration kLongestWay = std::chrono::seconds(10);   // of a message to a vehicle
 constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just ended is told sooner
 
@@ -210,13 +212,14 @@ void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
         {"foreign_order", {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}}, now);
 }
 
+/// An error is its type and what it refers to; its text may count up or tell the time.
 void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleError>& before,
                  Time now) {
     for (const auto& error : run.state.errors) {
         const bool known = std::any_of(before.begin(), before.end(), [&](const auto& old) {
-            return old.type == error.type && old.description == error.description;
+            return old.type == error.type && old.references == error.references;
         });
-        if (known) continue;
+        if (known || !may_tell_error(fleet, run, now)) continue;
         add_event(fleet, now, "vehicle.error", {}, run.record.leg, run.record.id, {},
                   {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
     }
@@ -243,6 +246,18 @@ bool has_nothing_left(const StateMessage& state) {
     return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
            std::none_of(state.action_states.begin(), state.action_states.end(),
                         [](const auto& action) { return action.status == ActionStatus::kRunning; });
+}
+
+bool may_tell_error(FleetState& fleet, VehicleRun& run, Time now) {
+    if (now - run.errors_from >= std::chrono::minutes(1)) {
+        run.errors_from = now;
+        run.errors_told = 0;
+    }
+    if (run.errors_told > kErrorsPerMinute) return false;
+    if (++run.errors_told <= kErrorsPerMinute) return true;
+    add_event(fleet, now, "vehicle.errors_withheld", {}, run.record.leg, run.record.id, {},
+              {{"errors_per_minute", std::int64_t{kErrorsPerMinute}}});
+    return false;
 }
 
 bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }

@@ -53,11 +53,16 @@ Status Traffic::found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex 
 }
 
 ClosureIndex Traffic::close(const TileSet& tiles, Time) {
-    closures_.push_back({tiles_.indexes_of(tiles), false});
-    joint_.close(closures_.back().tiles);
+    // The place of one that was reopened: a plant closes and opens floor for years.
+    const auto free = std::find_if(closures_.begin(), closures_.end(),
+                                   [](const Closure& closure) { return closure.open; });
+    const auto index = static_cast<ClosureIndex>(free - closures_.begin());
+    if (free == closures_.end()) closures_.emplace_back();
+    closures_[index] = {tiles_.indexes_of(tiles), false};
+    joint_.close(closures_[index].tiles);
     predicted_ = false;
     tell({Change::Kind::kClosed, 0, 0, tiles, {}});
-    return static_cast<ClosureIndex>(closures_.size() - 1);
+    return index;
 }
 
 void Traffic::reopen(ClosureIndex closure, Time) {
@@ -67,6 +72,7 @@ void Traffic::reopen(ClosureIndex closure, Time) {
     joint_.open(c.tiles);
     predicted_ = false;
     tell({Change::Kind::kReopened, 0, 0, tiles_.ids_of(c.tiles), {}});
+    c.tiles = {};
 }
 
 }  // namespace pulseline::traffic

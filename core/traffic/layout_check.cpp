@@ -157,13 +157,15 @@ std::vector<bool> free_from(const MoveGraph& graph, PlaceIndex start, const Clas
     return arrived;
 }
 
-/// The way from `start` to `target`. The search goes on through resting places in the way (0-1
-/// breadth-first), so it knows which one to name. Those at the target are the vehicle's own on all
-/// of the way: it may arrive there and turn.
-Way way_between(const MoveGraph& graph, PlaceIndex start, PlaceIndex target,
-                const ClassMoves& moves) {
+/// The ways from `start`, up to `target` if there is one. The search goes on through resting places
+/// in the way (0-1 breadth-first), so it knows which one to name. Those at the target are the
+/// vehicle's own on all of the way: it may arrive there and turn. Counts the moves it looks at.
+std::vector<Way> ways_from(const MoveGraph& graph, PlaceIndex start,
+                           std::optional<PlaceIndex> target, const ClassMoves& moves,
+                           std::size_t& looked_at) {
+    static const std::vector<std::size_t> kNone;
     const auto& own = rests_at(graph, moves, start);
-    const auto& end = rests_at(graph, moves, target);
+    const auto& end = target ? rests_at(graph, moves, *target) : kNone;
     std::vector<Way> ways(graph.places.size());
     std::deque<std::pair<PlaceIndex, std::size_t>> open{{start, 0}};
     ways[start].crossings = 0;
@@ -173,6 +175,7 @@ Way way_between(const MoveGraph& graph, PlaceIndex start, PlaceIndex target,
         if (place == target) break;
         const Way here = ways[place];
         if (crossings > here.crossings) continue;
+        looked_at += moves.from[place].size();
         for (const std::size_t m : moves.from[place]) {
             const PlaceIndex to = graph.moves[m].to;
             const Way onward = here.onward(third(moves.crossed[m], own, end));
@@ -185,8 +188,11 @@ Way way_between(const MoveGraph& graph, PlaceIndex start, PlaceIndex target,
             }
         }
     }
-    return ways[target];
+    return ways;
 }
+
+// Moves looked at for pairs of places one by one: about a second.
+constexpr std::size_t kLooksInFull = 20'000'000;
 
 /// What one class cannot do for one reason, told once with the first pair of places as an example.
 struct Unreachable {
@@ -205,17 +211,30 @@ void check_ways(const std::vector<LayoutClass>& classes, std::size_t c, const Cr
         if (graph.places[p].resting) targets.insert(p);
     }
     std::map<std::string, Unreachable> by_crossing;  // by its name, empty: no way at all
+    const auto crossing_of = [&](const Way& way) {
+        if (way.crossings == Way{}.crossings) return std::string();
+        const Rest& rest = crossings.rests()[way.first_crossed];
+        return place_name(classes[rest.of_class], rest.place);
+    };
+    std::size_t looked_at = 0;
     for (const PlaceIndex start : targets) {
         const auto free = free_from(graph, start, moves);
+        std::optional<std::vector<Way>> to_all;
         for (const PlaceIndex target : targets) {
             if (target == start || free[target]) continue;
-            const Way way = way_between(graph, start, target, moves);
-            if (way.crossings == 0) continue;
-            std::string crossing;
-            if (way.crossings != Way{}.crossings) {
-                const Rest& rest = crossings.rests()[way.first_crossed];
-                crossing = place_name(classes[rest.of_class], rest.place);
+            if (looked_at > kLooksInFull) {
+                // Where thousands of pairs are barred, one more with the same thing in its way is
+                // only counted.
+                if (!to_all) to_all = ways_from(graph, start, std::nullopt, moves, looked_at);
+                const auto known = by_crossing.find(crossing_of((*to_all)[target]));
+                if (known != by_crossing.end()) {
+                    ++known->second.count;
+                    continue;
+                }
             }
+            const Way way = ways_from(graph, start, target, moves, looked_at)[target];
+            if (way.crossings == 0) continue;
+            const std::string crossing = crossing_of(way);
             Unreachable& group = by_crossing[crossing];
             if (group.count++ == 0) {
                 group.from = start;

@@ -10,11 +10,14 @@
 #include "core/plant/validate.hpp"
 #include "server/cli/storage.hpp"
 #include "server/config_file.hpp"
+#include "server/descriptors.hpp"
 #include "server/log.hpp"
 #include "server/server.hpp"
 
 namespace pulseline::server::cli {
 namespace {
+
+constexpr std::size_t kDescriptorsBesides = 256;  // the database, the log, threads
 
 int failed(const Error& error) {
     fmt::print(stderr, "pulseline: {}\n", error.what);
@@ -54,8 +57,16 @@ int serve(const Options& options) {
         return kUsage;
     }
     if (const auto sound = Server::check(options); !sound) return failed(sound.error());
+    const auto descriptors = raise_descriptor_limit();
+    if (const auto needed = options.limits.connections + kDescriptorsBesides;
+        descriptors < needed) {
+        log::warn("few_descriptors", {{"allowed", std::to_string(descriptors)},
+                                      {"needed", std::to_string(needed)},
+                                      {"remedy", "raise the hard limit of open files"}});
+    }
     auto storage = open_storage(options.database);
     if (!storage) return failed(storage.error());
+    (*storage)->keep_events(options.events_kept, std::chrono::hours(24 * options.events_kept_days));
     const auto plant = load_plant(**storage, options);
     if (!plant) return failed(plant.error());
     Server server(options,
@@ -102,8 +113,12 @@ void add_serve_command(CLI::App& app, int& exit_code) {
     serve_command->add_option("--tls-key", options->tls_key, "PEM key of the certificate");
     serve_command->add_flag("--tls-self-signed", options->tls_self_signed,
                             "Make a certificate; its fingerprint is printed");
-    serve_command->add_flag("--behind-proxy", options->behind_proxy,
-                            "A proxy in front ends TLS; its X-Forwarded headers are believed");
+    serve_command
+        ->add_option(
+            "--behind-proxy", options->behind_proxy,
+            "Address or block (10.0.0.0/24) of a proxy in front that ends TLS; X-Forwarded "
+            "headers are believed from there and nowhere else")
+        ->delimiter(',');
     serve_command->add_option("--allow-origin", options->allow_origins,
                               "Further origin of pages that may sign in, exact");
     serve_command->add_option("--config", *config, "TOML file; options on the command line win");

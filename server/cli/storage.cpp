@@ -15,6 +15,9 @@ public:
 
     fleet::Store& fleet() override { return fleet_; }
     fleet::History& history() override { return history_; }
+    void keep_events(std::int64_t newest, Duration age) override {
+        fleet_.keep_events({newest, age});
+    }
     access::Store& access() override { return access_; }
     std::optional<plant::Plant> plant() override { return db::PlantStore(database_).load(); }
     std::int64_t import_plant(const plant::Plant& plant) override {

@@ -18,6 +18,8 @@ public:
     virtual ~Storage() = default;
     virtual fleet::Store& fleet() = 0;
     virtual fleet::History& history() = 0;
+    /// The newest so many events, and none older than that.
+    virtual void keep_events(std::int64_t newest, Duration age) = 0;
     virtual access::Store& access() = 0;
     virtual std::optional<plant::Plant> plant() = 0;  // nothing: none was imported
     /// Gives the revision the plant got. REQUIRES: validate() found no fault.

@@ -44,6 +44,16 @@ TEST_F(AccessStoreTest, SessionsGoWhenRemovedOrRunOut) {
     EXPECT_EQ(sessions[0].expires, at(100));
 }
 
+TEST_F(AccessStoreTest, RemembersWhenASessionWasUsed) {
+    store_.put(access::Session{"a", "csrf", "ann", at(1), at(100), at(1)});
+    store_.put_use("a", at(40));
+    store_.put_use("gone", at(40));
+    const auto sessions = store_.sessions();
+
+    ASSERT_EQ(sessions.size(), 1u);
+    EXPECT_EQ(sessions[0].used, at(40));
+}
+
 TEST_F(AccessStoreTest, SessionOfNobodyIsRefused) {
     EXPECT_THROW(store_.put(access::Session{"a", "csrf", "bob", at(1), at(10)}), Error);
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <soci/sqlite3/soci-sqlite3.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -27,6 +28,35 @@ int pragma(soci::session& sql, const std::string& name) {
     int value = -1;
     sql << "PRAGMA " + name, soci::into(value);
     return value;
+}
+
+int mode_of(const std::string& path) {
+    struct stat found {};
+    return ::stat(path.c_str(), &found) == 0 ? static_cast<int>(found.st_mode & 0777U) : -1;
+}
+
+TEST(Database, IsReadByNobodyElse) {
+    const TempFolder folder;
+    const std::string path = folder.file("fleet.db");
+    Database database(path);
+
+    for (const char* ending : {"", "-wal", "-shm", ".lock"}) {
+        EXPECT_EQ(mode_of(path + ending), 0600) << ending;
+    }
+}
+
+TEST(Database, ClosesAFileThatAnOlderProgramLeftOpenToAllButKeepsAGroup) {
+    const TempFolder folder;
+    const std::string open = folder.file("open.db");
+    const std::string group = folder.file("group.db");
+    for (const auto& path : {open, group}) Database database(path);
+    ::chmod(open.c_str(), 0644);
+    ::chmod(group.c_str(), 0640);
+
+    for (const auto& path : {open, group}) Database database(path);
+
+    EXPECT_EQ(mode_of(open), 0600);
+    EXPECT_EQ(mode_of(group), 0640);
 }
 
 TEST(Database, MigratesAnEmptyFileAndOpensItAgain) {

@@ -93,6 +93,44 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
     EXPECT_EQ(stored.last_time, samples.at(20));
 }
 
+TEST(FleetStore, KeepsTheNewestEventsWithoutAGap) {
+    Database database(":memory:");
+    FleetStore store(database);
+    store.keep_events({1000, std::chrono::hours(24 * 400)});
+    Samples samples(1);
+    for (int seq = 1; seq <= 5000; ++seq) {
+        fleet::Records records;
+        records.events = {samples.event(seq, seq)};
+        store.commit(records);
+    }
+    std::int64_t count = 0;
+    std::int64_t oldest = 0;
+    database.sql() << "SELECT COUNT(*), MIN(seq) FROM events", soci::into(count),
+        soci::into(oldest);
+
+    EXPECT_GE(count, 1000);
+    EXPECT_LE(count, 1064);
+    EXPECT_EQ(oldest, 5000 - count + 1);
+    EXPECT_EQ(FleetStore(database).load().last_event_seq, 5000);
+}
+
+TEST(FleetStore, DropsEventsThatAreTooOldButNeverTheNewest) {
+    Database database(":memory:");
+    FleetStore store(database);
+    store.keep_events({1'000'000, std::chrono::seconds(100)});
+    Samples samples(1);
+    for (int seq = 1; seq <= 500; ++seq) {
+        fleet::Records records;
+        records.events = {samples.event(seq, seq < 400 ? 0 : 1'000'000)};
+        store.commit(records);
+    }
+    std::int64_t oldest = 0;
+    database.sql() << "SELECT MIN(seq) FROM events", soci::into(oldest);
+
+    EXPECT_GE(oldest, 330);
+    EXPECT_LE(oldest, 400);
+}
+
 TEST(FleetStore, SchedulesAndTemplatesComeBackAndGo) {
     Database database(":memory:");
     FleetStore store(database);

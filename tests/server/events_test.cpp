@@ -69,6 +69,27 @@ TEST(Events, ComeFromTheHistoryWhenTheyAreOlderThanTheServer) {
     EXPECT_EQ(read_ids(client, expected.size()), expected);
 }
 
+TEST(Events, TellAReaderOfOlderOnesThatTheyAreGone) {
+    MemoryStore store;
+    fleet::Records records;
+    for (std::int64_t seq = 1; seq <= 20; ++seq) {
+        fleet::Event event;
+        event.seq = seq;
+        event.type = "test";
+        records.events.push_back(event);
+    }
+    store.commit(records);
+    store.drop_events_before(11);
+    TestServer server({}, &store);
+    TcpClient client(server.port());
+
+    open_events(client, server, "Last-Event-ID: 3\r\n");
+    const std::string reset = client.read_until("oldest\":11}");
+
+    EXPECT_NE(reset.find("event: stream.reset\ndata: {\"from\":4,"), std::string::npos) << reset;
+    EXPECT_EQ(read_ids(client, 2), (std::vector<std::int64_t>{11, 12}));
+}
+
 TEST(Events, RefuseAnIdThatIsNoNumberOrNotYetReached) {
     TestServer server;
     const auto headers = server.viewer_token();
@@ -122,6 +143,23 @@ TEST(Stream, RefusesAPageOfAnotherOrigin) {
     EXPECT_EQ(none.status(), 403);
     WsClient nobody(server.port(), "/api/v1/stream", {{"Origin", own}});
     EXPECT_EQ(nobody.status(), 401);
+}
+
+TEST(Stream, TakesOnlySoManyFramesWithoutAByteInThem) {
+    TestServer server;
+    TcpClient client(server.port());
+    client.send("GET /api/v1/stream HTTP/1.1\r\nHost: x\r\nAuthorization: " +
+                server.viewer_token().at("Authorization") +
+                "\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+    ASSERT_NE(client.read_until("\r\n\r\n").find(" 101 "), std::string::npos);
+    client.send(std::string("\x01\x80\0\0\0\0", 6));  // a text begins
+    std::string more;
+    for (int i = 0; i < 100'000; ++i) more.append("\x00\x80\0\0\0\0", 6);
+
+    const auto taken = client.send_for(more, 5);
+
+    EXPECT_LT(taken, 20U << 20U) << "what the kernel keeps, and 64 KB a second";
 }
 
 TEST(Stream, EndsWhenTheServerStops) {

@@ -35,8 +35,9 @@ TEST(Http, RefusesAChunkedBodyOverTheLimit) {
     TestServer server;
     TcpClient client(server.port());
 
-    client.send(
-        "POST /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nTransfer-Encoding: chunked\r\n\r\n");
+    client.send("POST /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nAuthorization: " +
+                server.operator_token().at("Authorization") +
+                "\r\nTransfer-Encoding: chunked\r\n\r\n");
     for (int i = 0; i < 5; ++i) client.send("10000\r\n" + std::string(65536, ' ') + "\r\n");
 
     EXPECT_EQ(client.read_answer().status, 413);
@@ -197,9 +198,11 @@ TEST(Listener, ServesOtherMachinesOnlyEncryptedOrBehindAProxy) {
     EXPECT_FALSE(check_exposure(options, open));
     EXPECT_TRUE(check_exposure(options, Address{"127.0.0.1", 8080}));
     EXPECT_TRUE(check_exposure(options, Address{"::1", 8080}));
-    options.behind_proxy = true;
+    options.behind_proxy = {"10.0.0.2"};
     EXPECT_TRUE(check_exposure(options, open));
-    options.behind_proxy = false;
+    options.behind_proxy = {"the proxy"};
+    EXPECT_FALSE(check_exposure(options, open));
+    options.behind_proxy.clear();
     options.tls_self_signed = true;
     EXPECT_TRUE(check_exposure(options, open));
 }

@@ -113,6 +113,11 @@ public:
                                      int) override {
         return {};
     }
+    /// What a store that keeps only the newest events leaves.
+    void drop_events_before(std::int64_t seq) {
+        const std::lock_guard lock(mutex_);
+        std::erase_if(events_, [&](const fleet::Event& event) { return event.seq < seq; });
+    }
     std::size_t order_count() {
         const std::lock_guard lock(mutex_);
         return orders_.size();
@@ -142,6 +147,7 @@ public:
     std::vector<access::Token> tokens() override { return tokens_; }
     void put(const access::User& user) override { users_.push_back(user); }
     void put(const access::Session& session) override { sessions_.push_back(session); }
+    void put_use(const std::string&, Time) override {}
     void remove_session(const std::string&) override {}
     void put(const access::Token& token) override { tokens_.push_back(token); }
 

@@ -2,21 +2,36 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <stdexcept>
 
 namespace pulseline::server::testing {
 
-TcpClient::TcpClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+TcpClient::TcpClient(std::uint16_t port, const char* from, int receive_buffer_bytes)
+    : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    if (receive_buffer_bytes > 0) {
+        setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes,
+                   sizeof receive_buffer_bytes);
+    }
+    if (from) {
+        sockaddr_in own{};
+        own.sin_family = AF_INET;
+        inet_pton(AF_INET, from, &own.sin_addr);
+        if (bind(socket_, reinterpret_cast<const sockaddr*>(&own), sizeof own) != 0) {
+            throw std::runtime_error("cannot bind");
+        }
+    }
     const timeval limit{10, 0};
     setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
     if (connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
@@ -32,6 +47,26 @@ void TcpClient::send(const std::string& bytes) {
         const auto n = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
         if (n <= 0) return;  // the server closed; the answer says why
         sent += static_cast<std::size_t>(n);
+    }
+}
+
+std::size_t TcpClient::send_for(const std::string& bytes, double seconds) {
+    const auto begin = std::chrono::steady_clock::now();
+    std::size_t sent = 0;
+    for (;;) {
+        const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+        if (passed.count() >= seconds) return sent;
+        const std::size_t from = sent % bytes.size();
+        const auto n =
+            ::send(socket_, bytes.data() + from, bytes.size() - from, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (n > 0) {
+            sent += static_cast<std::size_t>(n);
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            pollfd ready{socket_, POLLOUT, 0};
+            ::poll(&ready, 1, 100);
+        } else {
+            return sent;
+        }
     }
 }
 
@@ -90,8 +125,9 @@ bool TcpClient::at_end() {
 }
 
 HttpAnswer request(std::uint16_t port, const std::string& method, const std::string& path,
-                   const std::map<std::string, std::string>& headers, const std::string& body) {
-    TcpClient client(port);
+                   const std::map<std::string, std::string>& headers, const std::string& body,
+                   const char* from) {
+    TcpClient client(port, from);
     std::string text = method + " " + path + " HTTP/1.1\r\nHost: 127.0.0.1\r\n";
     for (const auto& [name, value] : headers) text += name + ": " + value + "\r\n";
     if (!body.empty()) text += "Content-Type: application/json\r\n";

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 #include "tests/server/ws_client.hpp"
@@ -113,6 +115,71 @@ TEST(VehicleGateway, ClosesAfterTwentyMalformedMessagesInARow) {
     for (int i = 0; i < 20; ++i) vehicle.send("[");
 
     EXPECT_EQ(vehicle.close_code(), 1008);
+}
+
+TEST(VehicleGateway, ClosesALinkThatMixesMalformedMessagesWithGoodOnes) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+
+    for (int i = 0; i < 40; ++i) vehicle.send(i % 3 == 2 ? state_frame(i) : "[");
+
+    EXPECT_EQ(vehicle.close_code(), 1008);
+}
+
+TEST(VehicleGateway, TakesTheNewestOfTooManyMessagesAndTellsOfItOnce) {
+    Options options;
+    options.limits.vehicle_messages_per_second = 5;
+    TestServer server(options);
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    ASSERT_TRUE(dashboard.read_until("\"type\":\"snapshot\""));
+
+    for (int i = 1; i <= 100; ++i) {
+        std::string frame = state_frame(i);
+        if (i == 100) frame.replace(frame.find("\"x\":5"), 5, "\"x\":7");
+        vehicle.send(frame);
+    }
+
+    const auto told = dashboard.read_until("too_many_messages");
+    ASSERT_TRUE(told);
+    const auto metrics = request(server.port(), "GET", "/metrics", server.viewer_token()).body;
+    const auto at = metrics.find("\npulseline_vehicle_messages_withheld_total ");
+    ASSERT_NE(at, std::string::npos);
+    EXPECT_GT(std::stoi(metrics.substr(at + 43)), 0);
+    EXPECT_TRUE(dashboard.read_until("[\"V1\",7")) << "the last one waits for its turn";
+}
+
+TEST(VehicleGateway, ClosesALinkThatSaysTooMuchForTooLong) {
+    Options options;
+    options.limits.vehicle_messages_per_second = 5;
+    options.limits.vehicle_excess_time = std::chrono::milliseconds(500);
+    TestServer server(options);
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+
+    const auto token = server.viewer_token();
+    const auto is_open = [&] {
+        const auto metrics = request(server.port(), "GET", "/metrics", token).body;
+        return metrics.find("\npulseline_vehicle_sockets 1\n") != std::string::npos;
+    };
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(8);
+    while (is_open() && std::chrono::steady_clock::now() < end) {
+        for (int i = 1; i <= 100; ++i) vehicle.send(state_frame(i));
+    }
+
+    EXPECT_FALSE(is_open());
+}
+
+TEST(VehicleGateway, DropsPicturesBeyondARateAndKeepsTheLink) {
+    Options options;
+    options.limits.vehicle_pictures_per_second = 2;
+    TestServer server(options);
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+
+    for (int i = 0; i < 50; ++i) vehicle.send_binary("no picture");  // each would be malformed
+
+    vehicle.send(state_frame(1));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
 }
 
 TEST(VehicleGateway, KeepsTheNewestPictureOfAKnownCamera) {

@@ -117,7 +117,7 @@ PULSELINE_FIELDS(NewSchedule, name, recurrence, order, actor)
 PULSELINE_FIELDS(Schedule, id, name, recurrence, order, paused, next, newest_order, made, skipped,
                  last_skip, created_by, created, revision, deleted)
 PULSELINE_FIELDS(StandingOrders, templates, schedules, changed_templates, changed_schedules,
-                 deleted_schedules)
+                 deleted_schedules, skipped_in_a_row)
 PULSELINE_FIELDS(ControlRequest, method, update, if_revision, actor, idempotency_client,
                  idempotency_key, body_sha256)
 

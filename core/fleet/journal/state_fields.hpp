@@ -79,12 +79,12 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
-           leg_started, foreign_since, actions, charge_wait, charge_retry, areas, newest_plan,
+           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry, areas, newest_plan,
            swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
           gave_up, cancelling, floor, seen, seen_before, stated, leg_started, foreign_since,
-          actions, charge_wait, charge_retry);
+          actions, errors_from, errors_told, charge_wait, charge_retry);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.

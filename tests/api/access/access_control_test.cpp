@@ -327,5 +327,53 @@ TEST(Cookie, AttributesFitTheConnection) {
     EXPECT_NE(expired_cookie(false).find("Max-Age=0"), std::string::npos);
 }
 
+TEST_F(AccessControlTest, ASessionLeftAloneDoesNotLiveAgainAfterARestart) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+
+    now += hours(2);
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+    restart();
+
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+}
+
+TEST_F(AccessControlTest, ASessionOfAClockThatWasAheadEndsWithIt) {
+    add_user("mei", Role::kOperator);
+    now += hours(24 * 365);
+    const SignedIn signed_in = sign_in();
+
+    now -= hours(24 * 365);
+    restart();
+
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+}
+
+TEST_F(AccessControlTest, ASessionInUseGoesOnAfterARestart) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+    now += minutes(25);
+    with_cookie(signed_in.cookie_token);
+    access->save_uses();
+
+    now += minutes(25);
+    restart();
+
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).name, "mei");
+    EXPECT_EQ(access->signed_in(now), std::vector<std::string>{"mei"});
+}
+
+TEST_F(AccessControlTest, ASessionThatEndedMeanwhileIsNotStoredAgainByItsUse) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+    now += minutes(5);
+    const Identity identity = with_cookie(signed_in.cookie_token);
+
+    store.remove_session(identity.session_sha256);
+    access->save_uses();
+
+    EXPECT_TRUE(store.sessions().empty());
+}
+
 }  // namespace
 }  // namespace pulseline::access

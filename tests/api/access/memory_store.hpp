@@ -17,6 +17,10 @@ public:
     std::vector<Token> tokens() override { return values(tokens_); }
     void put(const User& user) override { users_[user.name] = user; }
     void put(const Session& session) override { sessions_[session.token_sha256] = session; }
+    void put_use(const std::string& sha256, Time used) override {
+        const auto session = sessions_.find(sha256);
+        if (session != sessions_.end()) session->second.used = used;
+    }
     void remove_session(const std::string& sha256) override { sessions_.erase(sha256); }
     void put(const Token& token) override { tokens_[token.id] = token; }
 

@@ -162,18 +162,18 @@ TEST(Schedules, FaultsNameTheField) {
     };
     const std::string order = R"("order":{"steps":[{"station":2}]})";
     refused(order, 400, "every_or_daily", "/every_s");
-    refused(R"("every_s":5,"daily_at":["06:00"],)" + order, 400, "every_or_daily", "/every_s");
-    refused(R"("every_s":0,)" + order, 400, "out_of_range", "/every_s");
+    refused(R"("every_s":60,"daily_at":["06:00"],)" + order, 400, "every_or_daily", "/every_s");
+    refused(R"("every_s":59,)" + order, 400, "out_of_range", "/every_s");
     refused(R"("daily_at":["6:00"],)" + order, 400, "bad_time_of_day", "/daily_at/0");
     refused(R"("daily_at":["06:60"],)" + order, 400, "bad_time_of_day", "/daily_at/0");
     refused(R"("daily_at":[],)" + order, 400, "wrong_count", "/daily_at");
-    refused(R"("every_s":5,"until":"2001-01-01T00:00:00Z",)" + order, 422, "schedule_over",
+    refused(R"("every_s":60,"until":"2001-01-01T00:00:00Z",)" + order, 422, "schedule_over",
             "/until");
-    refused(R"("every_s":5,"order":{"steps":[{"station":2}],"due":"2030-01-01T00:00:00Z"})", 400,
+    refused(R"("every_s":60,"order":{"steps":[{"station":2}],"due":"2030-01-01T00:00:00Z"})", 400,
             "unknown_field", "/order/due");
-    refused(R"("every_s":5,"order":{"steps":[{"station":99}]})", 422, "unknown_station",
+    refused(R"("every_s":60,"order":{"steps":[{"station":99}]})", 422, "unknown_station",
             "/order/steps/0/station");
-    refused(R"("every_s":5)", 400, "missing_field", "/order");
+    refused(R"("every_s":60)", 400, "missing_field", "/order");
     EXPECT_TRUE(api.world.store.schedules.empty());
 }
 

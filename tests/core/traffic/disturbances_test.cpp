@@ -38,6 +38,24 @@ TEST(Disturbances, ClosedFloorIsNotGrantedUntilEveryClosureIsGone) {
     EXPECT_TRUE(hall.drive_all());
 }
 
+TEST(Disturbances, ClosuresThatComeAndGoTakeNoMoreRoom) {
+    Hall hall({"r....r"});
+    const auto v = hall.add("A", 0, 0);
+    ASSERT_TRUE(hall.send(v, {{4, 0}}));
+    const auto lasting = hall.traffic.close({3}, at(0));
+    for (int i = 0; i < 1000; ++i) {
+        const auto closed = hall.traffic.close({2, 3}, at(0));
+        EXPECT_NE(closed, lasting);
+        hall.traffic.reopen(closed, at(0));
+    }
+
+    EXPECT_EQ(hall.traffic.record().closures.size(), 2u);
+    hall.watch();
+    EXPECT_FALSE(hall.drive_all()) << "the lasting one is still closed";
+    hall.traffic.reopen(lasting, at(1));
+    EXPECT_TRUE(hall.drive_all());
+}
+
 TEST(Disturbances, AVehicleFoundElsewhereHoldsThatFloorOnly) {
     Hall hall({"r.....r", "r      "});
     const auto a = hall.add("A", 0, 0);

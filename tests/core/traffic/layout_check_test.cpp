@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <set>
 
 #include "tests/core/traffic/traffic_floor.hpp"
@@ -61,6 +62,37 @@ TEST(LayoutCheck, TellsEachRestingPlaceInTheWayOnce) {
     }
     EXPECT_EQ(crossings.size(), 4u);
     EXPECT_GT(pairs, 4);
+}
+
+/// A lane of resting places, each of which is in the way of all that drive past it.
+MoveGraph lane_of_rests(PlaceIndex places) {
+    MoveGraph graph;
+    for (PlaceIndex p = 0; p < places; ++p) {
+        graph.places.push_back({TileSet{static_cast<TileId>(p)}, true});
+        for (const PlaceIndex next : {p - 1, p + 1}) {
+            if (next >= places) continue;  // before the first too
+            Move move;
+            move.from = p;
+            move.to = next;
+            move.duration_s = 1;
+            graph.moves.push_back(std::move(move));
+        }
+    }
+    return graph;
+}
+
+TEST(LayoutCheck, TakesSecondsWhereThousandsOfPlacesAreInEachOthersWay) {
+    const PlaceIndex places = 3000;
+    const MoveGraph graph = lane_of_rests(places);
+    const auto begin = std::chrono::steady_clock::now();
+
+    const auto found = check_layout({{"small", &graph, {}, 2, {}}});
+
+    EXPECT_EQ(found.size(), places - 2U) << "the two at the ends are in nobody's way";
+    std::int64_t pairs = 0;
+    for (const auto& violation : found) pairs += count(violation.reason);
+    EXPECT_EQ(pairs, std::int64_t{places} * (places - 1) - 2 * (places - 1));
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
 }
 
 TEST(LayoutCheck, TheOnlyVehicleOfAClassIsNotInItsOwnWay) {

@@ -1,0 +1,85 @@
+#include "server/lane.hpp"
+
+#include <gtest/gtest.h>
+
+#include <future>
+#include <vector>
+
+namespace pulseline::server {
+namespace {
+
+/// Keeps a lane busy until it is let go.
+class Plug {
+public:
+    explicit Plug(Lane& lane) {
+        EXPECT_EQ(lane.take("plug",
+                            [this](bool) {
+                                running_.set_value();
+                                go_.get_future().wait();
+                            }),
+                  Lane::Taken::kYes);
+        running_.get_future().wait();
+    }
+    void pull() { go_.set_value(); }
+
+private:
+    std::promise<void> running_;
+    std::promise<void> go_;
+};
+
+TEST(Lane, RunsJobsInTheOrderTheyCame) {
+    std::vector<int> done;
+    std::promise<void> last;
+    Lane lane({});
+    for (int i = 0; i < 5; ++i) {
+        lane.take("a", [&, i](bool run) {
+            EXPECT_TRUE(run);
+            done.push_back(i);
+            if (i == 4) last.set_value();
+        });
+    }
+    last.get_future().wait();
+
+    EXPECT_EQ(done, (std::vector<int>{0, 1, 2, 3, 4}));
+}
+
+TEST(Lane, GivesNobodyMoreThanAShare) {
+    Lane lane({10, 2, 0});
+    Plug plug(lane);
+    const auto nothing = [](bool) {};
+
+    EXPECT_EQ(lane.take("greedy", nothing), Lane::Taken::kYes);
+    EXPECT_EQ(lane.take("greedy", nothing), Lane::Taken::kYes);
+    EXPECT_EQ(lane.take("greedy", nothing), Lane::Taken::kShareIsUsed);
+    EXPECT_EQ(lane.take("modest", nothing), Lane::Taken::kYes);
+    plug.pull();
+}
+
+TEST(Lane, TakesNoMoreThanItsQueueHolds) {
+    Lane lane({2, 2, 0});
+    Plug plug(lane);
+    const auto nothing = [](bool) {};
+
+    EXPECT_EQ(lane.take("a", nothing), Lane::Taken::kYes);
+    EXPECT_EQ(lane.take("b", nothing), Lane::Taken::kYes);
+    EXPECT_EQ(lane.take("c", nothing), Lane::Taken::kFull);
+    plug.pull();
+}
+
+TEST(Lane, GivesUpWhatWaitsWhenItStops) {
+    Lane lane({200, 200, 0});
+    Plug plug(lane);
+    int ran = 0;
+    int given_up = 0;
+    for (int i = 0; i < 150; ++i) lane.take("a", [&](bool run) { ++(run ? ran : given_up); });
+
+    lane.stop();
+
+    EXPECT_EQ(given_up, 150);
+    EXPECT_EQ(ran, 0);
+    EXPECT_EQ(lane.take("a", [](bool) {}), Lane::Taken::kStopped);
+    plug.pull();
+}
+
+}  // namespace
+}  // namespace pulseline::server
