@@ -4,6 +4,7 @@
 #include "api/http/contexts.hpp"
 #include "api/http/router.hpp"
 #include "core/fleet/motion_preview.hpp"
+#include "core/fleet/order_preview.hpp"
 #include "server/assets.hpp"
 #include "server/await.hpp"
 #include "server/camera_store.hpp"
@@ -34,12 +35,18 @@ struct Context {
     net::io_context& io;
     net::thread_pool& history_pool;
     net::thread_pool& workers;
+    net::thread_pool& planners;  // one thread
+    net::thread_pool& encoders;  // one thread
     std::size_t workers_waiting = 0;
+    std::size_t planners_waiting = 0;
+    std::size_t encoders_waiting = 0;
     StopList stops;
     Quota peers;
     Quota streams;
     std::size_t connections = 0;
-    fleet::MotionPreviewer previewer = {};  // of the history thread
+    // Of the planning thread.
+    fleet::MotionPreviewer motions = {};
+    fleet::OrderPreviewer orders = {};
 };
 
 /// A request that asks to become a WebSocket, and what came behind it.

@@ -29,6 +29,8 @@ struct Limits {
     std::size_t vehicle_binary_bytes = 256 * 1024;
     std::size_t vehicle_outbox = 256;
     int vehicle_malformed_in_a_row = 20;
+    std::size_t planners_waiting = 8;  // previews, seconds each
+    std::size_t encoders_waiting = 256;
     std::size_t workers_waiting = 16;  // behind the two that hash passwords
 };
 

@@ -7,15 +7,18 @@
 #include "api/http/documents.hpp"
 #include "core/base/crash_point.hpp"
 #include "server/context.hpp"
+#include "server/keep_running.hpp"
 #include "server/listener.hpp"
 #include "server/origins.hpp"
 #include "server/server_clock.hpp"
+#include "server/stop_limit.hpp"
 
 namespace pulseline::server {
 namespace {
 
 constexpr auto kPosePeriod = std::chrono::milliseconds(100);
-constexpr auto kStopGrace = std::chrono::milliseconds(1500);
+constexpr auto kStopGrace = std::chrono::milliseconds(1500);  // of sessions
+constexpr auto kLongestStop = std::chrono::seconds(8);        // of all, a disk that hangs included
 constexpr int kStopsShown = 50;
 
 std::uint64_t random_seed() {
@@ -24,8 +27,8 @@ std::uint64_t random_seed() {
     return seed;
 }
 
-void rethrow(const std::exception_ptr& error) {
-    if (error) std::rethrow_exception(error);
+void log_end(const std::exception_ptr& error) {
+    if (error) log::error("loop_threw", {{"what", what(error)}});
 }
 
 }  // namespace
@@ -45,6 +48,7 @@ public:
     Status start();
     void run();
     void begin_stop();
+    void limit_stop();
 
     std::optional<Error> not_ready() const override;
     std::string metrics() const override;
@@ -52,9 +56,12 @@ public:
 
     FleetRuntime::Ports runtime_ports();
     VehicleGateway::Ports gateway_ports();
+    StreamHub::Ports hub_ports();
     net::awaitable<void> offer_poses();
     net::awaitable<void> finish();
 
+    // Outlives all that may hold the end up.
+    StopLimit stop_limit_;
     Options options_;
     Parts parts_;
     // Sessions live in io_; the destructor ends it before what they use.
@@ -73,14 +80,22 @@ public:
     std::optional<VehicleGateway> gateway_;
     std::optional<net::thread_pool> history_pool_;
     std::optional<net::thread_pool> workers_;
+    std::optional<net::thread_pool> planners_;
+    std::optional<net::thread_pool> encoders_;
     std::optional<Context> context_;
     bool stopping_ = false;
+    int pausing_ = 0;  // loops that have thrown and do not run now
+    std::thread stopper_;
 };
 
 Server::Impl::~Impl() {
+    if (stopper_.joinable()) stopper_.join();
     if (runtime_) runtime_->stop();
-    if (history_pool_) history_pool_->join();
-    if (workers_) workers_->join();
+    // What waits in a pool is for sessions that are over; what runs ends.
+    for (auto* pool : {&history_pool_, &workers_, &planners_, &encoders_}) {
+        if (*pool) (*pool)->stop();
+    }
+    for (auto* pool : {&history_pool_, &workers_, &planners_, &encoders_}) pool->reset();
     acceptor_.reset();
     signals_.reset();
     io_.reset();
@@ -113,12 +128,14 @@ Status Server::Impl::start() {
     access_.emplace(
         parts_.access,
         [this](const access::Change& change) {
-            runtime_->write([&] { access::apply(parts_.access, change); });
+            runtime_->write([this, change] { access::apply(parts_.access, change); });
         },
         clock_->now());
     gateway_.emplace(gateway_ports());
     history_pool_.emplace(1);
     workers_.emplace(2);
+    planners_.emplace(1);
+    encoders_.emplace(1);
     context_.emplace(Context{options_,
                              parts_.plant,
                              documents_,
@@ -135,17 +152,24 @@ Status Server::Impl::start() {
                              *io_,
                              *history_pool_,
                              *workers_,
+                             *planners_,
+                             *encoders_,
+                             0,
+                             0,
                              0,
                              StopList{},
                              Quota(options_.limits.connections_per_peer),
                              Quota(options_.limits.streams_per_user),
                              0});
     if (auto started = runtime_->start(std::move(stored)); !started) return started;
-    runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
-        if (snapshot) hub_->resubscribe_all(*snapshot);
-    });
-    net::co_spawn(*io_, accept_loop(*context_, *acceptor_, tls_.get()), rethrow);
-    net::co_spawn(*io_, offer_poses(), rethrow);
+    hub_->connect(hub_ports());
+    hub_->resubscribe_all();
+    net::co_spawn(*io_,
+                  keep_running("accept", *io_, pausing_,
+                               [this] { return accept_loop(*context_, *acceptor_, tls_.get()); }),
+                  log_end);
+    net::co_spawn(*io_, keep_running("poses", *io_, pausing_, [this] { return offer_poses(); }),
+                  log_end);
     return {};
 }
 
@@ -156,13 +180,25 @@ FleetRuntime::Ports Server::Impl::runtime_ports() {
             metrics_,
             [this](FleetRuntime::Job job) { net::post(*io_, std::move(job)); },
             [this](FleetRuntime::Published batch) {
-                gateway_->send(batch.outputs.messages);
-                hub_->publish(batch);
+                guarded("send", [&] { gateway_->send(batch.outputs.messages); });
+                guarded("show", [&] { hub_->publish(batch); });
             },
             [this] {
                 gateway_->introduce_all();
-                runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
-                    if (snapshot) hub_->resubscribe_all(*snapshot);
+                hub_->resubscribe_all();
+            }};
+}
+
+StreamHub::Ports Server::Impl::hub_ports() {
+    return {[this](std::function<void(Result<events::Snapshot>)> done) {
+                runtime_->read(&StreamHub::take, std::move(done));
+            },
+            [this](std::function<std::string()> write, std::function<void(Frame)> done) {
+                net::post(*encoders_, [this, write = std::move(write), done = std::move(done)] {
+                    Frame frame;
+                    guarded("snapshot",
+                            [&] { frame = std::make_shared<const std::string>(write()); });
+                    net::post(*io_, [done, frame] { done(frame); });
                 });
             }};
 }
@@ -174,10 +210,11 @@ VehicleGateway::Ports Server::Impl::gateway_ports() {
 
 net::awaitable<void> Server::Impl::offer_poses() {
     net::steady_timer timer(*io_);
-    while (!stopping_) {
+    for (;;) {
         timer.expires_after(kPosePeriod);
         error_code ec;
         co_await timer.async_wait(into(ec));
+        runtime_->listening();
         hub_->offer_poses();
     }
 }
@@ -194,25 +231,36 @@ void Server::Impl::run() {
     }
 }
 
+/// Nothing here may wait: who watches the server is answered until its end.
 void Server::Impl::begin_stop() {
     if (std::exchange(stopping_, true)) return;
     log::info("stopping");
-    error_code ec;
-    signals_->cancel(ec);
-    acceptor_->close(ec);
     context_->stops.stop_all();
-    crash_point(CrashPoint::kStopBeforeLastCommit);
-    runtime_->stop();  // what was asked before is committed; its answers wait in io_
-    crash_point(CrashPoint::kStopAfterLastCommit);
-    net::co_spawn(*io_, finish(), rethrow);
+    stopper_ = std::thread([this] {
+        crash_point(CrashPoint::kStopBeforeLastCommit);
+        runtime_->stop();  // what was asked before is committed; its answers wait in io_
+        crash_point(CrashPoint::kStopAfterLastCommit);
+        net::post(*io_, [this] { net::co_spawn(*io_, finish(), log_end); });
+    });
+}
+
+void Server::Impl::limit_stop() {
+    stop_limit_.begin(kLongestStop, [this] {
+        const auto queues = runtime_->queues();
+        log::error("stop_unfinished", {{"commits", std::to_string(queues.commits)},
+                                       {"commands", std::to_string(queues.commands)}});
+        log::flush();
+        std::_Exit(1);
+    });
 }
 
 net::awaitable<void> Server::Impl::finish() {
+    error_code ec;
+    acceptor_->close(ec);
     const auto until = std::chrono::steady_clock::now() + kStopGrace;
     net::steady_timer timer(*io_);
     while (context_->connections > 0 && std::chrono::steady_clock::now() < until) {
         timer.expires_after(std::chrono::milliseconds(10));
-        error_code ec;
         co_await timer.async_wait(into(ec));
     }
     io_->stop();
@@ -222,6 +270,12 @@ std::optional<Error> Server::Impl::not_ready() const {
     if (stopping_) {
         return Error{Errc::kUnavailable, {"stopping", {}}, "The server is stopping.", {}};
     }
+    if (pausing_ > 0) {
+        return Error{Errc::kUnavailable,
+                     {"internal", {}},
+                     "A part of the server met a fault of its own and is being started again.",
+                     {}};
+    }
     if (!runtime_->writable()) {
         return store_unavailable(runtime_->store_fault());
     }
@@ -229,7 +283,7 @@ std::optional<Error> Server::Impl::not_ready() const {
 }
 
 std::string Server::Impl::metrics() const {
-    return metrics_.text(hub_->orders_by_state(), hub_->vehicles_by_link());
+    return metrics_.text(hub_->orders_by_state(), hub_->vehicles_by_link(), runtime_->queues());
 }
 
 Server::Server(Options options, Parts parts)
@@ -249,7 +303,11 @@ void Server::stop_on_signals() {
     impl_->signals_->add(SIGINT);
     impl_->signals_->add(SIGTERM);
     impl_->signals_->async_wait([impl = impl_.get()](const error_code& ec, int) {
-        if (!ec) impl->begin_stop();
+        if (ec) return;
+        error_code ignored;
+        impl->signals_->clear(ignored);  // a second one ends the process as it ends any
+        impl->limit_stop();
+        impl->begin_stop();
     });
 }
 std::string Server::url() const {

@@ -56,6 +56,10 @@ struct Route {
     std::size_t body_bytes = 0;  // of those who may use it; 0: what the server allows everybody
 
     bool changes() const;  // not GET
+    /// This very request changes nothing (a dry run): answered while nothing can be stored.
+    bool asks(const Request& request) const;
+    /// This very request makes vehicles stand: it acts first and is stored when possible.
+    bool stops(const Request& request) const;
 };
 
 std::span<const Route> routes();

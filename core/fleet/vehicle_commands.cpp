@@ -20,7 +20,7 @@ bool is_about_vehicle(const Reason& reason) {
                                          "order_not_accepted", "order_rejected",
                                          "foreign_order",      "identity_conflict",
                                          "vehicle_withdrawn",  "load_on_withdrawn_vehicle",
-                                         "driven_by_hand"};
+                                         "driven_by_hand",     "command_expired"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }

@@ -77,7 +77,8 @@ public:
     OneImage images;
     FakeService service;
     WorldHistory history;
-    fleet::MotionPreviewer previewer;
+    fleet::MotionPreviewer motions;
+    fleet::OrderPreviewer orders;
     Documents documents;
     AccessPolicy policy{{"http://127.0.0.1:8080"}};
     access::Identity identity;  // who calls when the headers prove nobody: an operator's token
