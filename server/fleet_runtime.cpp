@@ -131,6 +131,10 @@ FleetRuntime::Turn FleetRuntime::wait() {
         return stopping_ || must_rebuild_ || (storing_ && storing_->done) || !stops_.empty() ||
                !reads_.empty() || (takes && !commands_.empty());
     });
+    const auto woken = Steady::now();
+    const auto away = woken - std::exchange(looked_, woken);
+    // A process that stood still says nothing of its disk.
+    if (writes_since_ && away > kSlowAfter) writes_since_ = std::min(woken, *writes_since_ + away);
     Turn turn;
     turn.broken = std::exchange(must_rebuild_, false);
     turn.stored = !turn.broken && !given_up_ && storing_ && storing_->done;

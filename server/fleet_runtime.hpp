@@ -255,9 +255,10 @@ private:
     Commits commits_;
     Commits flight_;  // being written: the commit thread alone looks at their records
     std::optional<Steady::time_point> writes_since_;
-    bool given_up_ = false;  // what is being written
-    Tasks owed_;             // stops that act and are not stored
-    Acts too_late_;          // stored after their callers were told that nobody knows
+    Steady::time_point looked_ = Steady::now();  // when the fleet thread saw that last
+    bool given_up_ = false;                      // what is being written
+    Tasks owed_;                                 // stops that act and are not stored
+    Acts too_late_;  // stored after their callers were told that nobody knows
     std::shared_ptr<Storing> storing_;
     std::optional<fleet::StoreFault> fault_;
     std::map<plant::VehicleId, std::uint64_t> stopped_by_;  // number of the newest batch that did

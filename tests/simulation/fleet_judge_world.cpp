@@ -67,6 +67,7 @@ Outcome World::run() {
 
 void World::step(double dt_s) {
     now_s_ += dt_s;
+    if (now_s_ >= stalled_until_s_ && !unstored_) listen(dt_s);
     end_faults();
     if (disturbed_ && chance(fault_rate_ * dt_s)) disturb();
     move_vehicles(dt_s);
@@ -75,7 +76,6 @@ void World::step(double dt_s) {
     if (unstored_) retry_store();
     // A stalled or read-only server takes nothing; vehicles go on.
     if (now_s_ >= stalled_until_s_ && !unstored_) {
-        listen(dt_s);
         carry_messages();
         if (!unstored_) fleet_->tick(now());
         settle();
