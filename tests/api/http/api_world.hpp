@@ -8,6 +8,7 @@
 #include "api/http/documents.hpp"
 #include "api/http/router.hpp"
 #include "core/fleet/motion_preview.hpp"
+#include "core/fleet/order_preview.hpp"
 #include "tests/api/access/memory_store.hpp"
 #include "tests/api/http/schema_check.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
