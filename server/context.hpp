@@ -4,6 +4,7 @@
 #include "api/http/contexts.hpp"
 #include "api/http/router.hpp"
 #include "core/fleet/motion_preview.hpp"
+#include "core/fleet/order_preview.hpp"
 #include "server/assets.hpp"
 #include "server/await.hpp"
 #include "server/camera_store.hpp"
@@ -36,8 +37,10 @@ struct Context {
     api::AccessPolicy policy;
     net::io_context& io;
     Lane& lists;           // reads of the history that take milliseconds
-    Lane& heavy;           // marker sheets, previews, images: a second each
+    Lane& heavy;           // marker sheets, images: a second each
     Lane& workers;         // waits for the store
+    Lane& planners;        // previews of orders and motions
+    Lane& encoders;        // long answers, and what dashboards begin with
     Lane& known_sign_ins;  // hash passwords
     Lane& stranger_sign_ins;
     SignInGate& gate;
@@ -47,7 +50,9 @@ struct Context {
     Quota streams;
     Quota bodies;
     std::size_t connections = 0;
-    fleet::MotionPreviewer previewer = {};  // of the heavy lane
+    // Of the planners' lane.
+    fleet::MotionPreviewer motions = {};
+    fleet::OrderPreviewer orders = {};
 };
 
 /// A request that asks to become a WebSocket, and what came behind it.

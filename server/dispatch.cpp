@@ -19,7 +19,7 @@ net::awaitable<Response> on_history(Context& context, const Request& request,
                                     std::function<Response(const api::HistoryContext&)> handler,
                                     bool heavy) {
     const std::function<Response()> job = [&context, handler = std::move(handler)] {
-        return handler(api::HistoryContext{context.history, context.plant, context.previewer});
+        return handler(api::HistoryContext{context.history, context.plant});
     };
     auto result = co_await on<Response>(heavy ? context.heavy : context.lists, context.io, job,
                                         request.identity.name);
@@ -30,23 +30,55 @@ net::awaitable<Response> on_fleet(Context& context, const api::Route& route,
                                   const Request& request) {
     using api::FleetAnswer;
     const auto handler = std::get<api::FleetHandler>(route.handler);
-    const auto job = [&context, handler, &request](fleet::Fleet& fleet, Time now) {
-        api::FleetContext with{fleet, context.plant, context.images, now};
-        return handler(with, request);
+    const auto job_of = [&context, handler](auto of) {
+        return [&context, handler, of](fleet::Fleet& fleet, Time now) {
+            api::FleetContext with{fleet, context.plant, context.images, now};
+            return handler(with, *of);
+        };
     };
-    const std::function<void(Done<FleetAnswer>)> begin = [&context, &route,
-                                                          job](Done<FleetAnswer> done) {
-        if (route.changes() && !route.only_asks) {
-            context.runtime.command(job, std::move(done));
+    const std::function<void(Done<FleetAnswer>)> begin = [&](Done<FleetAnswer> done) {
+        if (route.asks(request)) {
+            context.runtime.read(job_of(&request), std::move(done));
+        } else if (route.stops(request)) {
+            // It may be done once more when this session is long over.
+            context.runtime.stop_command(job_of(std::make_shared<const Request>(request)),
+                                         std::move(done));
         } else {
-            context.runtime.read(job, std::move(done));
+            context.runtime.command(job_of(&request), std::move(done));
         }
     };
     auto answer = co_await callback<FleetAnswer>(begin);
     if (!answer) co_return refused(answer.error(), request);
+    if (answer->plan) {
+        const std::function<FleetAnswer()> job = [&context, plan = std::move(answer->plan)] {
+            return plan(api::PlanContext{context.motions, context.orders});
+        };
+        answer = co_await on<FleetAnswer>(context.planners, context.io, job, request.identity.name);
+        if (!answer) co_return refused(answer.error(), request);
+    }
+    if (answer->again) {
+        const std::function<void(Done<FleetAnswer>)> command =
+            [&, again = std::move(answer->again)](Done<FleetAnswer> done) {
+                context.runtime.command(
+                    [&context, again](fleet::Fleet& fleet, Time now) {
+                        api::FleetContext with{fleet, context.plant, context.images, now};
+                        return again(with);
+                    },
+                    std::move(done));
+            };
+        answer = co_await callback<FleetAnswer>(command);
+        if (!answer) co_return refused(answer.error(), request);
+    }
+    if (answer->encode) {
+        const std::function<Response()> job = [&context, encode = std::move(answer->encode)] {
+            return encode(api::EncodeContext{context.plant, context.images});
+        };
+        auto written =
+            co_await on<Response>(context.encoders, context.io, job, request.identity.name);
+        co_return written ? std::move(*written) : refused(written.error(), request);
+    }
     if (!answer->then) co_return std::move(answer->response);
-    // What the fleet hands on is a preview, and those belong to the heavy lane.
-    co_return co_await on_history(context, request, std::move(answer->then), true);
+    co_return co_await on_history(context, request, std::move(answer->then), route.heavy);
 }
 
 /// Refused at once, a program that floods would only ask the faster.

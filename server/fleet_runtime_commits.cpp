@@ -5,41 +5,33 @@
 #include "core/fleet/journal/snapshot.hpp"
 #include "server/fleet_runtime.hpp"
 #include "server/log.hpp"
+#include "server/runtime_limits.hpp"
 
 // The commit thread of FleetRuntime: what leaves the fleet's thread is stored here, and only then
 // answered, sent and shown.
 namespace pulseline::server {
-namespace {
 
-template <class T>
-void append(std::vector<T>& to, const std::vector<T>& from) {
-    to.insert(to.end(), from.begin(), from.end());
-}
-void append(fleet::Records& to, const fleet::Records& from) {
-    append(to.orders, from.orders);
-    append(to.vehicles, from.vehicles);
-    append(to.stops, from.stops);
-    append(to.events, from.events);
-    append(to.idempotency, from.idempotency);
-    append(to.closures, from.closures);
-    append(to.reopened, from.reopened);
-    append(to.journal, from.journal);
-    append(to.schedules, from.schedules);
-    append(to.templates, from.templates);
+void FleetRuntime::write(Job job) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (is_slow()) throw StoreUnavailable(StoreHangs().what());
+    }
+    const auto error = write_and_wait(std::move(job), kGiveUpAfter);
+    if (!error) return;
+    log::error("write_failed", {{"what", what(error)}});
+    throw StoreUnavailable(what(error));
 }
 
-}  // namespace
-
-std::exception_ptr FleetRuntime::write_and_wait(Job job) {
-    std::promise<std::exception_ptr> done;
-    auto result = done.get_future();
+std::exception_ptr FleetRuntime::write_and_wait(Job job, std::chrono::milliseconds most) {
+    const auto done = std::make_shared<std::promise<std::exception_ptr>>();
+    auto result = done->get_future();
     Commit commit;
-    commit.job = [&] {
+    commit.job = [job = std::move(job), done] {
         try {
             job();
-            done.set_value(nullptr);
+            done->set_value(nullptr);
         } catch (...) {
-            done.set_value(std::current_exception());
+            done->set_value(std::current_exception());
         }
     };
     {
@@ -50,76 +42,142 @@ std::exception_ptr FleetRuntime::write_and_wait(Job job) {
         commits_.push_back(std::move(commit));
     }
     commit_wake_.notify_one();
+    if (result.wait_for(most) != std::future_status::ready) {
+        return std::make_exception_ptr(StoreHangs());
+    }
     return result.get();
 }
 
 void FleetRuntime::commit_loop() {
     for (;;) {
-        std::vector<Commit> group;
+        Commits group;
         {
             std::unique_lock lock(mutex_);
             commit_wake_.wait(lock, [this] { return commit_stopping_ || !commits_.empty(); });
             if (commits_.empty()) return;
             group.swap(commits_);
         }
-        // Batches up to the next write of somebody else share one commit. After one that failed the
-        // rest stands on what is lost.
-        std::vector<Commit> batches;
-        bool good = true;
-        for (auto& commit : group) {
-            if (!commit.job) {
-                batches.push_back(std::move(commit));
-                continue;
+        try {
+            write_all(std::move(group));
+        } catch (...) {
+            log::error("commit_threw", {{"what", what(std::current_exception())}});
+            end_write();
+            {
+                const std::lock_guard lock(mutex_);
+                must_rebuild_ = true;
+                degraded_ = true;
             }
-            good = commit_group(std::exchange(batches, {}), good);
-            commit.job();
+            fleet_wake_.notify_one();
         }
-        commit_group(std::move(batches), good);
     }
 }
 
-bool FleetRuntime::commit_group(std::vector<Commit> group, bool good) {
+void FleetRuntime::write_all(Commits group) {
+    // Batches up to the next write of somebody else share one commit. After one that failed the
+    // rest stands on what is lost.
+    Commits batches;
+    bool good = true;
+    for (auto& commit : group) {
+        if (!commit.job) {
+            batches.push_back(std::move(commit));
+            continue;
+        }
+        good = commit_group(std::exchange(batches, {}), good);
+        {
+            const std::lock_guard lock(mutex_);
+            writes_since_ = Steady::now();
+        }
+        guarded("write", commit.job);
+        good = end_write() && good;
+    }
+    commit_group(std::move(batches), good);
+}
+
+/// False: it was given up, and with it all that the fleet has handled since.
+bool FleetRuntime::end_write() {
+    const std::lock_guard lock(mutex_);
+    writes_since_.reset();
+    if (!given_up_) return true;
+    given_up_ = false;
+    must_rebuild_ = true;
+    fleet_wake_.notify_one();
+    return false;
+}
+
+bool FleetRuntime::commit_group(Commits group, bool good) {
     if (group.empty()) return good;
-    if (good && store(group)) {
+    if (good) {
+        {
+            const std::lock_guard lock(mutex_);
+            flight_ = std::move(group);
+            writes_since_ = Steady::now();
+        }
+        good = store(flight_);
+        const bool in_time = end_write();
+        {
+            const std::lock_guard lock(mutex_);
+            group = std::exchange(flight_, {});
+            if (good && !in_time) {
+                for (const auto& commit : group) {
+                    append_starts(too_late_, commit.batch.outputs.records.events);
+                }
+            }
+        }
+        if (good && !in_time) {
+            // Its callers know nothing of it and nothing of it is sent, but it is stored: shown.
+            for (auto& commit : group) {
+                Commit shown;
+                shown.batch.outputs.records = std::move(commit.batch.outputs.records);
+                shown.reads = std::move(commit.reads);
+                deliver(std::move(shown));
+            }
+            return false;
+        }
+    }
+    if (good) {
         crash_point(CrashPoint::kBatchBeforeRelease);
         std::optional<fleet::SnapshotRow> snapshot;
         for (auto& commit : group) {
             if (commit.snapshot) snapshot = std::move(commit.snapshot);
             if (commit.releases_since) {
                 ports_.metrics.release_stored(
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() -
-                                                  *commit.releases_since)
-                        .count());
+                    std::chrono::duration<double>(Steady::now() - *commit.releases_since).count());
             }
             deliver(std::move(commit));
         }
         if (snapshot) try_snapshot(*snapshot);
         return true;
     }
+    Commits behind;
     {
         const std::lock_guard lock(mutex_);
         must_rebuild_ = true;
         degraded_ = true;
-        std::vector<Commit> kept;
+        Commits kept;
         for (auto& commit : commits_) {
-            (commit.job ? kept : group).push_back(std::move(commit));
+            (commit.job ? kept : behind).push_back(std::move(commit));
         }
         commits_ = std::move(kept);
     }
-    give_up(std::move(group));
+    // A disk that was full took nothing; one that failed may have.
+    const auto fault = store_fault();
+    const bool nothing =
+        fault && (fault->cause == "disk_full" || fault->cause == "write_protected");
+    give_up(std::move(group), nothing ? store_unavailable(fault) : outcome_unknown(fault));
+    give_up(std::move(behind), store_unavailable(fault));
     fleet_wake_.notify_one();
     return false;
 }
 
-bool FleetRuntime::store(const std::vector<Commit>& group) {
-    fleet::Records merged;
-    if (group.size() > 1) {
-        for (const auto& commit : group) append(merged, commit.batch.outputs.records);
-    }
-    const auto& records = group.size() > 1 ? merged : group.front().batch.outputs.records;
-    if (records.empty()) return true;
-    const auto start = std::chrono::steady_clock::now();
+bool FleetRuntime::store(const Commits& group) {
+    const auto start = Steady::now();
     try {
+        fleet::Records merged;
+        if (group.size() > 1) {
+            for (const auto& commit : group) append(merged, commit.batch.outputs.records);
+        }
+        const auto& records = group.size() > 1 ? merged : group.front().batch.outputs.records;
+        if (records.empty()) return true;
         ports_.store.commit(records);
     } catch (...) {
         note_fault(std::current_exception());
@@ -144,40 +202,59 @@ void FleetRuntime::put_snapshot(const fleet::SnapshotRow& snapshot) {
 
 /// Without it the journal behind the snapshot before goes on, and is only longer to replay.
 void FleetRuntime::try_snapshot(const fleet::SnapshotRow& snapshot) {
+    {
+        const std::lock_guard lock(mutex_);
+        writes_since_ = Steady::now();
+    }
     try {
         put_snapshot(snapshot);
     } catch (const std::exception& e) {
         log::error("snapshot_failed", {{"what", e.what()}});
     }
+    end_write();
 }
 
 void FleetRuntime::deliver(Commit commit) {
     auto shared = std::make_shared<Commit>(std::move(commit));
     ports_.deliver([this, shared] {
         crash_point(CrashPoint::kReleaseBeforeMessages);
-        ports_.publish(std::move(shared->batch));
-        crash_point(CrashPoint::kReleaseBeforeAnswers);
-        for (const auto& answer : shared->answers) {
-            answer(nullptr);
-            crash_point(CrashPoint::kReleaseBetweenAnswers);
+        {
+            const std::lock_guard lock(mutex_);
+            std::erase_if(shared->batch.outputs.messages, [&](const auto& message) {
+                const auto stopped = stopped_by_.find(message.vehicle);
+                return stopped != stopped_by_.end() && shared->number < stopped->second &&
+                       starts(message);
+            });
         }
-        for (const auto& read : shared->reads) {
-            if (read.answer) read.answer(nullptr);
+        guarded("publish", [&] { ports_.publish(std::move(shared->batch)); });
+        crash_point(CrashPoint::kReleaseBeforeAnswers);
+        for (const auto* tasks : {&shared->commands, &shared->stops, &shared->reads}) {
+            for (const auto& task : *tasks) {
+                if (!task.answer) continue;
+                guarded("answer", [&] { task.answer(nullptr); });
+                crash_point(CrashPoint::kReleaseBetweenAnswers);
+            }
         }
         crash_point(CrashPoint::kReleaseDone);
     });
 }
 
-void FleetRuntime::give_up(std::vector<Commit> lost) {
-    std::vector<Answer> refused;
+/// Of what is lost, what made vehicles stand has acted all the same: it is stored later.
+void FleetRuntime::give_up(Commits lost, const Error& error) {
     for (auto& commit : lost) {
-        for (auto& answer : commit.answers) refused.push_back(std::move(answer));
+        for (auto& task : commit.commands) refuse(task, error);
+        for (auto& task : commit.stops) {
+            if (task.answer) ports_.deliver([answer = task.answer] { answer(nullptr); });
+            task.answer = nullptr;
+        }
+        {
+            const std::lock_guard lock(mutex_);
+            for (auto& task : commit.stops) owed_.push_back(std::move(task));
+        }
         // They read what is not stored: the fleet built from the store answers them.
-        for (auto& read : commit.reads) submit(true, std::move(read));
+        put_back(reads_, std::move(commit.reads));
     }
-    ports_.deliver([refused = std::move(refused), error = store_unavailable(store_fault())] {
-        for (const auto& answer : refused) answer(&error);
-    });
+    fleet_wake_.notify_one();
 }
 
 }  // namespace pulseline::server

@@ -1,26 +1,58 @@
 #include "server/log.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "server/log_queue.hpp"
 
 namespace pulseline::server::log {
 namespace {
 
+constexpr auto kLongestFlush = std::chrono::seconds(1);
+
 bool as_json = false;
 
-spdlog::logger& logger() {
-    static const auto instance = [] {
-        auto made = spdlog::stderr_logger_mt("pulseline");
-        made->flush_on(spdlog::level::warn);
-        return made;
-    }();
+/// Its thread may hang in a write when the process ends.
+LogQueue& queue() {
+    static auto* const instance = new LogQueue(STDERR_FILENO);
     return *instance;
 }
 
-void write(spdlog::level::level_enum level, std::string_view event, const Fields& fields) {
-    auto& out = logger();
-    if (out.should_log(level)) out.log(level, "{}", line(event, fields, as_json));
+/// What was logged before the end is written, if anybody reads it.
+struct AtExit {
+    ~AtExit() { flush(); }
+};
+
+void write(Level level, std::string_view event, const Fields& fields) {
+    static const AtExit at_exit;
+    queue().push(whole_line(level, event, fields));
+}
+
+const char* name_of(Level level) {
+    switch (level) {
+        case Level::kInfo:
+            return "info";
+        case Level::kWarn:
+            return "warning";
+        case Level::kError:
+            return "error";
+    }
+    return "error";
+}
+
+std::string time_of_day() {
+    const auto now =
+        std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+    const auto whole = std::chrono::floor<std::chrono::seconds>(now);
+    const std::time_t seconds = std::chrono::system_clock::to_time_t(whole);
+    std::tm utc{};
+    gmtime_r(&seconds, &utc);
+    return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}.{:03}Z", utc.tm_year + 1900,
+                       utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                       (now - whole).count());
 }
 
 bool plain(std::string_view text) {
@@ -29,24 +61,20 @@ bool plain(std::string_view text) {
 
 }  // namespace
 
-void start(bool json) {
-    as_json = json;
-    logger().set_pattern(json ? R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v})"
-                              : "%Y-%m-%dT%H:%M:%S.%eZ %l %v",
-                         spdlog::pattern_time_type::utc);
-    spdlog::flush_every(std::chrono::seconds(1));
-}
+void start(bool json) { as_json = json; }
 
-void info(std::string_view event, const Fields& fields) {
-    write(spdlog::level::info, event, fields);
+void info(std::string_view event, const Fields& fields) { write(Level::kInfo, event, fields); }
+void warn(std::string_view event, const Fields& fields) { write(Level::kWarn, event, fields); }
+void error(std::string_view event, const Fields& fields) { write(Level::kError, event, fields); }
+bool flush() { return queue().flush(kLongestFlush); }
+std::uint64_t dropped() { return queue().dropped(); }
+
+std::string whole_line(Level level, std::string_view event, const Fields& fields) {
+    const std::string text = line(event, fields, as_json);
+    return as_json ? fmt::format("{{\"time\":\"{}\",\"level\":\"{}\",{}}}\n", time_of_day(),
+                                 name_of(level), text)
+                   : fmt::format("{} {} {}\n", time_of_day(), name_of(level), text);
 }
-void warn(std::string_view event, const Fields& fields) {
-    write(spdlog::level::warn, event, fields);
-}
-void error(std::string_view event, const Fields& fields) {
-    write(spdlog::level::err, event, fields);
-}
-void flush() { logger().flush(); }
 
 std::string escaped(std::string_view text) {
     std::string out;

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "server/log.hpp"
+
 namespace pulseline::server {
 namespace {
 
@@ -62,6 +64,11 @@ void Metrics::request(std::string_view route, int status, double duration_s) {
     found->second.observe(duration_s);
 }
 
+void Metrics::fleet_batch(double duration_s) {
+    const std::lock_guard lock(mutex_);
+    fleet_batch_.observe(duration_s);
+}
+
 void Metrics::commit(double duration_s, std::size_t batches) {
     const std::lock_guard lock(mutex_);
     ++commits_;
@@ -91,7 +98,8 @@ void Metrics::snapshot(double duration_s, std::size_t bytes) {
 }
 
 std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
-                          const std::map<std::string, int>& vehicles_by_link) const {
+                          const std::map<std::string, int>& vehicles_by_link,
+                          const QueueLengths& queues) const {
     std::string out;
     auto to = std::back_inserter(out);
     header(out, "pulseline_job_orders", "gauge", "Job orders held by the fleet, by state.");
@@ -115,6 +123,9 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
             histogram.write(out, "pulseline_http_request_duration_seconds",
                             fmt::format("route=\"{}\"", route));
         }
+        header(out, "pulseline_fleet_batch_seconds", "histogram",
+               "How long the fleet's thread was busy with one batch.");
+        fleet_batch_.write(out, "pulseline_fleet_batch_seconds", "");
         single(out, "pulseline_commits_total", "counter", "Database commits.", commits_);
         single(out, "pulseline_commit_batches_total", "counter", "Fleet batches committed.",
                batches_);
@@ -133,12 +144,24 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
         single(out, "pulseline_snapshot_bytes", "gauge", "Size of the newest snapshot.",
                snapshot_bytes_);
     }
+    single(out, "pulseline_fleet_tick_age_seconds", "gauge", "Since the fleet's newest tick.",
+           queues.tick_age_s);
+    header(out, "pulseline_fleet_queue_length", "gauge", "What waits for the fleet and the store.");
+    for (const auto& [queue, length] :
+         {std::pair("commands", queues.commands), std::pair("reads", queues.reads),
+          std::pair("commits", queues.commits)}) {
+        fmt::format_to(to, "pulseline_fleet_queue_length{{queue=\"{}\"}} {}\n", queue, length);
+    }
+    single(out, "pulseline_fleet_faults_total", "counter",
+           "Exceptions of the fleet, after which it was built anew.", fleet_faults.load());
     single(out, "pulseline_commits_failed_total", "counter", "Commits that stored nothing.",
            commits_failed_.load());
     single(out, "pulseline_fleet_rebuilds_total", "counter", "Fleet built anew from the store.",
            fleet_rebuilds.load());
     single(out, "pulseline_read_only", "gauge",
            "1 while the database takes no writes and commands are refused.", read_only.load());
+    single(out, "pulseline_log_lines_dropped_total", "counter",
+           "Lines of the log that nobody read in time.", log::dropped());
     single(out, "pulseline_connections", "gauge", "Open connections.", connections.load());
     single(out, "pulseline_connections_refused_total", "counter", "Connections over a limit.",
            connections_refused.load());

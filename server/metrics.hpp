@@ -27,6 +27,14 @@ private:
     std::uint64_t count_ = 0;
 };
 
+/// What waits for the fleet and behind it.
+struct QueueLengths {
+    std::size_t commands = 0;
+    std::size_t reads = 0;
+    std::size_t commits = 0;
+    double tick_age_s = 0;
+};
+
 /// What the process counts about itself. Thread safety: all functions.
 class Metrics {
 public:
@@ -35,6 +43,8 @@ public:
     /// The fleet waited for its snapshot for so long.
     void snapshot_taken(double duration_s);
     void snapshot(double duration_s, std::size_t bytes);
+    /// The fleet thread was busy with a batch for so long.
+    void fleet_batch(double duration_s);
     void commit_failed() { ++commits_failed_; }
     /// Floor was released by a batch: since its first task was asked.
     void release_decided(double since_s);
@@ -56,16 +66,19 @@ public:
     std::atomic<std::int64_t> clock_ahead_ms{0};
     std::atomic<std::uint64_t> vehicle_takeovers{0};
     std::atomic<std::uint64_t> fleet_rebuilds{0};
+    std::atomic<std::uint64_t> fleet_faults{0};
     std::atomic<int> read_only{0};
 
     /// Prometheus text format 0.0.4.
     std::string text(const std::map<std::string, int>& orders_by_state,
-                     const std::map<std::string, int>& vehicles_by_link) const;
+                     const std::map<std::string, int>& vehicles_by_link,
+                     const QueueLengths& queues) const;
 
 private:
     mutable std::mutex mutex_;
     std::map<std::pair<std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram, std::less<>> request_latency_;
+    Histogram fleet_batch_;
     Histogram commit_latency_;
     Histogram release_decided_;
     Histogram release_stored_;

@@ -45,8 +45,10 @@ struct Limits {
     std::chrono::milliseconds sign_in_refusal{1'000};  // how long a refused one is kept waiting
     std::size_t lists_waiting = 256;
     std::size_t lists_of_one = 64;
-    std::size_t heavy_waiting = 32;  // marker sheets, previews, images
+    std::size_t heavy_waiting = 32;  // marker sheets, images
     std::size_t heavy_of_one = 4;
+    std::size_t planners_waiting = 8;  // previews, seconds each
+    std::size_t encoders_waiting = 256;
 };
 
 struct Options {

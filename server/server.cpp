@@ -8,16 +8,19 @@
 #include "api/http/documents.hpp"
 #include "core/base/crash_point.hpp"
 #include "server/context.hpp"
+#include "server/keep_running.hpp"
 #include "server/listener.hpp"
 #include "server/locked_history.hpp"
 #include "server/origins.hpp"
 #include "server/server_clock.hpp"
+#include "server/stop_limit.hpp"
 
 namespace pulseline::server {
 namespace {
 
 constexpr auto kPosePeriod = std::chrono::milliseconds(100);
-constexpr auto kStopGrace = std::chrono::milliseconds(1500);
+constexpr auto kStopGrace = std::chrono::milliseconds(1500);  // of sessions
+constexpr auto kLongestStop = std::chrono::seconds(8);        // of all, a disk that hangs included
 constexpr auto kKeepUses = std::chrono::seconds(30);
 constexpr auto kFollowClock = std::chrono::seconds(1);
 constexpr int kStopsShown = 50;
@@ -30,8 +33,8 @@ std::uint64_t random_seed() {
     return seed;
 }
 
-void rethrow(const std::exception_ptr& error) {
-    if (error) std::rethrow_exception(error);
+void log_end(const std::exception_ptr& error) {
+    if (error) log::error("loop_threw", {{"what", what(error)}});
 }
 
 }  // namespace
@@ -51,6 +54,7 @@ public:
     Status start();
     void run();
     void begin_stop();
+    void limit_stop();
 
     std::optional<Error> not_ready() const override;
     std::string metrics() const override;
@@ -58,11 +62,14 @@ public:
 
     FleetRuntime::Ports runtime_ports();
     VehicleGateway::Ports gateway_ports();
+    StreamHub::Ports hub_ports();
     net::awaitable<void> offer_poses();
     net::awaitable<void> keep_uses();
     net::awaitable<void> follow_clock();
     net::awaitable<void> finish();
 
+    // Outlives all that may hold the end up.
+    StopLimit stop_limit_;
     Options options_;
     Parts parts_;
     // Sessions live in io_; the destructor ends it before what they use.
@@ -84,11 +91,15 @@ public:
     SignInGate gate_;
     // The threads beside the fleet's, each with a queue of its own that is dropped at the end.
     std::vector<std::unique_ptr<Lane>> lanes_;
+    Lane* encoders_ = nullptr;  // one of them
     std::optional<Context> context_;
     bool stopping_ = false;
+    int pausing_ = 0;  // loops that have thrown and do not run now
+    std::thread stopper_;
 };
 
 Server::Impl::~Impl() {
+    if (stopper_.joinable()) stopper_.join();
     if (runtime_) runtime_->stop();
     lanes_.clear();
     acceptor_.reset();
@@ -126,7 +137,7 @@ Status Server::Impl::start() {
     access_.emplace(
         parts_.access,
         [this](const access::Change& change) {
-            runtime_->write([&] { access::apply(parts_.access, change); });
+            runtime_->write([this, change] { access::apply(parts_.access, change); });
         },
         clock_->now());
     gateway_.emplace(gateway_ports());
@@ -141,6 +152,9 @@ Status Server::Impl::start() {
     Lane& known_sign_ins = lane(limits.sign_ins_waiting, limits.sign_ins_waiting, kNiceOfHeavy);
     Lane& stranger_sign_ins =
         lane(limits.sign_ins_waiting, limits.sign_ins_waiting, kNiceOfStrangers);
+    Lane& planners = lane(limits.planners_waiting, limits.planners_waiting, kNiceOfHeavy);
+    Lane& encoders = lane(limits.encoders_waiting, limits.encoders_waiting, 0);
+    encoders_ = &encoders;
     for (const auto& name : access_->signed_in(clock_->now())) gate_.remember(name, clock_->now());
     context_.emplace(Context{options_,
                              parts_.plant,
@@ -159,6 +173,8 @@ Status Server::Impl::start() {
                              lists,
                              heavy,
                              workers,
+                             planners,
+                             encoders,
                              known_sign_ins,
                              stranger_sign_ins,
                              gate_,
@@ -169,13 +185,18 @@ Status Server::Impl::start() {
                              Quota(limits.bodies_of_one_bytes, limits.bodies_bytes),
                              0});
     if (auto started = runtime_->start(std::move(stored)); !started) return started;
-    runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
-        if (snapshot) hub_->resubscribe_all(*snapshot);
-    });
-    net::co_spawn(*io_, accept_loop(*context_, *acceptor_, tls_.get()), rethrow);
-    net::co_spawn(*io_, offer_poses(), rethrow);
-    net::co_spawn(*io_, keep_uses(), rethrow);
-    net::co_spawn(*io_, follow_clock(), rethrow);
+    hub_->connect(hub_ports());
+    hub_->resubscribe_all();
+    net::co_spawn(*io_,
+                  keep_running("accept", *io_, pausing_,
+                               [this] { return accept_loop(*context_, *acceptor_, tls_.get()); }),
+                  log_end);
+    net::co_spawn(*io_, keep_running("poses", *io_, pausing_, [this] { return offer_poses(); }),
+                  log_end);
+    net::co_spawn(*io_, keep_running("uses", *io_, pausing_, [this] { return keep_uses(); }),
+                  log_end);
+    net::co_spawn(*io_, keep_running("clock", *io_, pausing_, [this] { return follow_clock(); }),
+                  log_end);
     return {};
 }
 
@@ -186,14 +207,32 @@ FleetRuntime::Ports Server::Impl::runtime_ports() {
             metrics_,
             [this](FleetRuntime::Job job) { net::post(*io_, std::move(job)); },
             [this](FleetRuntime::Published batch) {
-                gateway_->send(batch.outputs.messages);
-                hub_->publish(batch);
+                guarded("send", [&] { gateway_->send(batch.outputs.messages); });
+                guarded("show", [&] { hub_->publish(batch); });
             },
             [this] {
                 gateway_->introduce_all();
-                runtime_->read(&StreamHub::take, [this](Result<events::Snapshot> snapshot) {
-                    if (snapshot) hub_->resubscribe_all(*snapshot);
+                hub_->resubscribe_all();
+            }};
+}
+
+StreamHub::Ports Server::Impl::hub_ports() {
+    return {[this](std::function<void(Result<events::Snapshot>)> done) {
+                runtime_->read(&StreamHub::take, std::move(done));
+            },
+            [this](std::function<std::string()> write, std::function<void(Frame)> done) {
+                const auto give = [this, done](Frame frame) {
+                    net::post(*io_, [done, frame = std::move(frame)] { done(frame); });
+                };
+                const auto taken = encoders_->take("", [write = std::move(write), give](bool run) {
+                    Frame frame;
+                    if (run) {
+                        guarded("snapshot",
+                                [&] { frame = std::make_shared<const std::string>(write()); });
+                    }
+                    give(std::move(frame));
                 });
+                if (taken != Lane::Taken::kYes) give(nullptr);
             }};
 }
 
@@ -204,10 +243,11 @@ VehicleGateway::Ports Server::Impl::gateway_ports() {
 
 net::awaitable<void> Server::Impl::offer_poses() {
     net::steady_timer timer(*io_);
-    while (!stopping_) {
+    for (;;) {
         timer.expires_after(kPosePeriod);
         error_code ec;
         co_await timer.async_wait(into(ec));
+        runtime_->listening();
         hub_->offer_poses();
     }
 }
@@ -262,26 +302,37 @@ void Server::Impl::run() {
     }
 }
 
+/// Nothing here may wait: who watches the server is answered until its end.
 void Server::Impl::begin_stop() {
     if (std::exchange(stopping_, true)) return;
     log::info("stopping");
-    error_code ec;
-    signals_->cancel(ec);
-    acceptor_->close(ec);
     context_->stops.stop_all();
     for (auto& lane : lanes_) lane->stop();
-    crash_point(CrashPoint::kStopBeforeLastCommit);
-    runtime_->stop();  // what was asked before is committed; its answers wait in io_
-    crash_point(CrashPoint::kStopAfterLastCommit);
-    net::co_spawn(*io_, finish(), rethrow);
+    stopper_ = std::thread([this] {
+        crash_point(CrashPoint::kStopBeforeLastCommit);
+        runtime_->stop();  // what was asked before is committed; its answers wait in io_
+        crash_point(CrashPoint::kStopAfterLastCommit);
+        net::post(*io_, [this] { net::co_spawn(*io_, finish(), log_end); });
+    });
+}
+
+void Server::Impl::limit_stop() {
+    stop_limit_.begin(kLongestStop, [this] {
+        const auto queues = runtime_->queues();
+        log::error("stop_unfinished", {{"commits", std::to_string(queues.commits)},
+                                       {"commands", std::to_string(queues.commands)}});
+        log::flush();
+        std::_Exit(1);
+    });
 }
 
 net::awaitable<void> Server::Impl::finish() {
+    error_code ec;
+    acceptor_->close(ec);
     const auto until = std::chrono::steady_clock::now() + kStopGrace;
     net::steady_timer timer(*io_);
     while (context_->connections > 0 && std::chrono::steady_clock::now() < until) {
         timer.expires_after(std::chrono::milliseconds(10));
-        error_code ec;
         co_await timer.async_wait(into(ec));
     }
     io_->stop();
@@ -291,6 +342,12 @@ std::optional<Error> Server::Impl::not_ready() const {
     if (stopping_) {
         return Error{Errc::kUnavailable, {"stopping", {}}, "The server is stopping.", {}};
     }
+    if (pausing_ > 0) {
+        return Error{Errc::kUnavailable,
+                     {"internal", {}},
+                     "A part of the server met a fault of its own and is being started again.",
+                     {}};
+    }
     if (!runtime_->writable()) {
         return store_unavailable(runtime_->store_fault());
     }
@@ -298,7 +355,7 @@ std::optional<Error> Server::Impl::not_ready() const {
 }
 
 std::string Server::Impl::metrics() const {
-    return metrics_.text(hub_->orders_by_state(), hub_->vehicles_by_link());
+    return metrics_.text(hub_->orders_by_state(), hub_->vehicles_by_link(), runtime_->queues());
 }
 
 Server::Server(Options options, Parts parts)
@@ -318,7 +375,11 @@ void Server::stop_on_signals() {
     impl_->signals_->add(SIGINT);
     impl_->signals_->add(SIGTERM);
     impl_->signals_->async_wait([impl = impl_.get()](const error_code& ec, int) {
-        if (!ec) impl->begin_stop();
+        if (ec) return;
+        error_code ignored;
+        impl->signals_->clear(ignored);  // a second one ends the process as it ends any
+        impl->limit_stop();
+        impl->begin_stop();
     });
 }
 std::string Server::url() const {

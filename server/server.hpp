@@ -32,11 +32,13 @@ public:
     static Status check(const Options& options);
     /// Loads the state, binds the address and begins to listen; nothing is answered before run().
     Status start();
-    /// Serves until stop() was called and the sessions ended, at most two seconds later.
+    /// Serves until stop() was called, all that was asked is committed and the sessions ended; the
+    /// latter within two seconds.
     void run();
     /// Thread safety: may be called from any thread.
     void stop();
-    /// SIGTERM and SIGINT call stop().
+    /// SIGTERM and SIGINT call stop(), and end the process after eight seconds whatever hangs; a
+    /// second one ends it at once.
     void stop_on_signals();
 
     std::string url() const;

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -9,10 +10,18 @@
 
 namespace pulseline::server {
 
-/// Why the store refused a write: "disk_full", "write_protected" or "disk_error". Stable codes.
+/// The store has not answered in time; what it was asked may still be done.
+struct StoreHangs : std::runtime_error {
+    StoreHangs() : std::runtime_error("the disk does not answer") {}
+};
+
+/// Why the store refused a write: "disk_full", "write_protected", "disk_hangs" or "disk_error".
+/// Stable codes; a fleet that cannot go on says "internal" in the same place.
 std::string cause_of(const std::exception_ptr& error);
 /// What a caller is told while nothing can be stored, with the remedy for that cause.
 Error store_unavailable(const std::optional<fleet::StoreFault>& fault);
+/// As above, for one whose write had begun: nobody knows whether it is kept.
+Error outcome_unknown(const std::optional<fleet::StoreFault>& fault);
 std::string what(const std::exception_ptr& error);
 
 }  // namespace pulseline::server

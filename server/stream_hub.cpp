@@ -81,6 +81,7 @@ void StreamHub::add(StreamClient& client) {
 }
 
 void StreamHub::remove(StreamClient& client) {
+    wanting_.erase(&client);
     if (clients_.erase(&client) > 0) --metrics_.stream_clients;
 }
 
@@ -98,35 +99,73 @@ events::Snapshot StreamHub::take(fleet::Fleet& fleet, Time now) {
     return snapshot;
 }
 
-void StreamHub::subscribe(StreamClient& client, events::Snapshot snapshot) {
-    snapshot.stop_records.assign(stops_.begin(), stops_.end());
-    fill(client, snapshot);
+void StreamHub::subscribe(StreamClient& client) {
+    wanting_.insert(&client);
+    if (!asking_) ask();
 }
 
-void StreamHub::resubscribe_all(const events::Snapshot& snapshot) {
-    events::Snapshot full = snapshot;
-    full.stop_records.assign(stops_.begin(), stops_.end());
-    for (const auto& vehicle : full.vehicles) vehicles_[vehicle.id] = {vehicle, nullptr};
-    open_orders_.clear();
-    for (const auto& order : full.job_orders) note_order(order);
+void StreamHub::resubscribe_all() {
+    known_ = false;
     for (auto* client : clients_) {
-        if (client->subscribed) fill(*client, full);
+        if (client->subscribed) wanting_.insert(client);
+    }
+    if (!asking_) ask();
+}
+
+void StreamHub::ask() {
+    asking_ = true;
+    ports_.snapshot([this](Result<events::Snapshot> snapshot) { share(std::move(snapshot)); });
+}
+
+void StreamHub::share(Result<events::Snapshot> snapshot) {
+    if (!snapshot) {
+        asking_ = false;
+        return refuse_those_who_want();
+    }
+    if (!std::exchange(known_, true)) {
+        for (const auto& vehicle : snapshot->vehicles) vehicles_[vehicle.id] = {vehicle, nullptr};
+        open_orders_.clear();
+        for (const auto& order : snapshot->job_orders) note_order(order);
+    }
+    snapshot->stop_records.assign(stops_.begin(), stops_.end());
+    const auto place = std::make_shared<Frame>();
+    for (auto* client : std::exchange(wanting_, {})) {
+        if (client->overflowed) continue;
+        // Changes that wait are older than the snapshot and go before it.
+        client->subscribed = true;
+        client->poses_seen = 0;
+        // The snapshot itself is outside the limit: it is as large as the plant.
+        client->changes.emplace_back(place);
+    }
+    const auto full = std::make_shared<const events::Snapshot>(std::move(*snapshot));
+    ports_.write([this, full] { return events::snapshot_frame(plant_, images_, *full); },
+                 [this, place](Frame frame) { written(place, std::move(frame)); });
+}
+
+void StreamHub::written(const Unwritten& place, Frame frame) {
+    *place = std::move(frame);
+    for (auto* client : clients_) {
+        for (const auto& change : client->changes) {
+            const auto* waits = std::get_if<Unwritten>(&change);
+            if (!waits || *waits != place) continue;
+            if (!*place) client->refused = true;
+            client->wake();
+        }
+    }
+    asking_ = false;
+    if (!wanting_.empty()) ask();
+}
+
+void StreamHub::refuse_those_who_want() {
+    for (auto* client : std::exchange(wanting_, {})) {
+        client->refused = true;
+        client->wake();
     }
 }
 
 void StreamHub::wake_all() {
     for (auto* client : clients_) client->wake();
     for (const auto& [id, wake] : std::exchange(waiters_, {})) wake();
-}
-
-void StreamHub::fill(StreamClient& client, const events::Snapshot& snapshot) {
-    if (client.overflowed) return;
-    // Changes that wait are older than the snapshot and go before it.
-    client.subscribed = true;
-    client.poses_seen = 0;
-    // The snapshot itself is outside the limit: it is as large as the plant.
-    client.changes.emplace_back(frame(events::snapshot_frame(plant_, images_, snapshot)));
-    client.wake();
 }
 
 void StreamHub::push(StreamClient& client, const Frame& text) {
@@ -150,6 +189,12 @@ void StreamHub::push_all(const Frame& text) {
 
 Frame StreamHub::next(StreamClient& client) {
     if (!client.changes.empty()) {
+        if (const auto* waits = std::get_if<Unwritten>(&client.changes.front())) {
+            if (!**waits) return nullptr;
+            const Frame snapshot = **waits;
+            client.changes.pop_front();
+            return snapshot;
+        }
         const auto change = std::move(client.changes.front());
         client.changes.pop_front();
         if (const auto* text = std::get_if<Frame>(&change)) {

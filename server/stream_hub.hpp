@@ -19,6 +19,9 @@ namespace pulseline::server {
 
 using Frame = std::shared_ptr<const std::string>;
 
+/// A snapshot that is being written down elsewhere: what changes meanwhile waits behind it.
+using Unwritten = std::shared_ptr<Frame>;
+
 /// What waits to be written to one dashboard: changes in order, of poses and vehicles only the
 /// newest. The session's writer takes frames with StreamHub::next().
 struct StreamClient {
@@ -28,7 +31,8 @@ struct StreamClient {
     std::function<void()> wake;  // there is something to write
     bool subscribed = false;     // a snapshot is in the queue or written
     bool overflowed = false;     // fell behind: close with 1013
-    std::deque<std::variant<Frame, plant::VehicleId>> changes;
+    bool refused = false;        // there is no snapshot for it now: close with 1013
+    std::deque<std::variant<Frame, plant::VehicleId, Unwritten>> changes;
     std::set<plant::VehicleId> vehicles;  // in `changes`
     std::size_t bytes = 0;
     std::uint64_t poses_seen = 0;
@@ -39,8 +43,18 @@ struct StreamClient {
 /// owns it.
 class StreamHub {
 public:
+    struct Ports {
+        /// Asks the fleet; answers on the network thread.
+        std::function<void(std::function<void(Result<events::Snapshot>)>)> snapshot;
+        /// Writes a long frame down on another thread; answers on the network thread. Null: it
+        /// could not.
+        std::function<void(std::function<std::string()>, std::function<void(Frame)>)> write;
+    };
     StreamHub(const plant::Plant& plant, const api::CameraImages& images, const Clock& clock,
               Metrics& metrics);
+
+    /// Before anything else.
+    void connect(Ports ports) { ports_ = std::move(ports); }
 
     /// State at start: `stops` newest first.
     void start(std::vector<fleet::StopRecord> stops, std::int64_t last_event_seq);
@@ -51,12 +65,13 @@ public:
 
     void add(StreamClient& client);
     void remove(StreamClient& client);
-    /// From here on the client gets every change. Call where the answer of `take` is delivered.
-    void subscribe(StreamClient& client, events::Snapshot snapshot);
+    /// The client gets a snapshot soon, and every change since. Those who ask while one is on its
+    /// way share the next: however many come at once, one is written down at a time.
+    void subscribe(StreamClient& client);
     /// What a snapshot needs of the fleet; runs on the fleet thread.
     static events::Snapshot take(fleet::Fleet& fleet, Time now);
     /// Everybody gets a new snapshot, since changes were lost with the fleet.
-    void resubscribe_all(const events::Snapshot& snapshot);
+    void resubscribe_all();
     /// Every stream looks again whether it may go on: somebody's rights may have changed.
     void wake_all();
     /// Next frame to write; null when there is none.
@@ -82,7 +97,10 @@ private:
 
     void push(StreamClient& client, const Frame& frame);
     void push_all(const Frame& frame);
-    void fill(StreamClient& client, const events::Snapshot& snapshot);
+    void ask();
+    void share(Result<events::Snapshot> snapshot);
+    void written(const Unwritten& place, Frame frame);
+    void refuse_those_who_want();
     void note_order(const fleet::JobOrder& order);
 
     const plant::Plant& plant_;
@@ -90,7 +108,11 @@ private:
     const Clock& clock_;
     Metrics& metrics_;
     PoseTable poses_;
+    Ports ports_;
     std::set<StreamClient*> clients_;
+    std::set<StreamClient*> wanting_;  // a snapshot
+    bool asking_ = false;              // one is on its way to be written
+    bool known_ = true;                // false: the rows here may be of a fleet that is no more
     std::map<plant::VehicleId, VehicleRow> vehicles_;
     std::map<fleet::JobOrderId, fleet::JobState> open_orders_;
     std::map<std::string, int> finished_orders_;  // since start

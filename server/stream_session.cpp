@@ -52,6 +52,7 @@ net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
     auto& context = session->context;
     while (!session->ended) {
         if (session->client.overflowed) session->close(1013, "too slow, come back");
+        if (session->client.refused) session->close(1013, "not ready, come back");
         if (session->close_with == 0 &&
             !context.access.still_valid(session->identity, context.clock.now())) {
             session->close(4401, "signed out");
@@ -136,13 +137,7 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
     session->client.wake = [raw = session.get()] { raw->signal.set(); };
     context.hub.add(session->client);
     const StopList::Entry stop(context.stops, [session] { session->close(1001, "server stops"); });
-    context.runtime.read(&StreamHub::take, [session](Result<events::Snapshot> snapshot) {
-        if (!snapshot) {
-            session->close(1013, "not ready, come back");
-        } else if (!session->ended) {
-            session->context.hub.subscribe(session->client, std::move(*snapshot));
-        }
-    });
+    context.hub.subscribe(session->client);
     net::co_spawn(context.io, read_loop(session), rethrow);
     co_await write_loop(session);
 }

@@ -129,7 +129,7 @@ void VehicleGateway::opened(const plant::VehicleId& id,
             --ports_.metrics.vehicle_sockets;
             socket->close(4409, "identity conflict");
             log::error("vehicle_identity_conflict", {{"vehicle", id.str()}});
-            ports_.runtime.input([id](fleet::Fleet& fleet, Time at) {
+            ports_.runtime.input(id, [id](fleet::Fleet& fleet, Time at) {
                 fleet.vehicle_identity_conflict(id, at);
                 fleet.vehicle_disconnected(id, at);
             });
@@ -144,7 +144,8 @@ void VehicleGateway::opened(const plant::VehicleId& id,
     row.told_heard = now;
     row.passed.reset();
     log::info("vehicle_connected", {{"vehicle", id.str()}});
-    ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
+    ports_.runtime.input(id,
+                         [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
 }
 
 VehicleGateway::Row* VehicleGateway::current(const plant::VehicleId& id,
@@ -161,7 +162,7 @@ void VehicleGateway::closed(const plant::VehicleId& id, const VehicleSocket* soc
     if (!row->said_offline) play_last_will(id, *row);
     log::info("vehicle_disconnected", {{"vehicle", id.str()}});
     ports_.runtime.input(
-        [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
+        id, [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
 }
 
 void VehicleGateway::heard(const plant::VehicleId& id, const VehicleSocket* socket) {
@@ -169,7 +170,7 @@ void VehicleGateway::heard(const plant::VehicleId& id, const VehicleSocket* sock
     const auto now = Steady::now();
     if (!row || now - row->told_heard < kTellHeard) return;
     row->told_heard = now;
-    ports_.runtime.input([id](fleet::Fleet& fleet, Time at) { fleet.vehicle_heard(id, at); });
+    ports_.runtime.input(id, [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_heard(id, at); });
 }
 
 void VehicleGateway::text(const plant::VehicleId& id, const VehicleSocket* socket,
@@ -251,13 +252,13 @@ void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::Sta
 }
 
 void VehicleGateway::hand_over_factsheet(const plant::VehicleId& id, const Row& row) {
-    ports_.runtime.input([id, sheet = *row.factsheet](fleet::Fleet& fleet, Time at) {
+    ports_.runtime.input(id, [id, sheet = *row.factsheet](fleet::Fleet& fleet, Time at) {
         fleet.vehicle_factsheet(id, sheet, at);
     });
 }
 
 void VehicleGateway::hand_over_state(const plant::VehicleId& id, const Row& row) {
-    ports_.runtime.input([id, slot = row.state](fleet::Fleet& fleet, Time at) {
+    ports_.runtime.input(id, [id, slot = row.state](fleet::Fleet& fleet, Time at) {
         std::optional<fleet::StateMessage> newest;
         {
             const std::lock_guard inner(slot->mutex);
@@ -305,7 +306,7 @@ void VehicleGateway::malformed(const plant::VehicleId& id, Row& row, const Error
     if (!bearable || row.malformed_in_a_row >= ports_.limits.vehicle_malformed_in_a_row) {
         row.socket->close(1008, "too many malformed messages");
     } else if (fresh) {
-        ports_.runtime.input([id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
+        ports_.runtime.input(id, [id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
             fleet.vehicle_message_refused(id, refused, at);
         });
     }
@@ -356,19 +357,27 @@ void VehicleGateway::send(const std::vector<fleet::VehicleMessage>& messages) {
             ++ports_.metrics.vehicle_messages_out;
             socket->send(vda5050::encode_frame(topic, false, payload));
         };
-        try {
-            if (message.order) {
-                const auto header = next_header(message.vehicle, row, Topic::kOrder);
-                put(Topic::kOrder, vda5050::encode_order(*message.order, header));
-            }
-            if (message.instant_actions) {
-                const auto header = next_header(message.vehicle, row, Topic::kInstantActions);
-                put(Topic::kInstantActions,
-                    vda5050::encode_instant_actions(*message.instant_actions, header));
-            }
-        } catch (const vda5050::NotFinite& broken) {
-            not_sent(message.vehicle, row, broken.what());
-        }
+        // One that cannot be written down is not sent; the fleet asks again, and the rest goes.
+        const auto guarded_send = [&](auto write) {
+            guarded("send", [&] {
+                try {
+                    write();
+                } catch (const vda5050::NotFinite& broken) {
+                    not_sent(message.vehicle, row, broken.what());
+                }
+            });
+        };
+        guarded_send([&] {
+            if (!message.order) return;
+            const auto header = next_header(message.vehicle, row, Topic::kOrder);
+            put(Topic::kOrder, vda5050::encode_order(*message.order, header));
+        });
+        guarded_send([&] {
+            if (!message.instant_actions) return;
+            const auto header = next_header(message.vehicle, row, Topic::kInstantActions);
+            put(Topic::kInstantActions,
+                vda5050::encode_instant_actions(*message.instant_actions, header));
+        });
         crash_point(CrashPoint::kReleaseBetweenMessages);
     }
 }
@@ -398,12 +407,13 @@ void VehicleGateway::introduce_all() {
     for (auto& [id, row] : rows_) {
         row.passed.reset();
         if (!row.socket) {
-            ports_.runtime.input(
-                [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
+            ports_.runtime.input(id, [id = id](fleet::Fleet& fleet, Time at) {
+                fleet.vehicle_disconnected(id, at);
+            });
             continue;
         }
         ports_.runtime.input(
-            [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
+            id, [id = id](fleet::Fleet& fleet, Time at) { fleet.vehicle_connected(id, at); });
         if (row.factsheet) hand_over_factsheet(id, row);
         // One that was refused with the old fleet still waits, and would keep all later ones back.
         hand_over_state(id, row);

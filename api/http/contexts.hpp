@@ -16,7 +16,8 @@ class AccessControl;
 }
 namespace pulseline::fleet {
 class MotionPreviewer;
-}
+class OrderPreviewer;
+}  // namespace pulseline::fleet
 
 namespace pulseline::api {
 
@@ -73,7 +74,19 @@ struct FleetContext {
 struct HistoryContext {
     fleet::History& history;
     const plant::Plant& plant;
-    fleet::MotionPreviewer& previewer;
+};
+
+/// On the thread that plans for those who only ask: that may take seconds.
+struct PlanContext {
+    fleet::MotionPreviewer& motions;
+    fleet::OrderPreviewer& orders;
+};
+
+/// On the thread that writes long answers down, so that neither the fleet's nor the sockets' has
+/// to.
+struct EncodeContext {
+    const plant::Plant& plant;
+    const CameraImages& images;
 };
 
 /// On the worker pool: may block (password hashing, waiting for a commit).
@@ -82,11 +95,15 @@ struct WorkerContext {
     Time now;
 };
 
-/// What a fleet handler answers. With `then` set the response is not final: the server calls `then`
-/// on the history thread and sends what that returns.
+/// What a fleet handler answers. With one of the functions set the response is not final: the
+/// server calls it on its thread, `plan` before the others, and sends what that returns. `again` is
+/// a command of its own.
 struct FleetAnswer {
     Response response;
+    std::function<FleetAnswer(const PlanContext&)> plan = nullptr;
     std::function<Response(const HistoryContext&)> then = nullptr;
+    std::function<Response(const EncodeContext&)> encode = nullptr;
+    std::function<FleetAnswer(FleetContext&)> again = nullptr;
 };
 
 }  // namespace pulseline::api

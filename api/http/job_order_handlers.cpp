@@ -6,10 +6,12 @@
 #include "api/http/preview_json.hpp"
 #include "api/http/problem.hpp"
 #include "api/http/requests.hpp"
+#include "core/fleet/order_preview.hpp"
 
 namespace pulseline::api {
 namespace {
 
+constexpr std::size_t kPlannedByTheFleet = 4;  // steps; more take longer than others may wait
 constexpr int kStopsOfExpectation = 200;  // newest ones; older ones tell of another state of repair
 
 Response job_order_response(int status, const plant::Plant& plant, const fleet::JobOrder& order) {
@@ -98,12 +100,34 @@ FleetAnswer create_job_order(FleetContext& context, const Request& request) {
     const auto order = read_new_order(request);
     if (!order) return {problem(400, order.error(), request)};
     if (*dry_run) {
-        auto preview = context.fleet.preview(*order, context.now);
-        return {{}, [preview = std::move(preview)](const HistoryContext& history) {
-                    return render_preview(history, preview);
+        return {{},
+                [task = context.fleet.preview_task(*order, context.now)](
+                    const PlanContext& with) -> FleetAnswer {
+                    return {{},
+                            nullptr,
+                            [preview = with.orders.preview(task)](const HistoryContext& history) {
+                                return render_preview(history, preview);
+                            }};
                 }};
     }
-    return {created_answer(context, request, context.fleet.create(*order, context.now))};
+    return create_planned(context, request, *order);
+}
+
+FleetAnswer create_planned(FleetContext& context, const Request& request,
+                           const fleet::NewOrder& order) {
+    const auto create = [&request, order](FleetContext& with) -> FleetAnswer {
+        return {created_answer(with, request, with.fleet.create(order, with.now))};
+    };
+    if (order.steps.size() <= kPlannedByTheFleet) return create(context);
+    FleetAnswer answer;
+    answer.plan = [create,
+                   task = context.fleet.preview_task(order, context.now)](const PlanContext& with) {
+        with.orders.plan_ahead(task);
+        FleetAnswer planned;
+        planned.again = create;
+        return planned;
+    };
+    return answer;
 }
 
 FleetAnswer control_job_order(FleetContext& context, const Request& request) {

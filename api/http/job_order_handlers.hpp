@@ -8,6 +8,10 @@ namespace pulseline::api {
 Response created_answer(const FleetContext& context, const Request& request,
                         const Result<fleet::Created>& created);
 
+/// Creates the order; one of many steps is planned beforehand, beside the fleet.
+FleetAnswer create_planned(FleetContext& context, const Request& request,
+                           const fleet::NewOrder& order);
+
 FleetAnswer create_job_order(FleetContext& context, const Request& request);
 FleetAnswer control_job_order(FleetContext& context, const Request& request);
 FleetAnswer pause_job_order(FleetContext& context, const Request& request);

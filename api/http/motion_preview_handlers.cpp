@@ -30,8 +30,9 @@ FleetAnswer preview_motions(FleetContext& context, const Request& request) {
     if (!task) return {problem(task.error(), request)};
     return {
         {},
-        [question = std::move(*question), task = std::move(*task)](const HistoryContext& history) {
-            return json_response(200, answer_json(question, task, history.previewer.preview(task)));
+        [question = std::move(*question),
+         task = std::move(*task)](const PlanContext& with) -> FleetAnswer {
+            return {json_response(200, answer_json(question, task, with.motions.preview(task)))};
         }};
 }
 

@@ -110,11 +110,13 @@ FleetAnswer find_routes(FleetContext& context, const Request& request) {
     if (!question) return {problem(400, question.error(), request)};
     question->closures = context.fleet.closed_floors();
     // The search takes its time, and not the fleet's.
-    return {{}, [question = std::move(*question), &request](const HistoryContext& history) {
-                const auto answer = planning::what_if(history.plant, question);
+    return {{},
+            [question = std::move(*question), &plant = context.plant,
+             &request](const PlanContext&) -> FleetAnswer {
+                const auto answer = planning::what_if(plant, question);
                 // The request is well formed; what it names is not there: 422, never 404.
-                if (!answer) return problem(422, answer.error(), request);
-                return json_response(200, answer_json(question, *answer));
+                if (!answer) return {problem(422, answer.error(), request)};
+                return {json_response(200, answer_json(question, *answer))};
             }};
 }
 

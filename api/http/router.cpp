@@ -6,6 +6,7 @@
 
 #include "api/access/secrets.hpp"
 #include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -130,6 +131,23 @@ std::optional<Response> check_query(const Route& route, const Request& request) 
 }  // namespace
 
 bool Route::changes() const { return std::string_view(method) != "GET"; }
+
+bool Route::asks(const Request& request) const {
+    if (!changes() || only_asks) return true;
+    return std::string_view(operation) == "createJobOrder" &&
+           request.query_value("dryRun").value_or("") == "true";
+}
+
+bool Route::stops(const Request& request) const {
+    static const std::set<std::string_view> kStops = {"pauseVehicle", "pauseFleet", "pauseJobOrder",
+                                                      "cancelJobOrder"};
+    if (kStops.contains(operation)) return true;
+    if (std::string_view(operation) != "controlJobOrder") return false;
+    const auto control = read_job_control(request);
+    return control && (control->method == fleet::JobMethod::kPause ||
+                       control->method == fleet::JobMethod::kAbort ||
+                       control->method == fleet::JobMethod::kStop);
+}
 
 Match match(Request& request) {
     const std::string_view method =

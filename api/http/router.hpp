@@ -58,6 +58,10 @@ struct Route {
     bool hashes = false;         // checks a password: waits behind a gate of its own
 
     bool changes() const;  // not GET
+    /// This very request changes nothing (a dry run): answered while nothing can be stored.
+    bool asks(const Request& request) const;
+    /// This very request makes vehicles stand: it acts first and is stored when possible.
+    bool stops(const Request& request) const;
 };
 
 std::span<const Route> routes();

@@ -54,11 +54,16 @@ std::string http_date(Time time) {
 }  // namespace
 
 FleetAnswer list_vehicles(FleetContext& context, const Request&) {
-    const auto to_json = [&](const fleet::VehicleView& vehicle) {
-        return vehicle_json(context.plant, context.images, vehicle);
+    auto vehicles = std::make_shared<const std::vector<fleet::VehicleView>>(
+        context.fleet.vehicles(context.now));
+    FleetAnswer answer;
+    answer.encode = [vehicles = std::move(vehicles)](const EncodeContext& with) {
+        const auto to_json = [&](const fleet::VehicleView& vehicle) {
+            return vehicle_json(with.plant, with.images, vehicle);
+        };
+        return json_response(200, {{"items", list_json(*vehicles, to_json)}});
     };
-    return {
-        json_response(200, {{"items", list_json(context.fleet.vehicles(context.now), to_json)}})};
+    return answer;
 }
 
 FleetAnswer get_vehicle(FleetContext& context, const Request& request) {
@@ -128,17 +133,17 @@ FleetAnswer resume_fleet(FleetContext& context, const Request& request) {
 }
 
 FleetAnswer list_stations(FleetContext& context, const Request&) {
-    return {
-        json_response(200, {{"items", list_json(context.fleet.stations(), station_state_json)}})};
+    FleetAnswer answer;
+    answer.encode = [stations = context.fleet.stations()](const EncodeContext&) {
+        return json_response(200, {{"items", list_json(stations, station_state_json)}});
+    };
+    return answer;
 }
 
 FleetAnswer get_station(FleetContext& context, const Request& request) {
     const auto number = parse_integer(request.param("number"), 0, kMaxStation);
-    for (const fleet::StationView& station : context.fleet.stations()) {
-        if (number && station.number == *number) {
-            return {json_response(200, station_state_json(station))};
-        }
-    }
+    const auto station = number ? context.fleet.station(static_cast<int>(*number)) : std::nullopt;
+    if (station) return {json_response(200, station_state_json(*station))};
     return {problem(unknown("unknown_station", request.param("number"),
                             "There is no station of that number; GET /api/v1/stations lists them."),
                     request)};

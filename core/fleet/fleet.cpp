@@ -123,6 +123,47 @@ void Fleet::store_works_again(Time now) {
     }
 }
 
+void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
+                             const std::vector<JobOrderId>& orders, Time now) {
+    FleetState& fleet = input<&Fleet::commands_expired>(now, vehicles, orders);
+    const Reason reason{"command_expired", {}};
+    const auto stand = [&](VehicleRun& run) {
+        // It has not been told to go on, and is not now.
+        if (is_asked(run, "stopPause")) {
+            run.record.paused = true;
+            fleet.store(run);
+            pause_motion(fleet, run, "startPause", now);
+        }
+        require_person(fleet, run, reason, now);
+    };
+    for (const auto& id : vehicles) {
+        if (VehicleRun* run = fleet.find(id)) stand(*run);
+    }
+    for (const auto& id : orders) {
+        JobOrder* order = fleet.find(id);
+        if (!order || is_final(order->state)) continue;
+        VehicleRun* run = fleet.find(order->assigned_vehicle);
+        if (run) stand(*run);
+        if (order->state == JobState::kAllowedToStart) {
+            set_order_state(fleet, *order, JobState::kNotAllowedToStart, reason, {}, now);
+        }
+    }
+}
+
+void Fleet::server_stood_still(Time since, Time now) {
+    FleetState& fleet = input<&Fleet::server_stood_still>(now, since);
+    add_event(fleet, now, "server.stood_still", {}, {}, {}, {}, {{"for_s", seconds(now - since)}});
+    for (auto& [id, run] : fleet.vehicles) {
+        if (!run.last_heard) continue;
+        // What a live vehicle said meanwhile lies unread. Who was silent before stays it.
+        const bool live = run.connected && run.link == Link::kLive;
+        run.last_heard = live ? now : std::min(now, *run.last_heard + (now - since));
+        // Where it stands now is not known before it says so.
+        run.reconciled = false;
+        fleet.changed_vehicles.insert(id);
+    }
+}
+
 void Fleet::tick(Time now) {
     FleetState& fleet = input<&Fleet::tick>(now);
     update_links(fleet, now);

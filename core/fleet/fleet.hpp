@@ -48,7 +48,8 @@ struct Outputs {
     bool fleet_changed = false;
 };
 
-struct MotionQuestion;  // motion_preview.hpp
+struct OrderPreviewTask;  // order_preview.hpp
+struct MotionQuestion;    // motion_preview.hpp
 struct MotionTask;
 struct PlantTables;  // plant_tables.hpp
 struct FleetState;   // state.hpp, for the phases of core/fleet only
@@ -151,6 +152,15 @@ public:
     void store_failed(const StoreFault& fault, Time now);
     void store_works_again(Time now);
 
+    /// Stored after their callers had been told that nobody knows: these vehicles, orders and their
+    /// vehicles stand until a person asks again.
+    void commands_expired(const std::vector<plant::VehicleId>& vehicles,
+                          const std::vector<JobOrderId>& orders, Time now);
+
+    /// Nobody listened between `since` and now: the process, or its thread of sockets, stood still.
+    /// That time is no vehicle's silence, and nothing is released to one before its next state.
+    void server_stood_still(Time since, Time now);
+
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 
@@ -163,6 +173,8 @@ public:
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;
+    /// What OrderPreviewer needs of the fleet to give the same.
+    OrderPreviewTask preview_task(const NewOrder& order, Time now) const;
     /// What MotionPreviewer needs of the fleet. Errors: unknown_vehicle, unknown_station,
     /// unknown_hall, other_hall, pose_unknown, outside_hall.
     Result<MotionTask> motion_task(const MotionQuestion& question) const;
@@ -177,6 +189,7 @@ public:
                                        bool with_leg = true) const;
     std::vector<VehicleView> vehicles(Time now) const;
     std::vector<StationView> stations() const;
+    std::optional<StationView> station(int number) const;
     FleetView view(Time now) const;
     std::int64_t last_event_seq() const;
     /// Who waits for whom on the floor, and what is closed.

@@ -18,6 +18,8 @@ constexpr double kNearlyThere_rad = radians(0.8);
 constexpr std::size_t kMaxSteps = 100;
 // Each waits in memory, in every dashboard's snapshot and in every look for work.
 constexpr std::size_t kMostOpenOrders = 5000;
+constexpr std::size_t kPlannedOfType = 8;  // vehicles that may be given an order nobody is named in
+constexpr double kUnknownAway_m = 1e6;     // of one whose place is not known: behind all others
 
 std::string step_field(std::size_t step, const char* name) {
     return "/steps/" + std::to_string(step) + "/" + name;
@@ -29,36 +31,35 @@ bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) 
                station.vehicle_types.end();
 }
 
-/// Where vehicles will stand when all they have to do is done; for none: nobody knows. One look at
-/// the open orders serves all vehicles, for there may be thousands of orders.
-using FuturePoses = std::map<plant::VehicleId, Pose2>;
-FuturePoses future_poses(const FleetState& fleet) {
-    FuturePoses poses;
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (run.record.pose_known) poses[id] = run.record.pose;
-    }
-    std::map<plant::VehicleId, plant::StationId> last_stations;
+/// The last station of all that vehicles have to do, with one look at the open orders.
+using LastStations = std::map<plant::VehicleId, plant::StationId>;
+LastStations last_stations(const FleetState& fleet) {
+    LastStations last;
     for (const JobOrderId& id : fleet.orders.open()) {
         const JobOrder& order = *fleet.find(id);
-        if (order.assigned_vehicle.empty() && order.wanted_vehicle.empty()) continue;
-        for (const auto& vehicle : {order.assigned_vehicle, order.wanted_vehicle}) {
-            if (!vehicle.empty()) last_stations[vehicle] = order.steps.back().station;
+        for (const auto* vehicle : {&order.wanted_vehicle, &order.assigned_vehicle}) {
+            if (!vehicle->empty()) last[*vehicle] = order.steps.back().station;
         }
     }
-    for (const auto& [vehicle, station] : last_stations) {
-        const auto* last = plant::find_station(fleet.plant, station);
-        if (last) poses[vehicle] = last->pose;
+    return last;
+}
+
+/// Where the vehicle will stand when all it has to do is done; nullopt: nobody knows.
+std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run,
+                                 const LastStations& last) {
+    const auto found = last.find(run.record.id);
+    if (found != last.end()) {
+        if (const auto* station = plant::find_station(fleet.plant, found->second)) {
+            return station->pose;
+        }
     }
-    return poses;
+    return run.record.pose_known ? std::optional(run.record.pose) : std::nullopt;
 }
 
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run,
-                            const FuturePoses& future) {
+                            std::optional<Pose2> pose) {
     OrderPlan plan;
     plan.vehicle = run.record.id;
-    const auto stands = future.find(run.record.id);
-    std::optional<Pose2> pose;
-    if (stands != future.end()) pose = stands->second;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!may_stop_at(*station, *run.type)) {
@@ -92,6 +93,37 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
 
 bool is_gone(const FleetState& fleet, const VehicleRun& run, Time now) {
     return silence(fleet, run, now) >= kGoneAfter;
+}
+
+struct Candidate {
+    const VehicleRun* run = nullptr;
+    std::optional<Pose2> pose;  // from where it would come
+};
+
+/// Those that are worth a plan, by name: with a thousand vehicles a plan of each takes seconds.
+std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOrder& order,
+                                            Time now) {
+    const auto& goal = plant::find_station(fleet.plant, order.steps.front().station_number)->pose;
+    const LastStations last = last_stations(fleet);
+    std::map<plant::VehicleTypeId, std::vector<std::pair<double, Candidate>>> by_type;
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
+        if (run.record.integration != Integration::kUtilise) continue;
+        const auto pose = future_pose(fleet, run, last);
+        const double away_m =
+            pose ? geometry::distance(pose->position(), goal.position()) : kUnknownAway_m;
+        by_type[run.type->id].push_back({away_m, {&run, pose}});
+    }
+    std::vector<Candidate> nearest;
+    for (auto& [type, all] : by_type) {
+        std::ranges::stable_sort(all, {}, [](const auto& one) { return one.first; });
+        if (all.size() > kPlannedOfType) all.resize(kPlannedOfType);
+        for (auto& [away_m, candidate] : all) nearest.push_back(candidate);
+    }
+    std::ranges::sort(nearest, {}, [](const Candidate& one) -> const plant::VehicleId& {
+        return one.run->record.id;
+    });
+    return nearest;
 }
 
 Status check_steps(const FleetState& fleet, const NewOrder& order) {
@@ -166,17 +198,14 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
                 "/vehicle",
                 {{"vehicle", order.vehicle.str()}, {"level", to_string(run->record.integration)}});
         }
-        return plan_with(fleet, order, *run, future_poses(fleet));
+        return plan_with(fleet, order, *run, future_pose(fleet, *run, last_stations(fleet)));
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
-    const FuturePoses future = future_poses(fleet);
     std::optional<OrderPlan> best;
     double best_s = 0;
     std::optional<Error> why_not;
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
-        if (run.record.integration != Integration::kUtilise) continue;
-        auto plan = plan_with(fleet, order, run, future);
+    for (const auto& [run, pose] : nearest_of_each_type(fleet, order, now)) {
+        auto plan = plan_with(fleet, order, *run, pose);
         if (!plan) {
             if (!why_not) why_not = plan.error();
             continue;

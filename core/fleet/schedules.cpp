@@ -10,6 +10,7 @@ namespace pulseline::fleet {
 namespace {
 
 constexpr std::size_t kMaxSchedules = 1000;
+constexpr std::size_t kAtATick = 4;
 
 void note(FleetState& fleet, Time now, const char* type, const Schedule& schedule,
           const std::string& actor, Params more = {}) {
@@ -128,8 +129,16 @@ void take_standing(FleetState& fleet, Records& records) {
 }
 
 void run_schedules(FleetState& fleet, Time now) {
+    // Everybody's time is six o'clock: each order is planned, so some at a tick, oldest first.
+    std::vector<std::pair<Time, Schedule*>> due;
     for (auto& [id, schedule] : fleet.standing.schedules) {
         if (schedule.paused || !schedule.next || now < *schedule.next) continue;
+        due.emplace_back(*schedule.next, &schedule);
+    }
+    std::ranges::stable_sort(due, {}, [](const auto& one) { return one.first; });
+    if (due.size() > kAtATick) due.resize(kAtATick);
+    for (auto& [when, the_one] : due) {
+        Schedule& schedule = *the_one;
         // After a long silence only the newest time can still be kept.
         const Time at = last_time(schedule.recurrence, now).value_or(*schedule.next);
         if (at != *schedule.next || now - at > schedule.recurrence.window) {

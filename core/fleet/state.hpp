@@ -345,6 +345,8 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now);
 
 // --- views (views.cpp) ---
 StationView station_view(const FleetState& fleet, const plant::Station& station);
+/// All of them, with one look at every vehicle.
+std::vector<StationView> station_views(const FleetState& fleet);
 VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg = true);
 std::vector<Check> start_checks(const FleetState& fleet, const VehicleRun& run,
                                 const plant::Station* target,

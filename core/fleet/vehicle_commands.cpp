@@ -23,7 +23,8 @@ bool is_about_vehicle(const Reason& reason) {
                                          "order_not_accepted", "order_rejected",
                                          "foreign_order",      "identity_conflict",
                                          "vehicle_withdrawn",  "load_on_withdrawn_vehicle",
-                                         "driven_by_hand",     "pose_jumped"};
+                                         "driven_by_hand",     "pose_jumped",
+                                         "command_expired"};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <set>
+#include <string_view>
+#include <unordered_map>
 
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
@@ -79,6 +81,14 @@ std::optional<Reason> detour(const VehicleRun& run) {
         std::any_of(run.state.errors.begin(), run.state.errors.end(),
                     [](const VehicleError& error) { return error.type == "going_round"; });
     return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
+}
+
+/// Ready: it stands there and its last stop, measured here, was inside tolerance.
+void show_standing(StationView& view, const VehicleRun& run) {
+    view.occupied_by = run.record.id;
+    const bool measured_here = run.record.last_stop_station == view.id;
+    view.ready = run.record.last_stop_inside && measured_here && !run.has_leg();
+    if (measured_here) view.last_stop = run.record.last_stop;
 }
 
 struct Doing {
@@ -239,16 +249,29 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
 StationView station_view(const FleetState& fleet, const plant::Station& station) {
     StationView view{station.id, station.number, {}, {}, false, {}};
     for (const auto& [id, run] : fleet.vehicles) {
-        if (run.record.at_station == station.id && !run.record.at_station.empty()) {
-            view.occupied_by = id;
-            // Ready: it stands there and its last stop, measured here, was inside tolerance.
-            view.ready = run.record.last_stop_inside &&
-                         run.record.last_stop_station == station.id && !run.has_leg();
-            if (run.record.last_stop_station == station.id) view.last_stop = run.record.last_stop;
+        if (!run.record.at_station.empty() && run.record.at_station == station.id) {
+            show_standing(view, run);
         }
         if (run.has_leg() && run.leg().station == station.id) view.reserved_by = id;
     }
     return view;
+}
+
+std::vector<StationView> station_views(const FleetState& fleet) {
+    std::vector<StationView> views;
+    std::unordered_map<std::string_view, std::size_t> index;
+    for (const auto& station : fleet.plant.stations) {
+        index.emplace(station.id.str(), views.size());
+        views.push_back({station.id, station.number, {}, {}, false, {}});
+    }
+    for (const auto& [id, run] : fleet.vehicles) {
+        const auto at = index.find(run.record.at_station.str());
+        if (at != index.end()) show_standing(views[at->second], run);
+        if (!run.has_leg()) continue;
+        const auto to = index.find(run.leg().station.str());
+        if (to != index.end()) views[to->second].reserved_by = id;
+    }
+    return views;
 }
 
 }  // namespace pulseline::fleet

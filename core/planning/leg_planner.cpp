@@ -7,6 +7,7 @@
 
 #include "core/kinematics/primitives.hpp"
 #include "core/planning/leg_assessment.hpp"
+#include "core/planning/leg_memo.hpp"
 #include "core/planning/mode_choice.hpp"
 #include "core/planning/road_leg.hpp"
 #include "core/planning/roadmap_index.hpp"
@@ -73,6 +74,23 @@ Result<plant::Station> target_of(const plant::Plant& plant, const LegRequest& re
     return *station;
 }
 
+/// One that no other closed floor has.
+std::string name_of(const ClosedFloor& closed) {
+    std::string name = closed.id + '/' + closed.hall.str();
+    const auto add = [&](double number) {
+        name.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    add(closed.margin_m);
+    for (const auto& piece : closed.pieces) {
+        add(static_cast<double>(piece.size()));
+        for (const auto& point : piece) {
+            add(point.x_m);
+            add(point.y_m);
+        }
+    }
+    return name;
+}
+
 }  // namespace
 
 struct LegPlanner::Tables {
@@ -99,7 +117,11 @@ struct LegPlanner::Tables {
     }
 
     Tables(const Tables& other)
-        : plant(other.plant), shared(other.shared), roads(*shared), free(other.plant) {
+        : plant(other.plant),
+          shared(other.shared),
+          roads(*shared),
+          free(other.plant),
+          memo(other.memo) {
         for (const auto& [key, known] : other.prepared) {
             prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared));
         }
@@ -170,12 +192,36 @@ struct LegPlanner::Tables {
         return options;
     }
 
+    Result<LegPlan> plan(const LegRequest& request) {
+        auto modes = modes_of(*request.type);
+        if (request.mode != MotionMode::kAuto) {
+            std::erase_if(modes, [&](MotionMode mode) { return mode != request.mode; });
+        }
+        if (modes.empty()) {
+            return fail(
+                Errc::kUnreachable, "mode_not_supported",
+                request.type->name + " cannot drive this motion mode. Choose one of its own.", {},
+                {{"mode", std::string(plant::to_string(request.mode))},
+                 {"vehicle_type", request.type->id.str()}});
+        }
+        std::unique_ptr<Tables::Prepared> fresh;
+        auto options = assess(request, of(*request.type, request.loaded, fresh), modes,
+                              request.mode == MotionMode::kFree, {});
+        for (ModeOption& option : options) {
+            if (option.suggested) return std::move(option.plan);
+        }
+        // Nothing feasible: the first mode, linear, has the widest choice of ways.
+        return std::move(options.front().plan);
+    }
+
     const plant::Plant& plant;
     std::shared_ptr<const RoadmapIndex> shared;
     const RoadmapIndex& roads;
     std::vector<ClosedFloor> closures;
+    std::string closed;  // names them
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
+    std::shared_ptr<LegMemo> memo = std::make_shared<LegMemo>();  // of all planners of the plant
 };
 
 LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
@@ -202,25 +248,13 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
 
 Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     assert(request.type);
-    auto modes = modes_of(*request.type);
-    if (request.mode != MotionMode::kAuto) {
-        std::erase_if(modes, [&](MotionMode mode) { return mode != request.mode; });
-    }
-    if (modes.empty()) {
-        return fail(Errc::kUnreachable, "mode_not_supported",
-                    request.type->name + " cannot drive this motion mode. Choose one of its own.",
-                    {},
-                    {{"mode", std::string(plant::to_string(request.mode))},
-                     {"vehicle_type", request.type->id.str()}});
-    }
-    std::unique_ptr<Tables::Prepared> fresh;
-    auto options = tables_->assess(request, tables_->of(*request.type, request.loaded, fresh),
-                                   modes, request.mode == MotionMode::kFree, {});
-    for (ModeOption& option : options) {
-        if (option.suggested) return std::move(option.plan);
-    }
-    // Nothing feasible: the first mode, linear, has the widest choice of ways.
-    return std::move(options.front().plan);
+    const auto* from = plant::find_station(tables_->plant, request.from_station);
+    if (!from || !(from->pose == request.start) || request.target_pose)
+        return tables_->plan(request);
+    if (auto known = tables_->memo->find(request, tables_->closed)) return std::move(*known);
+    auto plan = tables_->plan(request);
+    tables_->memo->keep(request, tables_->closed, plan);
+    return plan;
 }
 
 Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) const {
@@ -276,6 +310,8 @@ std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, 
 
 void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
     tables_->closures = std::move(closures);
+    tables_->closed.clear();
+    for (const auto& closure : tables_->closures) tables_->closed += name_of(closure);
     for (auto& [key, prepared] : tables_->prepared) {
         prepared->lanes.set_closures(tables_->closures);
     }

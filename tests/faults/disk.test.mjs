@@ -90,7 +90,6 @@ for (const [name, make] of [["a full disk", smallDisk], ["a limit of file size",
     const again = await order(here);
     assert.equal(again.status, 503);
     assert.match(JSON.stringify(again.body), disk.cause === "disk_full" ? /free space/ : /disk/);
-    assert.equal((await client.request("POST", "/api/v1/fleet/pause", { body: {} })).status, 503);
     assert.match(JSON.stringify((await client.request("GET", "/readyz")).body), /store_unavailable/);
     await until("the dashboard is told", () => stream.frames.some((f) => f.type === "fleet" && f.fleet?.read_only?.cause === disk.cause), { timeout_s: 2, every_ms: 5 });
     assert.equal((await client.get("/api/v1/fleet")).read_only.cause, disk.cause);
@@ -105,6 +104,10 @@ for (const [name, make] of [["a full disk", smallDisk], ["a limit of file size",
     await until("poses go on", () => stream.frames.filter((f) => f.type === "poses").length >= told + 5, { timeout_s: 10 });
     assert.equal(await metric("pulseline_vehicle_messages_sent_total"), sent, "a vehicle was told something that is not stored");
 
+    // Who wants vehicles to stand is heard at once, and it is stored when there is room.
+    assert.equal((await client.request("POST", `/api/v1/vehicles/${VEHICLE}/pause`, { body: {} })).status, 202);
+    await until("the vehicle is told", async () => (await metric("pulseline_vehicle_messages_sent_total")) > sent, { timeout_s: 5 });
+
     const { pid } = system.server;
     disk.free();
     await until("it takes commands again", async () => (await fetch(`${system.url}/readyz`)).ok, { timeout_s: 5, every_ms: 20 });
@@ -112,7 +115,10 @@ for (const [name, make] of [["a full disk", smallDisk], ["a limit of file size",
     assert.equal(await metric("pulseline_read_only"), 0);
     await until("the alarm and its end are events", () => ["store.failed", "store.recovered"].every((type) => stream.frames.some((f) => f.type === "event" && f.event.type === type)), { timeout_s: 5 });
     assert.equal((await client.get("/api/v1/fleet")).read_only, undefined);
-    // Nothing that was stored is lost, so nobody is asked: the drive goes on from the last commit.
+    await until("the pause is stored", async () => (await client.events(0)).some((event) => event.type === "vehicle.paused"), { timeout_s: 5 });
+    await client.untilVehicle(VEHICLE, (v) => v.paused && v.activity === "paused", "is paused");
+    await client.post("/api/v1/fleet/resume", { vehicles: [VEHICLE] });
+    // Nothing that was stored is lost, so nobody else is asked: the drive goes on from the last commit.
     assert.equal((await client.untilEnded(drive.body.id, 60)).state, "Ended");
     const events = await client.events(0);
     assert.ok(!events.some((event) => event.type === "vehicle.needs_resume"), "a person was asked");

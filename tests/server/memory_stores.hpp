@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <condition_variable>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -51,7 +52,21 @@ public:
         const std::lock_guard lock(mutex_);
         snapshot_ = snapshot;
     }
+    /// From now on a commit hangs until go_on().
+    void hang() {
+        const std::lock_guard lock(hang_mutex_);
+        hangs_ = true;
+    }
+    void go_on() {
+        const std::lock_guard lock(hang_mutex_);
+        hangs_ = false;
+        hang_wake_.notify_all();
+    }
     void commit(const fleet::Records& records) override {
+        {
+            std::unique_lock lock(hang_mutex_);
+            hang_wake_.wait(lock, [this] { return !hangs_; });
+        }
         if (fails) throw std::runtime_error("disk full (by the test)");
         const std::lock_guard lock(mutex_);
         for (const auto& row : records.journal) {
@@ -127,7 +142,15 @@ public:
         return events_.size();
     }
 
+    std::vector<fleet::Event> all_events() {
+        const std::lock_guard lock(mutex_);
+        return events_;
+    }
+
 private:
+    std::mutex hang_mutex_;
+    std::condition_variable hang_wake_;
+    bool hangs_ = false;
     std::mutex mutex_;
     std::map<fleet::JobOrderId, fleet::JobOrder> orders_;
     std::map<plant::VehicleId, fleet::VehicleRecord> vehicles_;

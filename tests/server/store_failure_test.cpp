@@ -7,6 +7,8 @@
 namespace pulseline::server::testing {
 namespace {
 
+const std::string kOrder = R"({"steps":[{"station":2}]})";
+
 TEST(StoreFailure, AnswersUnavailableAndTellsNobody) {
     TestServer server;
     const auto headers = server.operator_token();
@@ -15,7 +17,7 @@ TEST(StoreFailure, AnswersUnavailableAndTellsNobody) {
     ASSERT_TRUE(dashboard.read());
 
     server.store().fails = true;
-    const auto refused = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto refused = request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder);
     const auto reading = request(server.port(), "GET", "/api/v1/fleet", headers);
     server.store().fails = false;
 
@@ -23,15 +25,15 @@ TEST(StoreFailure, AnswersUnavailableAndTellsNobody) {
     EXPECT_NE(refused.body.find("store_unavailable"), std::string::npos);
     EXPECT_EQ(server.store().event_count(), events);
     EXPECT_EQ(reading.status, 200) << reading.body;
-    EXPECT_NE(reading.body.find("\"paused\":false"), std::string::npos) << reading.body;
+    EXPECT_EQ(server.store().order_count(), 0u);
 
     // Once the store works again so does the fleet, and the sequence has no gap (the store checks).
     HttpAnswer accepted;
     const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(8);
-    while (accepted.status != 202 && std::chrono::steady_clock::now() < give_up) {
-        accepted = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    while (accepted.status != 201 && std::chrono::steady_clock::now() < give_up) {
+        accepted = request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder);
     }
-    EXPECT_EQ(accepted.status, 202) << accepted.body;
+    EXPECT_EQ(accepted.status, 201) << accepted.body;
     EXPECT_GT(server.store().event_count(), events);
     const auto told = dashboard.read_until("\"type\":\"event\"");
     ASSERT_TRUE(told);
@@ -60,7 +62,7 @@ TEST(StoreFailure, IsNotReadyWhileItLasts) {
     ASSERT_EQ(request(server.port(), "GET", "/readyz").status, 200);
 
     server.store().fails = true;
-    request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder);
     const auto not_ready = request(server.port(), "GET", "/readyz");
     const auto alive = request(server.port(), "GET", "/healthz");
 
@@ -75,11 +77,11 @@ TEST(StoreFailure, IsShownWithItsCauseWhileItLastsAndToldAsEventsAfterwards) {
     ASSERT_TRUE(dashboard.read());
 
     server.store().fails = true;
-    request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder);
     const auto told = dashboard.read_until("\"read_only\"");
     const auto fleet = request(server.port(), "GET", "/api/v1/fleet", headers);
     const auto metrics = request(server.port(), "GET", "/metrics", headers);
-    const auto refused = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto refused = request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder);
     server.store().fails = false;
 
     ASSERT_TRUE(told);
@@ -89,6 +91,26 @@ TEST(StoreFailure, IsShownWithItsCauseWhileItLastsAndToldAsEventsAfterwards) {
     EXPECT_NE(refused.body.find("disk_error"), std::string::npos) << refused.body;
     EXPECT_TRUE(dashboard.read_until("store.failed"));
     EXPECT_TRUE(dashboard.read_until("store.recovered"));
+}
+
+TEST(StoreFailure, APauseIsAcceptedAllTheSameAndStoredLater) {
+    TestServer server;
+    const auto headers = server.operator_token();
+    WsClient dashboard(server.port(), "/api/v1/stream", headers);
+    ASSERT_TRUE(dashboard.read());
+    server.store().fails = true;
+    ASSERT_EQ(request(server.port(), "POST", "/api/v1/job-orders", headers, kOrder).status, 503);
+
+    const auto paused = request(server.port(), "POST", "/api/v1/fleet/pause", headers);
+    const auto resumed =
+        request(server.port(), "POST", "/api/v1/fleet/resume", headers, R"({"vehicles":["V1"]})");
+    server.store().fails = false;
+
+    EXPECT_EQ(paused.status, 202) << paused.body;
+    EXPECT_EQ(resumed.status, 503) << resumed.body;
+    EXPECT_TRUE(dashboard.read_until("fleet.paused"));
+    const auto fleet = request(server.port(), "GET", "/api/v1/fleet", headers);
+    EXPECT_NE(fleet.body.find("\"paused\":true"), std::string::npos) << fleet.body;
 }
 
 }  // namespace

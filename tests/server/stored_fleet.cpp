@@ -25,7 +25,8 @@ StoredFleet::StoredFleet(const std::string& path, Ledger& ledger, Time now, Vehi
     }
     const auto connect = [this] {
         for (const auto& [id, vehicle] : vehicles_) {
-            runtime_->input([id = id](fleet::Fleet& f, Time at) { f.vehicle_connected(id, at); });
+            runtime_->input(id,
+                            [id = id](fleet::Fleet& f, Time at) { f.vehicle_connected(id, at); });
         }
     };
     FleetRuntime::Ports ports{the_plant(), store_, clock_, metrics_, {}, {}, connect};
@@ -46,6 +47,7 @@ StoredFleet::~StoredFleet() { runtime_.reset(); }
 
 void StoredFleet::run_delivered_until(const std::function<bool()>& done) {
     while (!done()) {
+        runtime_->listening();
         FleetRuntime::Job job;
         {
             std::unique_lock lock(mutex_);
@@ -139,8 +141,8 @@ void StoredFleet::step(int number) {
         let_go();
     } else if (what < 7) {
         const plant::VehicleId id(random() % 2 == 0 ? "V1" : "V2");
-        runtime_->input([id](fleet::Fleet& f, Time at) { f.vehicle_disconnected(id, at); });
-        runtime_->input([id](fleet::Fleet& f, Time at) { f.vehicle_connected(id, at); });
+        runtime_->input(id, [id](fleet::Fleet& f, Time at) { f.vehicle_disconnected(id, at); });
+        runtime_->input(id, [id](fleet::Fleet& f, Time at) { f.vehicle_connected(id, at); });
         report_vehicles();
     }
 }

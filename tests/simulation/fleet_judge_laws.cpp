@@ -9,7 +9,8 @@ namespace pulseline::fleet_judge {
 namespace {
 
 constexpr std::size_t kEventsShown = 60;
-constexpr double kHeard_s = 3;  // the fleet's own limit is 2 s
+constexpr double kStep_s = 0.5;  // two steps of the world and what they round
+constexpr double kHeard_s = 3;   // the fleet's own limit is 2 s
 
 bool meet(const Vehicle& a, const Vehicle& b) {
     const double reach = (a.type().length_m() + b.type().length_m()) / 2 + 3;
@@ -113,6 +114,9 @@ void World::check_sent(const fleet::VehicleMessage& message) {
     const auto before = known.find(message.order->order_id);
     const bool extends = before == known.end() || before->second < base;
     if (!extends) return;
+    if (!watch_[message.vehicle].told_since_stall)
+        violate(message.vehicle.str() + " is given floor and has said nothing since the server " +
+                "stood still");
     const std::int64_t base_before = before == known.end() ? 0 : before->second;
     known[message.order->order_id] = base;
     if (base == 0) return;
@@ -169,10 +173,22 @@ void World::check_given_floor(const plant::VehicleId& id) {
 void World::note_told(const plant::VehicleId& id, const fleet::StateMessage& state) {
     auto& told = watch_[id].told;
     told.at_s = now_s_;
+    watch_[id].unheard_s = 0;
+    watch_[id].told_since_stall = true;
     if (state.header_id <= told.header) return;  // overtaken
     told.header = state.header_id;
     told.unfit = state.operating_mode != "AUTOMATIC" || state.e_stop != "NONE" || state.paused;
     for (const auto& error : state.errors) told.unfit |= error.fatal;
+}
+
+/// Only what was not heard while the server listened is silence.
+void World::check_link(const fleet::Event& event) {
+    const bool lost = std::any_of(event.params.begin(), event.params.end(), [](const auto& param) {
+        const auto* to = std::get_if<std::string>(&param.value);
+        return param.name == "to" && to && *to == "lost";
+    });
+    if (lost && watch_[event.vehicle].unheard_s < seconds(fleet::kLostAfter) - kStep_s)
+        violate("lost without having been silent: " + text_of(event));
 }
 
 void World::check_transition(const fleet::Event& event) {
@@ -192,6 +208,7 @@ void World::check_records(const fleet::Records& records) {
         last_seq_ = event.seq;
         if (event.type == "traffic.violation") violate("traffic: " + text_of(event));
         if (event.type == "job_order.state") check_transition(event);
+        if (event.type == "vehicle.link") check_link(event);
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {

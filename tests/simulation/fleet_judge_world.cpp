@@ -9,6 +9,7 @@ namespace pulseline::fleet_judge {
 namespace {
 
 constexpr double kTick_s = 0.2;
+constexpr double kStall_s = 1;  // of the server: its runtime takes as much for one
 constexpr double kStateEvery_s = 1;
 constexpr double kDrain_s = 3600;  // at most, after the faults have stopped
 constexpr int kRounds = 4;         // of commits in one tick
@@ -66,6 +67,7 @@ Outcome World::run() {
 
 void World::step(double dt_s) {
     now_s_ += dt_s;
+    if (now_s_ >= stalled_until_s_ && !unstored_) listen(dt_s);
     end_faults();
     if (disturbed_ && chance(fault_rate_ * dt_s)) disturb();
     move_vehicles(dt_s);
@@ -90,6 +92,18 @@ void World::step(double dt_s) {
         if (!unstored_) let_person_act();
     }
     check_all();
+}
+
+/// After a stall the first tick may come before anything that waits was read.
+void World::listen(double dt_s) {
+    const double still_s = now_s_ - std::exchange(listened_s_, now_s_);
+    for (auto& [id, watch] : watch_) watch.unheard_s += dt_s;
+    if (still_s <= kStall_s) return;
+    for (auto& [id, watch] : watch_) watch.told_since_stall = false;
+    fleet_->server_stood_still(now() - from_seconds(still_s), now());
+    settle();
+    if (!unstored_) fleet_->tick(now());
+    settle();
 }
 
 void World::move_vehicles(double dt_s) {
@@ -121,6 +135,7 @@ void World::carry_messages() {
         if (!line.server_knows) {
             line.server_knows = true;
             watch_[id].told = {false, now_s_, 0};
+            watch_[id].unheard_s = 0;
             fleet_->vehicle_connected(id, now());
         }
         for (std::size_t i = 0; i < line.up.size() && !unstored_;) {
@@ -222,7 +237,11 @@ void World::retry_store() {
     check_records(out.records);
     store_.commit(out.records);
     take_in(out);
-    if (!hung) fleet_->store_works_again(now());
+    if (!hung) {  // else it finds out itself that it stood still
+        fleet_->store_works_again(now());
+        listened_s_ = now_s_;
+        for (auto& [id, watch] : watch_) watch.unheard_s = 0;
+    }
     send(out);
 }
 

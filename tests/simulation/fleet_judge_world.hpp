@@ -76,6 +76,8 @@ private:
         };
         Told told;
         Told counted;
+        double unheard_s = 0;                      // while the server listened
+        bool told_since_stall = true;              // of the server
         bool restarted_on_leg = false;             // nobody has allowed it to move since
         std::map<std::string, std::int64_t> base;  // by leg: highest node released so far
     };
@@ -101,6 +103,7 @@ private:
     void start_server();
     void retry_store();
     void fail_commit();
+    void listen(double dt_s);
     Time now() const { return base_ + from_seconds(now_s_) + clock_step_; }
 
     // fleet_judge_faults.cpp: what goes wrong, and what ends it
@@ -131,6 +134,7 @@ private:
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
     void check_records(const fleet::Records& records);
+    void check_link(const fleet::Event& event);
     void check_transition(const fleet::Event& event);
     void check_all();
     void check_end();
@@ -166,6 +170,7 @@ private:
     bool disturbed_ = true;
     bool server_crashes_ = false;  // at one of the next commits
     double stalled_until_s_ = 0;
+    double listened_s_ = 0;                   // when the server listened last
     std::optional<fleet::Outputs> unstored_;  // read-only: the store refuses
     double store_back_s_ = 0;
     bool store_hangs_ = false;   // `unstored_` is under way and may still be stored

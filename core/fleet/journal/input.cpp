@@ -39,6 +39,8 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "reopen_floor",
     "store_failed",
     "store_works_again",
+    "server_stood_still",
+    "commands_expired",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

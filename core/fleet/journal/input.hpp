@@ -38,7 +38,8 @@ using Call =
                  To<&Fleet::pause_schedule>, To<&Fleet::delete_schedule>, To<&Fleet::pause_vehicle>,
                  To<&Fleet::init_position>, To<&Fleet::integrate>, To<&Fleet::pause_fleet>,
                  To<&Fleet::resume_fleet>, To<&Fleet::close_floor>, To<&Fleet::reopen_floor>,
-                 To<&Fleet::store_failed>, To<&Fleet::store_works_again>>;
+                 To<&Fleet::store_failed>, To<&Fleet::store_works_again>,
+                 To<&Fleet::server_stood_still>, To<&Fleet::commands_expired>>;
 
 /// Place of a method's call in the list; does not compile for a method that is not in it.
 template <auto Method>

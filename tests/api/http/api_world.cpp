@@ -158,11 +158,17 @@ Answer ApiWorld::call(const std::string& method, const std::string& target, cons
 }
 
 Response ApiWorld::run(const Route& route, const Request& request) {
-    const HistoryContext for_history{history, world.plant, previewer};
+    const HistoryContext for_history{history, world.plant};
     if (const auto* on_fleet = std::get_if<FleetHandler>(&route.handler)) {
         FleetContext context{*world.fleet, world.plant, images, world.now};
         FleetAnswer answer = (*on_fleet)(context, request);
         world.settle();
+        if (answer.plan) answer = answer.plan({motions, orders});
+        if (answer.again) {
+            answer = answer.again(context);
+            world.settle();
+        }
+        if (answer.encode) return answer.encode({world.plant, images});
         return answer.then ? answer.then(for_history) : answer.response;
     }
     if (const auto* on_history = std::get_if<HistoryHandler>(&route.handler)) {

@@ -8,6 +8,7 @@
 #include "api/http/documents.hpp"
 #include "api/http/router.hpp"
 #include "core/fleet/motion_preview.hpp"
+#include "core/fleet/order_preview.hpp"
 #include "tests/api/access/memory_store.hpp"
 #include "tests/api/http/schema_check.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
@@ -77,7 +78,8 @@ public:
     OneImage images;
     FakeService service;
     WorldHistory history;
-    fleet::MotionPreviewer previewer;
+    fleet::MotionPreviewer motions;
+    fleet::OrderPreviewer orders;
     Documents documents;
     AccessPolicy policy{{"http://127.0.0.1:8080"}};
     access::Identity identity;  // who calls when the headers prove nobody: an operator's token

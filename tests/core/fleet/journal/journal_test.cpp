@@ -65,6 +65,8 @@ std::string every_call(Recorder& recorder) {
     static_cast<void>(fleet.reopen_floor(ClosureId(Uuid{{7}}), "me", kNow));
     fleet.store_failed({"disk_full", kNow}, kNow);
     fleet.store_works_again(kNow);
+    fleet.server_stood_still(kNow, kNow);
+    fleet.commands_expired({v1}, {id}, kNow);
     fleet.tick(kNow + Duration(5));
     static_cast<void>(fleet.take_outputs(kNow + Duration(6)));
     return recorder.take();

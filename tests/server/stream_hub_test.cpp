@@ -1,0 +1,99 @@
+#include "server/stream_hub.hpp"
+
+#include <gtest/gtest.h>
+
+#include "server/camera_store.hpp"
+#include "tests/server/test_server.hpp"
+
+namespace pulseline::server::testing {
+namespace {
+
+struct StreamHubTest : ::testing::Test {
+    struct StillClock : Clock {
+        Time now() const override { return time_from_ns(1'800'000'000'000'000'000); }
+    };
+    plant::Plant plant = small_plant();
+    CameraStore images;
+    StillClock clock;
+    Metrics metrics;
+    StreamHub hub{plant, images, clock, metrics};
+    std::vector<std::function<void(Result<events::Snapshot>)>> asked;
+    std::vector<std::pair<std::function<std::string()>, std::function<void(Frame)>>> writing;
+    std::vector<StreamClient> clients{40};
+
+    void SetUp() override {
+        hub.connect({[this](auto done) { asked.push_back(std::move(done)); },
+                     [this](auto write, auto done) {
+                         writing.emplace_back(std::move(write), std::move(done));
+                     }});
+        for (auto& client : clients) {
+            client.wake = [] {};
+            hub.add(client);
+        }
+    }
+    void TearDown() override {
+        for (auto& client : clients) hub.remove(client);
+    }
+    void write_next() {
+        auto [write, done] = std::move(writing.back());
+        writing.pop_back();
+        done(std::make_shared<const std::string>(write()));
+    }
+};
+
+TEST_F(StreamHubTest, FortyDashboardsAtOnceShareOneSnapshotWrittenElsewhere) {
+    for (auto& client : clients) hub.subscribe(client);
+
+    ASSERT_EQ(asked.size(), 1u);
+    asked[0](events::Snapshot{});
+    ASSERT_EQ(writing.size(), 1u);
+    EXPECT_EQ(hub.next(clients[0]), nullptr);  // nobody writes it here
+    write_next();
+
+    const Frame frame = hub.next(clients[0]);
+    ASSERT_TRUE(frame);
+    for (std::size_t i = 1; i < clients.size(); ++i) EXPECT_EQ(hub.next(clients[i]), frame);
+    EXPECT_EQ(asked.size(), 1u);
+}
+
+TEST_F(StreamHubTest, WhatChangesWhileItIsWrittenComesBehindIt) {
+    hub.subscribe(clients[0]);
+    asked[0](events::Snapshot{});
+    Published batch;
+    batch.fleet = fleet::FleetView{};
+    hub.publish(batch);
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+
+    write_next();
+
+    EXPECT_NE(hub.next(clients[0])->find("\"snapshot\""), std::string::npos);
+    EXPECT_NE(hub.next(clients[0])->find("\"fleet\""), std::string::npos);
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+}
+
+TEST_F(StreamHubTest, WhoComesMeanwhileSharesTheNextOne) {
+    hub.subscribe(clients[0]);
+    asked[0](events::Snapshot{});
+    hub.subscribe(clients[1]);
+    hub.subscribe(clients[2]);
+    EXPECT_EQ(asked.size(), 1u);
+
+    write_next();
+
+    ASSERT_EQ(asked.size(), 2u);
+    asked[1](events::Snapshot{});
+    write_next();
+    EXPECT_EQ(hub.next(clients[1]), hub.next(clients[2]));
+}
+
+TEST_F(StreamHubTest, WithoutASnapshotTheyAreSentAway) {
+    hub.subscribe(clients[0]);
+
+    asked[0](fail(Errc::kUnavailable, "store_unavailable", "not now"));
+
+    EXPECT_TRUE(clients[0].refused);
+    EXPECT_FALSE(clients[1].refused);
+}
+
+}  // namespace
+}  // namespace pulseline::server::testing
