@@ -52,6 +52,15 @@ void describe_order(const FleetState& fleet, const VehicleRun& run, const JobOrd
     }
 }
 
+/// Nobody has asked for the leg's mode of motion, or it leads by the roads anyway.
+bool may_take_any_way(const FleetState& fleet, const Leg& leg) {
+    if (leg.mode == plant::MotionMode::kLinear) return true;
+    const JobOrder* order = fleet.find(leg.order);
+    const auto step = static_cast<std::size_t>(leg.step);
+    return order && step < order->steps.size() &&
+           order->steps[step].mode == plant::MotionMode::kAuto;
+}
+
 /// The place whose pose it is but for rounding.
 traffic::PlaceIndex exact_place(const FloorClass& of_class, const std::string& hall,
                                 const Pose2& pose) {
@@ -269,7 +278,7 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         if (end) task.sequences = {std::move(sequence)};
     }
     const bool on_roads =
-        plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;
+        plan.place_after(plan.released) != kNoPlace && may_take_any_way(fleet, leg);
     const auto admit = [&] {
         if (!on_roads || task.sequences.empty()) return traffic.admit(stand.vehicle, task, now);
         // Nobody has to leave for a short cut, and where that has no end of waiting any other way
@@ -280,6 +289,7 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         traffic::Task by_roads = task;
         by_roads.sequences.clear();
         auto elsewhere = traffic.admit(stand.vehicle, by_roads, now);
+        if (elsewhere) leg.mode = plant::MotionMode::kLinear;
         const auto block = traffic.blocked_by(stand.vehicle);
         const bool none = !elsewhere && block && block->cause == traffic::BlockCause::kNoRoute;
         return none ? traffic.admit(stand.vehicle, task, now) : elsewhere;

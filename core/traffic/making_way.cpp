@@ -123,7 +123,8 @@ bool Traffic::make_way(const Block& block, Clearing& clearing) {
     return away;
 }
 
-/// A plan for the task, with those out of its way that have to be; all or nothing.
+/// A plan for the task, with those out of its way that have to be; all or nothing. Whoever calls
+/// tells the vehicle's plan: what others wait for can only be told once all plans are known.
 tl::expected<Admission, Block> Traffic::plan_clearing(Clearing& clearing) {
     Undos own;
     const auto plan = [&] {
@@ -170,7 +171,8 @@ tl::expected<Admission, Block> Traffic::plan_clearing(Clearing& clearing) {
             v.task.resting = {joint_.plan(away).place_after(joint_.plan(away).last())};
             v.next_visit = static_cast<VisitIndex>(v.task.visits.size());
         }
-        tell_plan(away);
+        replanned_.push_back(away);
+        if (report_changes_) tell(plan_change(away));
     }
     admission->made_way = std::move(clearing.made_way);
     return admission;

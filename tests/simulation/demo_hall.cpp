@@ -28,11 +28,12 @@ using fleet_judge::Vehicle;
 constexpr double kTick_s = 0.2;
 constexpr double kStateEvery_s = 1;
 constexpr double kPersonEvery_s = 30;
-constexpr double kDrain_s = 2 * 3600;  // at most, after the last order
-constexpr double kStop_s = 20;         // a stop alone, measured and corrected
-constexpr double kShortest_s = 60;     // what an order counts at least as its own drive
-constexpr double kMostWait = 10;       // times its own drive
-constexpr double kEvery_s = 75;        // between two orders, on the average
+constexpr double kDrain_s = 2 * 3600;    // at most, after the last order
+constexpr double kStop_s = 20;           // a stop alone, measured and corrected
+constexpr double kShortest_s = 60;       // what an order counts at least as its own drive
+constexpr std::uint64_t kMostTold = 20;  // failures of a run
+constexpr double kMostWait = 10;         // times its own drive
+constexpr double kEvery_s = 75;          // between two orders, on the average
 
 struct Options {
     double hours = 1;
@@ -256,7 +257,7 @@ private:
     bool all_over() const { return open_.empty(); }
 
     void fail(const std::string& what) {
-        ++sums_.failures;
+        if (++sums_.failures > kMostTold) return;
         std::printf("  %s\n", what.c_str());
     }
 
