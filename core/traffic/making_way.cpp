@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::size_t kMostMakeWay = 3;     // idle vehicles sent off for one task
 constexpr std::size_t kMostRestsTried = 8;  // for one of them
+constexpr std::size_t kMostRestsLookedAt = 32;
 
 /// It stands idle, and what it is predicted to stand for is no task.
 bool stands_at_work(const VehiclePlan& plan, Leaves leaves) {
@@ -57,7 +58,6 @@ bool Traffic::rest_elsewhere(VehicleIndex resting, Clearing& clearing) {
         if (other != resting && other != clearing.vehicle) add_goals(o.graph, o.task, o.next_visit);
     }
     struct Rest {
-        bool wanted;
         bool held;
         float away_s;
         PlaceIndex place;
@@ -71,14 +71,16 @@ bool Traffic::rest_elsewhere(VehicleIndex resting, Clearing& clearing) {
         const bool held = std::any_of(stand.begin(), stand.end(), [&](TileIndex tile) {
             return joint_.holder(tile).has_value();
         });
-        const bool wanted = std::any_of(goals.begin(), goals.end(), [&](const TileIndexes* goal) {
-            return meet(stand, *goal);
-        });
-        others.push_back({wanted, held, away_s, p});
+        others.push_back({held, away_s, p});
     }
     std::sort(others.begin(), others.end(), [](const Rest& a, const Rest& b) {
-        return std::tie(a.wanted, a.held, a.away_s, a.place) <
-               std::tie(b.wanted, b.held, b.away_s, b.place);
+        return std::tie(a.held, a.away_s, a.place) < std::tie(b.held, b.away_s, b.place);
+    });
+    if (others.size() > kMostRestsLookedAt) others.resize(kMostRestsLookedAt);
+    std::stable_partition(others.begin(), others.end(), [&](const Rest& rest) {
+        return std::none_of(goals.begin(), goals.end(), [&](const TileIndexes* goal) {
+            return meet(graph.places[rest.place].stand, *goal);
+        });
     });
     if (others.size() > kMostRestsTried) others.resize(kMostRestsTried);
     for (const Rest& rest : others) {
