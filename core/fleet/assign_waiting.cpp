@@ -141,6 +141,7 @@ void assign_waiting(FleetState& fleet, Time now) {
         if (!vehicle_fits(fleet, order, *run)) continue;  // its sequence got one in this round
         fleet.orders.assign(order, run->record.id);
         run->floor.next_try.reset();
+        run->floor.in_vain_since.reset();
         set_order_state(fleet, order, JobState::kRunning, {}, {}, now);
     }
 }

@@ -130,6 +130,7 @@ void dispatch(FleetState& fleet, Time now) {
     charge_low(fleet, now);  // vehicles without an order
     park_idle(fleet, now);
     improve_floor(fleet, now);  // vehicles that wait
+    renew_expected_ends(fleet, now);
     check_whole_floor(fleet, now);
 }
 

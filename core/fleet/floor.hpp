@@ -24,11 +24,12 @@ struct FloorStand {
     traffic::VehicleIndex vehicle = 0;
     /// Node k of the leg is reached when this many + k moves are passed.
     std::int64_t moves_before_leg = 0;
-    bool leg_planned = false;        // the leg's moves are in the joint plan
-    std::optional<Pose2> pose;       // where it was settled last; none: it holds no floor yet
-    std::optional<Reason> conflict;  // it stands on another's floor
-    std::optional<Time> next_try;    // of an admission that failed
-    std::optional<Time> next_leave;  // of an idle vehicle that found no way to leave
+    bool leg_planned = false;           // the leg's moves are in the joint plan
+    std::optional<Pose2> pose;          // where it was settled last; none: it holds no floor yet
+    std::optional<Reason> conflict;     // it stands on another's floor
+    std::optional<Time> next_try;       // of an admission that failed
+    std::optional<Time> in_vain_since;  // its order has had no way since
+    std::optional<Time> next_leave;     // of an idle vehicle that found no way to leave
     std::optional<Time> idle_since;
 };
 
@@ -97,11 +98,19 @@ std::size_t grant_nodes(FleetState& fleet, VehicleRun& run, std::size_t wanted_n
 void pass_nodes(FleetState& fleet, VehicleRun& run, Time now);
 /// The stop of the leg is made.
 void pass_stop(FleetState& fleet, VehicleRun& run, Time now);
+/// It stands where it cannot rest with what it has brought, until others need the floor.
+bool is_at_work(const FleetState& fleet, const VehicleRun& run);
+/// The floor is needed: its way to a resting place comes next.
+void end_work(FleetState& fleet, VehicleRun& run, Time now);
+/// Whether it makes way for others where it stands.
+traffic::Leaves leaves(const FleetState& fleet, const VehicleRun& run);
 /// The task is given up where the vehicle stands without a leg.
 void give_up_task(FleetState& fleet, VehicleRun& run, Time now);
 /// Vehicles that cannot move hold their floor and are planned around.
 void halt_those_that_cannot_move(FleetState& fleet, Time now);
 void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now);
+/// Its order has no way at present and is tried again.
+bool tries_in_vain(const FleetState& fleet, const VehicleRun& run);
 /// Who waits tries other ways, about once a second.
 void improve_floor(FleetState& fleet, Time now);
 

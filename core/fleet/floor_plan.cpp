@@ -16,6 +16,10 @@ using traffic::kNoVisit;
 using traffic::MoveNumber;
 
 constexpr double kStop_s = 20;  // predicted time of a correction and its measurement
+// Work on what a vehicle has brought takes until somebody needs the floor; so long at least it is
+// predicted to stay, so that plans of others come before its leaving.
+constexpr double kWork_s = 900;
+constexpr traffic::VisitIndex kWork = 1;  // the visit behind the stop
 constexpr double kSamePose_m = 1e-3;
 constexpr double kSamePose_rad = 1e-3;
 constexpr Duration kRetry = std::chrono::seconds(1);  // of a barred admission: it is a search
@@ -30,6 +34,31 @@ const FloorClass& class_of(const FleetState& fleet, const VehicleRun& run) {
 bool same_pose(const Pose2& a, const Pose2& b) {
     return geometry::distance(a.position(), b.position()) < kSamePose_m &&
            std::abs(wrap(a.heading_rad - b.heading_rad)) < kSamePose_rad;
+}
+
+/// It brings its load to where it cannot rest: it stays there until others need the floor.
+bool works_at(const VehicleRun& run, const plant::Station& station) {
+    return is_loaded(run) && !station.resting_place;
+}
+
+/// What the leg's task is part of, and where the order goes on to.
+void describe_order(const FleetState& fleet, const VehicleRun& run, const JobOrder& order,
+                    traffic::Task& task) {
+    task.purpose = static_cast<std::uint64_t>(order.number);
+    task.since_s = seconds(order.created.time_since_epoch());
+    for (std::size_t i = order.current_step + 1; i < order.steps.size(); ++i) {
+        const auto place = class_of(fleet, run).motion.station_place(order.steps[i].station);
+        if (place) task.later.push_back(static_cast<traffic::PlaceIndex>(*place));
+    }
+}
+
+/// Nobody has asked for the leg's mode of motion, or it leads by the roads anyway.
+bool may_take_any_way(const FleetState& fleet, const Leg& leg) {
+    if (leg.mode == plant::MotionMode::kLinear) return true;
+    const JobOrder* order = fleet.find(leg.order);
+    const auto step = static_cast<std::size_t>(leg.step);
+    return order && step < order->steps.size() &&
+           order->steps[step].mode == plant::MotionMode::kAuto;
 }
 
 /// The place whose pose it is but for rounding.
@@ -236,6 +265,9 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         task.resting = {goal};  // it makes way: no stop to make
     } else {
         task.visits = {{goal, kStop_s}};
+        const auto* station = plant::find_station(fleet.plant, leg.station);
+        if (station && works_at(run, *station)) task.visits.push_back({goal, kWork_s});
+        if (const auto* order = fleet.find(leg.order)) describe_order(fleet, run, *order, task);
     }
     auto sequence = sequence_of(fleet, run);
     if (!sequence.steps.empty()) {
@@ -246,15 +278,21 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
         if (end) task.sequences = {std::move(sequence)};
     }
     const bool on_roads =
-        plan.place_after(plan.released) != kNoPlace && leg.mode == plant::MotionMode::kLinear;
+        plan.place_after(plan.released) != kNoPlace && may_take_any_way(fleet, leg);
     const auto admit = [&] {
-        auto admitted = traffic.admit(stand.vehicle, task, now);
-        if (admitted || !on_roads || task.sequences.empty()) return admitted;
-        // The wanted way has no end of waiting: any other way is better.
-        traffic::Task other = task;
-        other.sequences.clear();
-        auto elsewhere = traffic.admit(stand.vehicle, other, now);
-        return elsewhere ? elsewhere : admitted;
+        if (!on_roads || task.sequences.empty()) return traffic.admit(stand.vehicle, task, now);
+        // Nobody has to leave for a short cut, and where that has no end of waiting any other way
+        // is better.
+        traffic::Task short_cut = task;
+        short_cut.asks_to_leave = false;
+        if (auto taken = traffic.admit(stand.vehicle, short_cut, now)) return taken;
+        traffic::Task by_roads = task;
+        by_roads.sequences.clear();
+        auto elsewhere = traffic.admit(stand.vehicle, by_roads, now);
+        if (elsewhere) leg.mode = plant::MotionMode::kLinear;
+        const auto block = traffic.blocked_by(stand.vehicle);
+        const bool none = !elsewhere && block && block->cause == traffic::BlockCause::kNoRoute;
+        return none ? traffic.admit(stand.vehicle, task, now) : elsewhere;
     };
     auto admitted = admit();
     const bool halfway = leg.released_nodes > 1 || leg.nodes.back().node_id != leg.station.str();
@@ -267,10 +305,12 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     }
     if (!admitted) {
         stand.next_try = now + kRetry;
+        if (!stand.in_vain_since) stand.in_vain_since = now;
         const auto block = traffic.blocked_by(stand.vehicle);
         return block ? floor_reason(fleet, *block) : admitted.error().reason;
     }
     stand.next_try.reset();
+    stand.in_vain_since.reset();
     stand.leg_planned = true;
     run.swept = {};  // it was for the tries
     take_horizon(fleet, run);
@@ -375,6 +415,7 @@ void pass_stop(FleetState& fleet, VehicleRun& run, Time now) {
     auto& traffic = fleet.floor.traffic;
     const auto& plan = traffic.plan(run.floor.vehicle);
     const MoveNumber stop = plan.passed + 1;
+    if (is_at_work(fleet, run)) return;  // measured once more
     if (stop > plan.last() || plan.at(stop).visit == kNoVisit) {
         // By plan it gives way first; it has made the stop all the same.
         if (traffic.postponed(run.floor.vehicle)) {
@@ -390,6 +431,18 @@ void pass_stop(FleetState& fleet, VehicleRun& run, Time now) {
     static_cast<void>(traffic.passed(run.floor.vehicle, stop, now));
 }
 
+bool is_at_work(const FleetState& fleet, const VehicleRun& run) {
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    return plan.passed < plan.last() && plan.at(plan.passed + 1).visit == kWork;
+}
+
+void end_work(FleetState& fleet, VehicleRun& run, Time now) {
+    auto& traffic = fleet.floor.traffic;
+    const MoveNumber work = traffic.plan(run.floor.vehicle).passed + 1;
+    if (!is_at_work(fleet, run) || traffic.extend(run.floor.vehicle, 1, now) < work) return;
+    static_cast<void>(traffic.passed(run.floor.vehicle, work, now));
+}
+
 void give_up_task(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.has_leg()) return;
     run.floor.leg_planned = false;
@@ -398,12 +451,18 @@ void give_up_task(FleetState& fleet, VehicleRun& run, Time now) {
     static_cast<void>(fleet.floor.traffic.cancel(run.floor.vehicle, now));
 }
 
+/// An aircraft is moved aside last, and so is who waits to begin a drive of its own.
+traffic::Leaves leaves(const FleetState& fleet, const VehicleRun& run) {
+    if (const JobOrder* order = fleet.orders.of(run.record.id)) {
+        const bool waits = order->state == JobState::kRunning && !run.has_leg();
+        return waits ? traffic::Leaves::kLast : traffic::Leaves::kNever;
+    }
+    if (charges_on(run)) return traffic::Leaves::kNever;
+    return is_loaded(run) ? traffic::Leaves::kLast : traffic::Leaves::kFirst;
+}
+
 void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now) {
-    // Who has an order wants to leave anyway. An idle platform with an aircraft on it stays.
-    const JobOrder* order = fleet.orders.of(run.record.id);
-    fleet.floor.traffic.set_leaves_rest(run.floor.vehicle,
-                                        order ? order->state == JobState::kRunning && !run.has_leg()
-                                              : !is_loaded(run) && !charges_on(run));
+    fleet.floor.traffic.set_leaves(run.floor.vehicle, leaves(fleet, run));
     const bool can_move = !run.floor.conflict && run.floor.pose && !cannot_move(fleet, run);
     if (can_move) {
         fleet.floor.traffic.resume(run.floor.vehicle, now);
@@ -414,6 +473,11 @@ void halt_or_resume(FleetState& fleet, VehicleRun& run, Time now) {
 
 void halt_those_that_cannot_move(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) halt_or_resume(fleet, run, now);
+}
+
+bool tries_in_vain(const FleetState& fleet, const VehicleRun& run) {
+    const JobOrder* order = fleet.orders.of(run.record.id);
+    return run.floor.next_try && !run.has_leg() && order && order->state == JobState::kRunning;
 }
 
 void improve_floor(FleetState& fleet, Time now) {

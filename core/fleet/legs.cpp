@@ -253,7 +253,10 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     }
     leg.released_nodes = granted;
     JobOrder* order = fleet.find(leg.order);
-    if (order && order->state == JobState::kRunning) set_order_reason(fleet, *order, {}, now);
+    if (order && order->state == JobState::kRunning) {
+        set_order_reason(fleet, *order, {}, now);
+        if (!order->expected && run.leg_seen) expect_end(fleet, run, *order, now);
+    }
     const bool is_new = before == 1 && !run.update_sent && !run.leg_seen;
     if (!is_new) ++leg.update_id;
     send_order_update(fleet, run, is_new ? 0 : before - 1, now);

@@ -20,18 +20,83 @@ constexpr std::size_t kMostRestsTriedAfter = 2;
 constexpr std::array kFirst_m{0.0, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0, 8.0, -8.0};
 constexpr Duration kLeaveAgain = std::chrono::seconds(2);
 
-std::set<traffic::VehicleIndex> waited_for(const FleetState& fleet) {
-    std::set<traffic::VehicleIndex> found;
-    const auto add = [&](const traffic::Block& block) {
-        if (block.cause == traffic::BlockCause::kVehicle) found.insert(block.vehicle);
+struct WaitedFor {
+    std::set<traffic::VehicleIndex> on_the_way;  // by those that drive
+    std::set<traffic::VehicleIndex> named;       // by those that find no way
+};
+
+WaitedFor waited_for(const FleetState& fleet) {
+    WaitedFor found;
+    const auto add = [](std::set<traffic::VehicleIndex>& to, const traffic::Block& block) {
+        if (block.cause == traffic::BlockCause::kVehicle) to.insert(block.vehicle);
     };
-    for (const auto& wait : fleet.floor.traffic.waits()) add(wait.block);
     for (const auto& [id, run] : fleet.vehicles) {
+        if (run.has_leg()) {
+            for (const auto& wait : fleet.floor.traffic.waits_of(run.floor.vehicle))
+                add(found.on_the_way, wait.block);
+        }
         // Those that try in vain, and those that gave way and find none back.
-        if (!run.floor.next_try && !fleet.floor.traffic.postponed(run.floor.vehicle)) continue;
-        if (const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle)) add(*block);
+        const bool tries = tries_in_vain(fleet, run) || (run.has_leg() && run.floor.next_try);
+        if (!tries && !fleet.floor.traffic.postponed(run.floor.vehicle)) continue;
+        if (const auto block = fleet.floor.traffic.blocked_by(run.floor.vehicle))
+            add(found.named, *block);
     }
     return found;
+}
+
+bool has_place(const FleetState& fleet, const VehicleRun& run) {
+    return fleet.floor.traffic.plan(run.floor.vehicle).place != traffic::kNoPlace;
+}
+
+/// For whom it leaves: who asked for it, else the first of those that wait behind it; none: of its
+/// own accord.
+const VehicleRun* leaves_for(FleetState& fleet, const VehicleRun& run) {
+    const auto& traffic = fleet.floor.traffic;
+    if (const auto asked = traffic.makes_way_for(run.floor.vehicle)) {
+        return fleet.find(plant::VehicleId(traffic.name(*asked)));
+    }
+    for (const auto vehicle : traffic.waiting_behind(run.floor.vehicle)) {
+        const VehicleRun* other = fleet.find(plant::VehicleId(traffic.name(vehicle)));
+        if (other && other->has_leg()) return other;
+    }
+    return nullptr;
+}
+
+/// Where the order still goes, in any vehicle's way of standing there.
+std::vector<const traffic::TileSet*> goals_of(const FleetState& fleet, const JobOrder& order,
+                                              const VehicleRun& its) {
+    std::vector<const traffic::TileSet*> goals;
+    const FloorClass& of_class = fleet.floor.classes[its.floor.of_class];
+    for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
+        const auto place = of_class.motion.station_place(order.steps[i].station);
+        if (place) goals.push_back(&of_class.stands[*place]);
+    }
+    return goals;
+}
+
+/// The way to rest that was planned behind its work knows nothing of the order that it leaves for:
+/// better one that ends where it will not be in the way again.
+void leave_work(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!is_at_work(fleet, run)) return;
+    const VehicleRun* other = leaves_for(fleet, run);
+    const JobOrder* order = other ? fleet.orders.of(other->record.id) : nullptr;
+    if (order) {
+        const auto goals = goals_of(fleet, *order, *other);
+        const FloorClass& of_class = fleet.floor.classes[run.floor.of_class];
+        traffic::Task task;
+        for (const auto& station : fleet.plant.stations) {
+            const auto place = of_class.motion.station_place(station.id);
+            if (!station.resting_place || !place) continue;
+            const auto& stand = of_class.stands[*place];
+            const auto meets = [&](const auto* goal) { return traffic::overlap(stand, *goal); };
+            if (std::ranges::none_of(goals, meets))
+                task.resting.push_back(static_cast<traffic::PlaceIndex>(*place));
+        }
+        task.asks_to_leave = false;
+        if (!task.resting.empty() && fleet.floor.traffic.admit(run.floor.vehicle, task, now))
+            return;
+    }
+    end_work(fleet, run, now);
 }
 
 plant::StationId last_station(const FleetState& fleet, const VehicleRun& run) {
@@ -43,8 +108,14 @@ plant::StationId last_station(const FleetState& fleet, const VehicleRun& run) {
 
 void tell_leaving(FleetState& fleet, VehicleRun& run, Time now) {
     fleet.store(run);
-    add_event(fleet, now, "vehicle.makes_way", {}, run.leg().id, run.record.id, {},
-              {{"station", run.leg().station.str()}});
+    Params params{{"station", run.leg().station.str()}};
+    JobOrderId order;
+    if (const VehicleRun* other = leaves_for(fleet, run)) {
+        params.push_back({"other", other->record.id.str()});
+        if (const JobOrder* its = fleet.orders.of(other->record.id)) order = its->id;
+    }
+    add_event(fleet, now, "vehicle.makes_way", order, run.leg().id, run.record.id, {},
+              std::move(params));
     extend_base(fleet, run, now);
 }
 
@@ -139,18 +210,23 @@ bool leaves_in_vain(const VehicleRun& run, Time now) {
 void park_idle(FleetState& fleet, Time now) {
     const auto in_vain = std::ranges::count_if(
         fleet.vehicles, [&](const auto& entry) { return leaves_in_vain(entry.second, now); });
-    std::optional<std::set<traffic::VehicleIndex>> wanted_away;
+    std::optional<WaitedFor> wanted;
     const auto is_wanted_away = [&](const VehicleRun& run) {
-        if (!wanted_away) wanted_away = waited_for(fleet);
-        return wanted_away->count(run.floor.vehicle) != 0;
+        if (!wanted) wanted = waited_for(fleet);
+        // Traffic moves who stands at a place aside when that helps; a load stays when it does not.
+        const bool asked = !is_loaded(run) || !has_place(fleet, run);
+        return wanted->on_the_way.contains(run.floor.vehicle) ||
+               (asked && wanted->named.contains(run.floor.vehicle)) ||
+               leaves_for(fleet, run) != nullptr;
     };
     for (auto& [id, run] : fleet.vehicles) {
         const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
         // An order whose own way is barred does not keep its vehicle from making way meanwhile.
-        const bool waits = !fleet.orders.of(id) || run.floor.next_try;
+        const JobOrder* order = fleet.orders.of(id);
+        const bool waits =
+            !order || tries_in_vain(fleet, run) || order->reason.code == "goes_first";
         const bool has_way = plan.last() > plan.passed;
-        const bool astray =
-            !has_way && !fleet.floor.traffic.is_resting(run.floor.vehicle) && !is_loaded(run);
+        const bool astray = !has_way && !fleet.floor.traffic.is_resting(run.floor.vehicle);
         const bool idle = !run.has_leg() && waits && (has_way || astray);
         if (!idle || cannot_move(fleet, run) || not_ready(fleet, run, now)) {
             if (!idle) run.floor.idle_since.reset();
@@ -160,13 +236,14 @@ void park_idle(FleetState& fleet, Time now) {
         const bool long_idle = now - *run.floor.idle_since >= kParkAfter;
         if (astray) {
             // Its own order's way from here may be barred for ever where the roads' is not.
-            const bool stuck = long_idle && fleet.orders.of(id);
+            const bool stuck = long_idle && order;
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
             // What bars another's way is said to be who rests at its end; it may be this one, who
             // stands on the way.
             const bool others_in_vain = in_vain > (leaves_in_vain(run, now) ? 1 : 0);
             const bool clears = long_idle && others_in_vain;
-            if (soon || (!stuck && !clears && !is_wanted_away(run))) continue;
+            const bool by_itself = (stuck || clears) && !is_loaded(run);
+            if (soon || (!by_itself && !is_wanted_away(run))) continue;
             if (ends_charging(fleet, run, now)) continue;
             if (plan.place == traffic::kNoPlace) {
                 leave_from_anywhere(fleet, run, now);
@@ -175,7 +252,10 @@ void park_idle(FleetState& fleet, Time now) {
             }
             continue;
         }
-        if (!long_idle && !is_wanted_away(run)) continue;
+        // A load is worked on where it was brought, until somebody needs the floor.
+        const bool parks = long_idle && !is_loaded(run);
+        if (!parks && !is_wanted_away(run)) continue;
+        leave_work(fleet, run, now);
         const bool drives = plan.at(plan.passed + 1).visit == traffic::kNoVisit;
         if (!drives || !goes_by_places(fleet, run)) {
             settle(fleet, run, now, true);  // the rest of a task or way that was given up

@@ -4,6 +4,9 @@
 namespace pulseline::fleet {
 namespace {
 
+// So long an order may try in vain before younger ones for the same floor wait for it.
+constexpr Duration kElder = std::chrono::seconds(60);
+
 Result<planning::LegPlan> plan_step(FleetState& fleet, VehicleRun& run, const Step& step) {
     // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
     auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
@@ -31,6 +34,36 @@ void name_what_cuts_off(FleetState& fleet, VehicleRun& run, const Step& step, Re
 
 bool waits_to_try(const VehicleRun& run, Time now) {
     return run.floor.next_try && now < *run.floor.next_try;
+}
+
+const traffic::TileSet* stand_at_goal(const FleetState& fleet, const VehicleRun& run,
+                                      const JobOrder& order) {
+    if (order.current_step >= order.steps.size()) return nullptr;
+    const FloorClass& of_class = fleet.floor.classes[run.floor.of_class];
+    const auto place = of_class.motion.station_place(order.steps[order.current_step].station);
+    return place ? &of_class.stands[*place] : nullptr;
+}
+
+bool goes_before(const JobOrder& a, const JobOrder& b) {
+    return a.priority != b.priority ? a.priority > b.priority : a.number < b.number;
+}
+
+/// The first order of those before this one that has waited long for the floor where this one wants
+/// to go: as long as younger ones take it in turn, the elder's turn need never come.
+const JobOrder* elder_of(const FleetState& fleet, const JobOrder& order, const VehicleRun& run,
+                         Time now) {
+    const auto* stand = stand_at_goal(fleet, run, order);
+    // Who stands there already, for another approach, is done the sooner.
+    const bool there = run.record.at_station == order.steps[order.current_step].station;
+    if (!stand || there) return nullptr;
+    for (const auto& [id, other] : fleet.vehicles) {
+        if (!other.floor.in_vain_since || now - *other.floor.in_vain_since < kElder) continue;
+        const JobOrder* elder = fleet.orders.of(id);
+        if (!tries_in_vain(fleet, other) || !goes_before(*elder, order)) continue;
+        const auto* wanted = stand_at_goal(fleet, other, *elder);
+        if (wanted && traffic::overlap(*stand, *wanted)) return elder;
+    }
+    return nullptr;
 }
 
 /// Gives up a leg that leads no further; the vehicle gets one of its own from where it stands.
@@ -72,6 +105,14 @@ void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
 
 void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     if (waits_to_try(run, now)) return;
+    if (const JobOrder* elder = elder_of(fleet, order, run, now)) {
+        set_order_reason(fleet, order,
+                         {"goes_first",
+                          {{"vehicle", elder->assigned_vehicle.str()},
+                           {"order", "JO-" + std::to_string(elder->number)}}},
+                         now);
+        return;
+    }
     if (ends_charging(fleet, run, now)) {
         set_order_reason(fleet, order, {"ends_charging", {{"vehicle", run.record.id.str()}}}, now);
         return;

@@ -53,6 +53,7 @@ void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time no
     if (same_wait(order.reason, reason)) return;
     order.reason = std::move(reason);
     if (!order.reason.code.empty()) {
+        order.expected.reset();  // until it goes on
         Params params{{"reason", order.reason.code}};
         for (const auto& param : order.reason.params) params.push_back(param);
         add_event(fleet, now, "job_order.waits", order.id, {}, order.assigned_vehicle, {},

@@ -222,6 +222,12 @@ void send_leg(FleetState& fleet, VehicleRun& run, Time now);
 /// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
 void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
 
+// --- expected ends (expected_end.cpp) ---
+/// From what is left of the leg and of the steps behind it.
+void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now);
+/// Those whose time has come without their end.
+void renew_expected_ends(FleetState& fleet, Time now);
+
 // --- vehicle input (vehicle_input.cpp) ---
 void connect(FleetState& fleet, VehicleRun& run, Time now);
 void disconnect(FleetState& fleet, VehicleRun& run, Time now);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state.hpp"
 
@@ -22,21 +24,24 @@ std::vector<planning::ClosedFloor> Fleet::closed_floors() const {
     return fleet::closed_floors(*state_);
 }
 
-TrafficView Fleet::traffic(Time) const {
+TrafficView Fleet::traffic(Time now) const {
     const Floor& floor = state_->floor;
     TrafficView view;
     view.stopped = floor.stopped;
     for (const auto& wait : floor.traffic.waits()) {
-        view.waits.push_back(
-            shown(*state_, plant::VehicleId(floor.traffic.name(wait.vehicle)), wait.block));
+        const plant::VehicleId vehicle(floor.traffic.name(wait.vehicle));
+        // Who has nothing to do may have a way to rest planned, and waits for nobody.
+        const VehicleRun* run = state_->find(vehicle);
+        if (!run || !run->has_leg()) continue;
+        view.waits.push_back(shown(*state_, vehicle, wait.block));
         if (wait.until_s < traffic::kBlocked_s / 2 + seconds(state_->started.time_since_epoch())) {
-            view.waits.back().until = Time{} + from_seconds(wait.until_s);
+            view.waits.back().until = std::max(now, Time{} + from_seconds(wait.until_s));
         }
     }
     // Who has an order but found no plan for it waits, too.
     for (const auto& [id, run] : state_->vehicles) {
         const auto block = floor.traffic.blocked_by(run.floor.vehicle);
-        if (run.floor.next_try && !run.has_leg() && block) {
+        if (tries_in_vain(*state_, run) && block) {
             view.waits.push_back(shown(*state_, id, *block));
         }
     }

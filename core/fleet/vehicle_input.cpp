@@ -87,17 +87,6 @@ bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
     return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
 }
 
-/// When the order's last drive should end, now that this leg begins.
-void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now) {
-    double left_s = run.leg().duration_s;
-    for (std::size_t i = static_cast<std::size_t>(run.leg().step) + 1; i < order.steps.size();
-         ++i) {
-        left_s += order.steps[i].planned_s;
-    }
-    order.expected = now + from_seconds(left_s / speed_share(run));
-    fleet.store(order);
-}
-
 /// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
 void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
     require_person(fleet, run, {"vehicle_lost_order", {}}, now);

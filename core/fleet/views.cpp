@@ -39,7 +39,7 @@ void update_areas(const VehicleRun& run) {
     areas.released = leg.released_nodes;
 }
 
-LegView leg_view(const VehicleRun& run) {
+LegView leg_view(const VehicleRun& run, Time now) {
     const Leg& leg = run.leg();
     update_areas(run);
     LegView view;
@@ -71,7 +71,10 @@ LegView leg_view(const VehicleRun& run) {
     if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
     view.progress = total_s > 0 ? passed_s / total_s : 1.0;
     view.started = run.leg_started;
-    if (run.leg_started) view.expected = *run.leg_started + from_seconds(view.duration_s);
+    if (run.leg_started) {
+        const Time left = now + from_seconds((total_s - passed_s) / speed_share(run));
+        view.expected = std::max(*run.leg_started + from_seconds(view.duration_s), left);
+    }
     return view;
 }
 
@@ -237,7 +240,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
     if (const auto* order = fleet.orders.of(run.record.id)) {
         view.order = order->id;
     }
-    if (with_leg && run.has_leg()) view.leg = leg_view(run);
+    if (with_leg && run.has_leg()) view.leg = leg_view(run, now);
     view.paused = run.record.paused;
     view.integration = run.record.integration;
     view.needs_resume = run.record.needs_resume;

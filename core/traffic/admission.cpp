@@ -10,9 +10,7 @@ namespace {
 
 constexpr std::size_t kTimesKept = 32'000'000;  // floats of distance tables, 128 MB
 constexpr std::size_t kFewRests = 8;
-constexpr double kFresh_s = 5;           // predictions serve as long: they steer quality, not order
-constexpr std::size_t kMostMakeWay = 3;  // idle vehicles sent off for one task
-constexpr std::size_t kMostRestsTried = 8;  // for one of them
+constexpr double kFresh_s = 5;  // predictions serve as long: they steer quality, not order
 
 // Not by its floor: a turn on the spot may sweep no more tiles than it stands on.
 bool is_stop(const PlannedMove& move) { return move.visit != kNoVisit; }
@@ -243,82 +241,13 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
     return admission;
 }
 
-/// The nearest other resting place at which the vehicle is out of the task's way, first of those on
-/// which nobody stands.
-bool Traffic::rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
-                             double now_s) {
-    const GraphIndex number = vehicles_[resting].graph;
-    const CompiledGraph& graph = *graphs_[number];
-    const VehiclePlan& plan = joint_.plan(resting);
-    const TileIndexes& here = graph.places[plan.place].stand;
-    struct Rest {
-        bool held;
-        float away_s;
-        PlaceIndex place;
-    };
-    std::vector<Rest> others;
-    for (PlaceIndex p = 0; p < graph.places.size(); ++p) {
-        const TileIndexes& stand = graph.places[p].stand;
-        if (!graph.places[p].resting || meet(stand, here)) continue;
-        const float away_s = (*times_to_places(number, {p}))[plan.place];
-        if (std::isinf(away_s)) continue;
-        const bool held = std::any_of(stand.begin(), stand.end(), [&](TileIndex tile) {
-            return joint_.holder(tile).has_value();
-        });
-        others.push_back({held, away_s, p});
-    }
-    std::sort(others.begin(), others.end(), [](const Rest& a, const Rest& b) {
-        return std::tie(a.held, a.away_s, a.place) < std::tie(b.held, b.away_s, b.place);
-    });
-    if (others.size() > kMostRestsTried) others.resize(kMostRestsTried);
-    for (const auto& [held, away_s, place] : others) {
-        Undos undos;
-        Task elsewhere;
-        elsewhere.resting = {place};
-        if (!plan_from(resting, plan.released, elsewhere, 0, now_s, false, &undos)) continue;
-        Undos trial;
-        const MoveNumber from = joint_.plan(for_vehicle).released;
-        const auto through = plan_from(for_vehicle, from, task, 0, now_s, false, &trial);
-        const bool helps = through || through.error().cause != BlockCause::kVehicle ||
-                           through.error().vehicle != resting;
-        roll_back(trial);
-        if (helps) return true;
-        roll_back(undos);
-    }
-    return false;
-}
-
-bool Traffic::make_way(const Block& block, VehicleIndex vehicle, const Task& task, double now_s,
-                       std::vector<VehicleIndex>& made_way) {
-    if (block.cause != Obstacle::Cause::kVehicle) return false;
-    const VehiclePlan& other = joint_.plan(block.vehicle);
-    const Vehicle& v = vehicles_[block.vehicle];
-    const bool idle = other.last() == other.passed && !other.halted && !v.gone;
-    if (!idle || v.graph == kNoGraph || other.place == kNoPlace) return false;
-    if (is_resting(block.vehicle)) {
-        if (!v.leaves_rest || !rest_elsewhere(block.vehicle, vehicle, task, now_s)) return false;
-    } else if (!plan_from(block.vehicle, other.released, {}, 0, now_s, false)) {
-        return false;
-    }
-    tell_plan(block.vehicle);
-    made_way.push_back(block.vehicle);
-    return true;
-}
-
 tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, const Task& task,
                                                       double now_s) {
     const VehiclePlan& plan = joint_.plan(vehicle);
-    std::vector<VehicleIndex> made_way;
-    auto admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-    while (!admission && made_way.size() < kMostMakeWay &&
-           make_way(admission.error(), vehicle, task, now_s, made_way)) {
-        admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-    }
+    if (!task.asks_to_leave) return plan_from(vehicle, plan.released, task, 0, now_s, false);
+    auto admission = plan_with_others_away(vehicle, task, 0, now_s);
     if (!admission && in_the_way(vehicle) && untangle(now_s)) {
-        do {
-            admission = plan_from(vehicle, plan.released, task, 0, now_s, false);
-        } while (!admission && made_way.size() < kMostMakeWay &&
-                 make_way(admission.error(), vehicle, task, now_s, made_way));
+        admission = plan_with_others_away(vehicle, task, 0, now_s);
     }
     const bool has_incumbent = plan.last() > plan.released;
     if (!admission && has_incumbent && task.sequences.empty()) {
@@ -329,7 +258,6 @@ tl::expected<Admission, Block> Traffic::admit_any_way(VehicleIndex vehicle, cons
         auto before = plan_from(vehicle, plan.released, task, 0, now_s, true);
         if (before) admission = std::move(before);
     }
-    if (admission) admission->made_way = std::move(made_way);
     return admission;
 }
 
@@ -348,11 +276,13 @@ Result<Admission> Traffic::admit(VehicleIndex vehicle, const Task& task, Time no
     }
     const auto admission = admit_any_way(vehicle, task, s(now));
     if (!admission) return refused(vehicle, admission.error());
+    note_moved_aside(vehicle, task, admission->made_way);
     Vehicle& v = vehicles_[vehicle];
     v.task = task;
     v.task.sequences.clear();
     v.next_visit = 0;
-    v.admitted_s = s(now);
+    v.admitted_s = task.since_s == kSinceAdmission ? s(now) : task.since_s;
+    v.makes_way_for.reset();
     v.postponed = false;
     v.blocked_by.reset();
     joint_.forget_visits(vehicle);
@@ -387,7 +317,9 @@ Result<Admission> Traffic::cancel(VehicleIndex vehicle, Time now, bool stay_anyw
     const VehiclePlan& plan = joint_.plan(vehicle);
     Vehicle& v = vehicles_[vehicle];
     const auto drop_task = [&] {
+        const auto purpose = v.task.purpose;  // whom it has asked to leave is not forgotten with it
         v.task = {};
+        v.task.purpose = purpose;
         v.next_visit = 0;
         v.postponed = false;
         v.blocked_by.reset();

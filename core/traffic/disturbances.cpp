@@ -40,7 +40,9 @@ Status Traffic::found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex 
             {{"vehicle", name(*other)}, {"tile", static_cast<std::int64_t>(tiles_.id_of(tile))}});
     }
     Vehicle& v = vehicles_[vehicle];
+    const auto purpose = v.task.purpose;  // whom it has asked to leave is not forgotten with it
     v.task = {};
+    v.task.purpose = purpose;
     v.next_visit = 0;
     v.postponed = false;
     v.blocked_by.reset();

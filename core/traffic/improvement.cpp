@@ -204,6 +204,10 @@ Improvement Traffic::improve(Time now, int steps) {
         predict(now_s);
         const bool has_task = vehicles_[v].postponed || candidate.urgency < 3;
         bool changed = has_task && improve_one(v, now_s);
+        if (!changed && candidate.urgency > 0 && vehicles_[v].makes_way_for) {
+            vehicles_[v].task.resting.clear();  // where it was to go is not to be had any more
+            changed = improve_one(v, now_s);
+        }
         if (!changed && candidate.urgency >= 2 && !is_resting(v)) changed = retreat(v, now_s);
         if (!changed && candidate.urgency == 3 && untangle(now_s)) {
             changed = (has_task && improve_one(v, now_s)) || retreat(v, now_s);
@@ -227,10 +231,18 @@ Improvement Traffic::improve(Time now, int steps) {
             }
         }
         if (!changed && candidate.urgency > 0 && vehicles_[v].blocked_by) {
-            // An idle one that was left in a lane; the next call finds the way free.
-            Task rest = vehicles_[v].task;
-            rest.visits.erase(rest.visits.begin(), rest.visits.begin() + first_open_visit(v));
-            make_way(*vehicles_[v].blocked_by, v, rest, now_s, result.changed);
+            // An idle one that was left in a lane, or stands where this one wants to go.
+            const Task task = vehicles_[v].task;
+            const auto plan = plan_with_others_away(v, task, first_open_visit(v), now_s);
+            if (plan) {
+                note_moved_aside(v, task, plan->made_way);
+                result.changed.insert(result.changed.end(), plan->made_way.begin(),
+                                      plan->made_way.end());
+                vehicles_[v].blocked_by.reset();
+                vehicles_[v].postponed = false;
+                tell_plan(v);
+                changed = true;
+            }
         }
         if (changed) {
             result.changed.push_back(v);

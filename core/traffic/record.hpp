@@ -31,6 +31,10 @@ struct MoveRef {
     friend bool operator==(const MoveRef&, const MoveRef&) = default;
 };
 
+/// Whether an idle vehicle leaves where it stands when another's task needs the floor: those that
+/// have nothing to do first, those that had better stay only where nobody else can help.
+enum class Leaves { kNever, kLast, kFirst };
+
 /// A stop to make on the way, in the vehicle's graph.
 struct Visit {
     PlaceIndex place = kNoPlace;
@@ -79,11 +83,15 @@ struct VehicleRecord {
     double since_s = 0;
     bool halted = false;
     bool gone = false;
-    bool leaves_rest = false;
+    Leaves leaves = Leaves::kNever;
     std::vector<Visit> visits;  // of its task
     std::vector<PlaceIndex> resting;
     VisitIndex next_visit = 0;
     double admitted_s = 0;
+    std::uint64_t purpose = 0;              // of its task
+    std::vector<PlaceIndex> later;          // of its task
+    std::vector<VehicleIndex> moved_aside;  // for that purpose
+    std::optional<VehicleIndex> makes_way_for;
     bool postponed = false;  // it gives way, its plan leaves out the visits for the time being
     double tried_s = -1e9;   // last search by improve()
     std::optional<Block> blocked_by;

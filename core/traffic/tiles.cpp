@@ -175,4 +175,12 @@ TileSet merge(const TileSet& a, const TileSet& b) {
     return result;
 }
 
+bool overlap(const TileSet& a, const TileSet& b) {
+    for (auto x = a.begin(), y = b.begin(); x != a.end() && y != b.end();) {
+        if (*x == *y) return true;
+        *x < *y ? ++x : ++y;
+    }
+    return false;
+}
+
 }  // namespace pulseline::traffic

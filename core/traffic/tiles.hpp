@@ -19,5 +19,6 @@ TileSet tiles_under(std::size_t hall_index, const std::vector<geometry::Polygon>
                     double margin_m);
 geometry::Box tile_box(TileId tile);
 TileSet merge(const TileSet& a, const TileSet& b);
+bool overlap(const TileSet& a, const TileSet& b);
 
 }  // namespace pulseline::traffic

@@ -68,6 +68,8 @@ struct Sequence {
     PlaceIndex ends_at = kNoPlace;
 };
 
+constexpr double kSinceAdmission = -1;
+
 struct Task {
     std::vector<Visit> visits;        // in this order; empty: only to a resting place
     std::vector<PlaceIndex> resting;  // where it may end; empty: any resting place of the graph
@@ -75,6 +77,11 @@ struct Task {
     /// place.
     std::vector<Sequence> sequences;
     bool may_delay_others = false;  // go before what others have not been granted, if need be
+    bool asks_to_leave = true;      // idle ones make way for it; else it goes only where it can
+    std::vector<PlaceIndex> later;  // it goes there after this task: who makes way rests elsewhere
+    /// What the task is part of; nobody is asked twice to make way for one purpose. 0: for nothing.
+    std::uint64_t purpose = 0;
+    double since_s = kSinceAdmission;  // its age: the oldest task's end is never put off
 };
 
 struct Admission {
@@ -117,12 +124,15 @@ public:
     /// Out of traffic; its floor is free at once. For a vehicle carried away.
     void remove_vehicle(VehicleIndex vehicle, Time now);
 
-    /// Whether an idle vehicle at its resting place leaves it for another when a task needs its
-    /// floor. Without this, who rests is never in the way by the layout's condition, or is waited
-    /// for.
-    void set_leaves_rest(VehicleIndex vehicle, bool leaves) {
-        vehicles_[vehicle].leaves_rest = leaves;
+    /// Whether it leaves where it stands idle for another's task. Who does not is waited for; by
+    /// the layout's condition that can only be at a place where the other wants to go.
+    void set_leaves(VehicleIndex vehicle, Leaves leaves) { vehicles_[vehicle].leaves = leaves; }
+    /// For whose task its plan was made when it was last asked to make way; none since its own.
+    std::optional<VehicleIndex> makes_way_for(VehicleIndex vehicle) const {
+        return vehicles_[vehicle].makes_way_for;
     }
+    /// Others that come behind it where it stands, before the next stop that they make.
+    std::vector<VehicleIndex> waiting_behind(VehicleIndex vehicle) const;
 
     /// Its plan ends at a resting place, or without one it stands at one. The layout's condition is
     /// for those only: who stands elsewhere without a plan, as after a restart, may be in the way.
@@ -202,6 +212,9 @@ public:
     /// graph, turns included; infinity: no way, or it ends at no place. A table read after the
     /// first time.
     double travel_s(VehicleIndex vehicle, PlaceIndex to);
+    double travel_between_s(GraphIndex graph, PlaceIndex from, PlaceIndex to) {
+        return (*times_to_places(graph, {to}))[from];
+    }
     /// {code: traffic_blocked, by, vehicle?, move?, tile_x_m?, tile_y_m?}
     Reason reason_of(const Block& block) const;
 
@@ -234,19 +247,21 @@ private:
         std::string name;
         GraphIndex graph = kNoGraph;
         bool gone = false;
-        bool leaves_rest = false;
+        Leaves leaves = Leaves::kNever;
         Task task;  // sequences are used up by the admission
         VisitIndex next_visit = 0;
         double admitted_s = 0;
+        std::vector<VehicleIndex> moved_aside;  // for the task's purpose
+        std::optional<VehicleIndex> makes_way_for;
         bool postponed = false;
         std::optional<Block> blocked_by;
         double tried_s = -1e9;  // the last search by improve()
         template <class V, class Self>
         static void members(V& visit, Self& self) {
-            auto& [its_name, its_graph, is_gone, leaves, its_task, its_visit, admitted,
-                   is_postponed, blocked, tried] = self;
-            visit(its_name, its_graph, is_gone, leaves, its_task, its_visit, admitted, is_postponed,
-                  blocked, tried);
+            auto& [its_name, its_graph, is_gone, its_leaves, its_task, its_visit, admitted, moved,
+                   its_cause, is_postponed, blocked, tried] = self;
+            visit(its_name, its_graph, is_gone, its_leaves, its_task, its_visit, admitted, moved,
+                  its_cause, is_postponed, blocked, tried);
         }
     };
     struct Closure {
@@ -275,10 +290,24 @@ private:
     void roll_back(Undos& undos);
     tl::expected<Admission, Block> admit_any_way(VehicleIndex vehicle, const Task& task,
                                                  double now_s);
-    bool make_way(const Block& block, VehicleIndex vehicle, const Task& task, double now_s,
-                  std::vector<VehicleIndex>& made_way);
-    bool rest_elsewhere(VehicleIndex resting, VehicleIndex for_vehicle, const Task& task,
-                        double now_s);
+    /// A task whose way is being cleared.
+    struct Clearing {
+        VehicleIndex vehicle;
+        const Task& task;
+        VisitIndex first_visit;
+        Leaves least;  // of those that are asked
+        double now_s;
+        std::vector<VehicleIndex> made_way;
+        Undos undos;
+    };
+    tl::expected<Admission, Block> plan_clearing(Clearing& clearing);
+    tl::expected<Admission, Block> plan_with_others_away(VehicleIndex vehicle, const Task& task,
+                                                         VisitIndex first_visit, double now_s);
+    bool make_way(const Block& block, Clearing& clearing);
+    bool rest_elsewhere(VehicleIndex resting, Clearing& clearing);
+    bool was_moved_for(VehicleIndex vehicle, VehicleIndex moved, const Task& task) const;
+    void note_moved_aside(VehicleIndex vehicle, const Task& task,
+                          const std::vector<VehicleIndex>& moved);
     VisitIndex first_open_visit(VehicleIndex vehicle) const;
     bool is_blocked(VehicleIndex vehicle, double now_s) const;
     std::size_t count_blocked(double now_s) const;

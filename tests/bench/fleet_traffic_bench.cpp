@@ -1,9 +1,10 @@
 // `./dev bench fleet`: traffic at its size. Per setting: time of an admission and of a release
-// decision, orders per simulated hour against two baselines on the same floor with the same orders
-// (one vehicle per resource, and a joint plan after PIBT), vehicles that did not end their orders,
-// memory, time of a rebuild, and what the independent monitor found. Admissions, improvements and
-// rebuilds are measured in CPU time of the thread, release decisions by the wall clock. Last, the
-// whole state machine of a thousand vehicles on a database file: releases as decided and as stored.
+// decision, orders per simulated hour beside the bound of vehicles that never meet, and against two
+// baselines on the same floor with the same orders (one vehicle per resource, and a joint plan
+// after PIBT), vehicles that did not end their orders, memory, time of a rebuild, and what the
+// independent monitor found. Admissions, improvements and rebuilds are measured in CPU time of the
+// thread, release decisions by the wall clock. Last, the whole state machine of a thousand vehicles
+// on a database file: releases as decided and as stored.
 //   bench_fleet [--hours H] [--releases N] [--only halls|plant|warehouse|core] [--out FILE]
 // H simulated hours a setting; with N the last setting goes on until all together made N releases.
 #include <cstdio>
@@ -72,11 +73,14 @@ nlohmann::json print_throughput(const char* name, const Run& run) {
     std::printf("  %-28s %8.0f orders/h  (%llu done, %d vehicles stuck", name,
                 run.orders_per_hour(), static_cast<unsigned long long>(run.orders), run.stuck);
     if (run.longest_order_s > 0) std::printf(", longest order %.0f s", run.longest_order_s);
+    const double mean_s = run.orders > 0 ? run.sum_order_s / static_cast<double>(run.orders) : 0;
+    if (mean_s > 0) std::printf(", mean %.0f s", mean_s);
     std::printf(")\n");
     return {{"orders_per_hour", run.orders_per_hour()},
             {"orders", run.orders},
             {"stuck", run.stuck},
-            {"longest_order_s", run.longest_order_s}};
+            {"longest_order_s", run.longest_order_s},
+            {"mean_order_s", mean_s}};
 }
 
 struct Totals {
@@ -105,6 +109,11 @@ nlohmann::json measure(const World& world, const Options& options, std::uint64_t
                         {"rebuild_ms", ours.rebuild_ms},
                         {"rebuilt_same", ours.rebuilt_same}};
     json["joint_plan"] = print_throughput("joint plan (this library)", ours);
+    const Run alone = run_alone(world, ours.simulated_s);
+    json["conflict_free_bound"] = print_throughput("each vehicle alone (bound)", alone);
+    json["share_of_bound"] = ours.orders_per_hour() / alone.orders_per_hour();
+    std::printf("  the joint plan ends %.1f %% of the bound\n",
+                100 * ours.orders_per_hour() / alone.orders_per_hour());
     json["one_vehicle_per_resource"] =
         print_throughput("one vehicle per resource", run_exclusive_legs(world, ours.simulated_s));
     if (const auto pibt = run_pibt(world, ours.simulated_s)) {

@@ -248,6 +248,30 @@ private:
 
 }  // namespace
 
+Run run_alone(const World& world, double seconds) {
+    traffic::Traffic traffic;
+    for (const auto& graph : world.graphs) traffic.add_graph(graph);
+    Orders orders(world);
+    Run run;
+    run.simulated_s = seconds;
+    for (std::size_t v = 0; v < world.vehicles.size(); ++v) {
+        const auto& vehicle = world.vehicles[v];
+        PlaceIndex place = vehicle.start;
+        for (double now_s = 0;;) {
+            const PlaceIndex goal = orders.next(v);
+            const double takes_s =
+                traffic.travel_between_s(vehicle.graph, place, goal) + world.dwell_s;
+            if (now_s + takes_s > seconds) break;
+            now_s += takes_s;
+            place = goal;
+            ++run.orders;
+            run.longest_order_s = std::max(run.longest_order_s, takes_s);
+            run.sum_order_s += takes_s;
+        }
+    }
+    return run;
+}
+
 Run run_exclusive_legs(const World& world, double seconds) {
     ExclusiveLegs legs(world);
     Run run;

@@ -57,12 +57,13 @@ public:
         }
         measure_memory();
         measure_rebuild();
-        const auto [orders, longest_order_s] = std::pair(run_.orders, run_.longest_order_s);
+        const Run counted = run_;
         for (; now_s_ < run_.simulated_s + kDrain_s && !at_rest(); now_s_ += world_.step_s) {
             step(false);
         }
-        run_.orders = orders;  // those that count for the throughput
-        run_.longest_order_s = longest_order_s;
+        run_.orders = counted.orders;  // those that count for the throughput
+        run_.longest_order_s = counted.longest_order_s;
+        run_.sum_order_s = counted.sum_order_s;
         run_.drained_s = now_s_ - run_.simulated_s;
         run_.violations += monitor_.check_all().size();
         for (VehicleIndex v = 0; v < vehicles_.size(); ++v) run_.stuck += ended(v) ? 0 : 1;
@@ -88,8 +89,11 @@ private:
             }
             // As the fleet does it: an idle platform with its load on it stays, others may leave.
             const bool has_order = vehicles_[v].goal != traffic::kNoPlace;
-            traffic_.set_leaves_rest(
-                v, has_order ? !vehicles_[v].admitted : !world_.vehicles[v].loaded);
+            const bool waits = has_order && !vehicles_[v].admitted;
+            const bool loaded = world_.vehicles[v].loaded;
+            traffic_.set_leaves(v, waits || (!has_order && loaded) ? traffic::Leaves::kLast
+                                   : has_order                     ? traffic::Leaves::kNever
+                                                                   : traffic::Leaves::kFirst);
             admit(v);
             release(v);
         }
@@ -111,6 +115,7 @@ private:
             vehicle.goal = traffic::kNoPlace;
             ++run_.orders;
             run_.longest_order_s = std::max(run_.longest_order_s, now_s_ - vehicle.given_s);
+            run_.sum_order_s += now_s_ - vehicle.given_s;
         }
         if (plan.released > plan.passed) begin_move(v);
     }

@@ -74,6 +74,7 @@ struct Run {
     int stuck = 0;
     /// From an order's coming to its end or, if it was not served at all, to the end of the run.
     double longest_order_s = 0;
+    double sum_order_s = 0;  // of those that were done
     double orders_per_hour() const {
         return simulated_s > 0 ? static_cast<double>(orders) * 3600 / simulated_s : 0;
     }
@@ -84,6 +85,8 @@ double quantile(std::vector<double>& values, double share);
 /// At least `seconds` of simulated time, longer until `releases` grants are made. Then no new
 /// orders come; stuck are vehicles that have not ended theirs and come to rest within six hours.
 Run run_traffic(const World& world, double seconds, std::uint64_t releases);
+/// No more can be done: each vehicle on a floor of its own, the same orders one after the other.
+Run run_alone(const World& world, double seconds);
 /// A leg gets all its tiles at once. Stuck: no move in the last ten minutes.
 Run run_exclusive_legs(const World& world, double seconds);
 /// Only for vehicles of one class on moves of one step. Stuck: no order done in ten minutes.

@@ -209,6 +209,7 @@ void World::check_records(const fleet::Records& records) {
         if (event.type == "traffic.violation") violate("traffic: " + text_of(event));
         if (event.type == "job_order.state") check_transition(event);
         if (event.type == "vehicle.link") check_link(event);
+        check_making_way(event);
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {
@@ -219,6 +220,7 @@ void World::check_records(const fleet::Records& records) {
             violate("the stop of step " + std::to_string(stop.step) + " of " + stop.order.str() +
                     " was not measured but taken as " + stop.method);
         }
+        check_overtaking(stop);
         if (!stop.inside) continue;
         if (!good_stops_.insert({stop.order, stop.step}).second) {
             violate("step " + std::to_string(stop.step) + " of " + stop.order.str() +
@@ -251,6 +253,7 @@ void World::check_records(const fleet::Records& records) {
 void World::check_all() {
     const auto every = static_cast<std::int64_t>(now_s_ * 5) % 25 == 0;
     if (!every) return;
+    note_patience();
     const auto traffic = fleet_->traffic(now());
     if (traffic.stopped) violate("traffic stopped:" + text_of(traffic.stopped->params));
     for (const auto& asked : asked_) {

@@ -5,8 +5,8 @@
 namespace pulseline::fleet_judge {
 
 namespace {
-constexpr int kUnreadable = 40;  // one stop in so many is not measured
-constexpr double kInView_m = 0.05;
+constexpr int kUnreadable = 40;      // one stop in so many is not measured
+constexpr double kInView_m = 0.085;  // half of what a camera sees of the floor
 }  // namespace
 
 /// What the cameras find at a stop: the true pose, to a tenth of a millimetre.
@@ -123,7 +123,7 @@ fleet::StateMessage Vehicle::state() {
         state.pose->y_m += misread_.y_m;
         state.pose->heading_rad = wrap(state.pose->heading_rad + misread_.heading_rad);
     }
-    if (!knows_pose() && standing()) state.cameras = readings();
+    if ((!knows_pose() || shows_codes) && standing()) state.cameras = readings();
     if (manual) state.operating_mode = "MANUAL";
     if (broken) state.errors.push_back({"driveFault", true, "the drive is hot", {}});
     if (safety_stopped) state.e_stop = "MANUAL";

@@ -45,6 +45,7 @@ public:
     bool manual = false;          // a person has taken it over
     bool broken = false;          // a fatal error; it stands
     bool safety_stopped = false;  // until a person acknowledges it at the vehicle
+    bool shows_codes = false;     // whenever it stands, not only when it has lost its pose
 
 private:
     class Cameras;

@@ -159,6 +159,7 @@ void World::start_server() {
     if (!shadow_)
         fleet_->leave_out_views();  // a restored fleet has them: all it puts out is compared
     if (shadow_) shadow_->follow(*fleet_);
+    forget_patience();
     for (auto& [id, line] : lines_) {
         line.server_knows = false;
         line.up.clear();

@@ -87,6 +87,13 @@ private:
         bool acknowledged = false;
         double again_s = 0;  // when it is asked again
     };
+    /// What an order has had to put up with.
+    struct Patience {
+        double waits_since_s = 0;  // for others' floor
+        double on_leg_s = 0;       // last seen on a drive of its own
+        int overtaken = 0;         // since it has waited too long
+        std::set<plant::VehicleId> moved_aside;
+    };
     struct Closed {
         fleet::ClosureId id;
         double until_s = 0;
@@ -146,6 +153,12 @@ private:
     void take_in(const fleet::Outputs& out);
     void take_in(const std::string& text);
 
+    // fleet_judge_manners.cpp
+    void check_making_way(const fleet::Event& event);
+    void check_overtaking(const fleet::StopRecord& stop);
+    void note_patience();
+    void forget_patience();
+
     bool chance(double share) { return static_cast<double>(random_() >> 11) * 0x1.0p-53 < share; }
     int pick(int low, int high);
     Vehicle& any_vehicle(plant::VehicleId& id);
@@ -184,6 +197,7 @@ private:
     std::int64_t last_seq_ = 0;
     std::set<std::pair<fleet::JobOrderId, int>> good_stops_;
     std::set<fleet::JobOrderId> ended_;
+    std::map<fleet::JobOrderId, Patience> patience_;
     std::set<std::pair<plant::VehicleId, plant::VehicleId>> meeting_;
     Outcome outcome_;
 };

@@ -7,6 +7,7 @@
 namespace pulseline {
 
 PULSELINE_LAST(traffic::BlockCause, kHalted)
+PULSELINE_LAST(traffic::Leaves, kFirst)
 
 namespace traffic {
 PULSELINE_FIELDS(MoveRef, vehicle, move)
@@ -15,7 +16,8 @@ PULSELINE_FIELDS(Block, cause, vehicle, move, tile)
 PULSELINE_FIELDS(Use, vehicle, first, last)
 PULSELINE_FIELDS(Sequence::Step, swept, stand, duration_s, its_visit, place)
 PULSELINE_FIELDS(Sequence, steps, ends_at)
-PULSELINE_FIELDS(Task, visits, resting, sequences, may_delay_others)
+PULSELINE_FIELDS(Task, visits, resting, sequences, may_delay_others, asks_to_leave, later, purpose,
+                 since_s)
 PULSELINE_FIELDS(Shape, swept, stand)
 PULSELINE_FIELDS(VehiclePlan, stand, place, passed, released, dropped, moves, since_s, halted)
 
@@ -66,7 +68,7 @@ namespace fleet {
 
 PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
 PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
-                 next_try, next_leave, idle_since)
+                 next_try, in_vain_since, next_leave, idle_since)
 PULSELINE_FIELDS(VehicleRun::Seen, pose, at, moving, speed_mps)
 PULSELINE_FIELDS(VehicleRun::Statement, where, at)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)

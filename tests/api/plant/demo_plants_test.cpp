@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
+#include <variant>
 
 #include "api/plant/plant_file.hpp"
+#include "core/fleet/floor_graph.hpp"
 #include "core/planning/leg_planner.hpp"
 #include "core/plant/validate.hpp"
 
@@ -23,6 +26,35 @@ TEST_P(DemoPlant, HasNoFault) {
     EXPECT_EQ(plant.id, GetParam());
     for (const Fault& fault : validate(plant)) {
         ADD_FAILURE() << fault.element << " " << fault.code << ": " << fault.what;
+    }
+}
+
+/// Else orders can bar each other for good, and people have to find out which.
+TEST_P(DemoPlant, IsWellFormed) {
+    const Plant plant = demo(GetParam());
+    for (const Reason& reason : fleet::check_layout(plant)) {
+        std::string params;
+        for (const auto& param : reason.params) {
+            const auto* text = std::get_if<std::string>(&param.value);
+            params += " " + param.name + "=" + (text ? *text : "");
+        }
+        ADD_FAILURE() << reason.code << params;
+    }
+}
+
+/// Two of a type that stand where the other is wanted need a third place to change over.
+TEST_P(DemoPlant, HasAPlaceToSpareForEachType) {
+    const Plant plant = demo(GetParam());
+    for (const auto& type : plant.vehicle_types) {
+        const auto is_of = [&](const Vehicle& vehicle) { return vehicle.type == type.id; };
+        const auto rests_at = [&](const Station& station) {
+            const auto& types = station.vehicle_types;
+            return station.resting_place &&
+                   (types.empty() || std::find(types.begin(), types.end(), type.id) != types.end());
+        };
+        EXPECT_GT(std::ranges::count_if(plant.stations, rests_at),
+                  std::ranges::count_if(plant.vehicles, is_of))
+            << type.id.str();
     }
 }
 

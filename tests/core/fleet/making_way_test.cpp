@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <map>
+#include <utility>
+
 #include "tests/core/fleet/traffic_halls.hpp"
 
 // Idle vehicles leave the way of others.
@@ -49,19 +52,152 @@ TEST(MakingWay, OneThatMeasuredItsStopWhileItWasLostMakesWayAfterwards) {
     EXPECT_EQ(order_of(world, "V2").state, JobState::kEnded) << order_of(world, "V2").reason.code;
 }
 
-TEST(MakingWay, ALoadedVehicleStaysWhereItStands) {
-    plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"east", 70, 40, 2}, {"middle", 40, 40, 3}},
+/// Two ways from west to east, a vehicle on each.
+plant::Plant two_that_bar() {
+    return plant_of({{"west", 10, 40, 1},
+                     {"upper", 40, 52, 2},
+                     {"lower", 40, 28, 3},
+                     {"east", 70, 40, 4},
+                     {"far", 90, 52, 5},
+                     {"farther", 90, 28, 6}},
+                    {{"west", "upper"},
+                     {"west", "lower"},
+                     {"upper", "east"},
+                     {"lower", "east"},
+                     {"east", "far"},
+                     {"east", "farther"}},
+                    3);
+}
+
+TEST(MakingWay, ALoadedVehicleLeavesWhenNobodyElseCan) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"middle", 40, 40, 2}, {"east", 70, 40, 3}},
                                   {{"west", "middle"}, {"middle", "east"}}, 2);
     plant.vehicles[1].load_name = "A-101";
     World world(plant);
     confirm_poses(world);
 
     ASSERT_TRUE(world.order("V1", {2}));
-    world.run(200);
+    world.run(400);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
+    EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s3"));
+}
+
+TEST(MakingWay, OneWithALoadStaysWhereAnotherCanLeave) {
+    for (const std::size_t loaded : {1, 2}) {
+        plant::Plant plant = two_that_bar();
+        plant.vehicles[loaded].load_name = "A-101";
+        World world(plant);
+        confirm_poses(world);
+
+        ASSERT_TRUE(world.order("V1", {4}));
+        world.run(600);
+
+        EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded)
+            << order_of(world, "V1").reason.code;
+        for (const auto& event : world.store.events) {
+            if (event.type != "vehicle.makes_way") continue;
+            EXPECT_NE(event.vehicle, plant.vehicles[loaded].id);
+            EXPECT_EQ(event.order, order_of(world, "V1").id);
+        }
+    }
+}
+
+TEST(MakingWay, NobodyLeavesForAnOrderThatCannotGo) {
+    // V2 rests on the way to where V3 stands, which nothing moves.
+    plant::Plant plant =
+        plant_of({{"west", 10, 40, 1},
+                  {"middle", 40, 40, 2},
+                  {"east", 70, 40, 3},
+                  {"fork", 55, 40},
+                  {"bay", 55, 52, 4}},
+                 {{"west", "middle"}, {"middle", "fork"}, {"fork", "east"}, {"fork", "bay"}}, 3);
+    World world(plant);
+    confirm_poses(world);
+    world.vehicle("V3").state.errors.push_back({"driveFault", true, "hot", {}});
+    world.run(2);
+
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(300);
 
     EXPECT_EQ(order_of(world, "V1").state, JobState::kRunning);
     EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
     EXPECT_EQ(world.count_events("vehicle.makes_way"), 0);
+}
+
+TEST(MakingWay, TwoSentToWhereALoadedOneStandsDoNotSendEachOtherToAndFro) {
+    plant::Plant plant = plant_of({{"west", 10, 40, 1},
+                                   {"goal", 40, 40, 2},
+                                   {"east", 70, 40, 3},
+                                   {"bay", 25, 52, 4},
+                                   {"fork", 25, 40},
+                                   {"hole", 55, 52, 5},
+                                   {"way", 55, 40}},
+                                  {{"west", "fork"},
+                                   {"fork", "bay"},
+                                   {"fork", "goal"},
+                                   {"goal", "way"},
+                                   {"way", "hole"},
+                                   {"way", "east"}},
+                                  3);
+    for (auto& vehicle : plant.vehicles) vehicle.load_name = "A-10";
+    World world(plant);
+    confirm_poses(world);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.order("V3", {2}));
+    world.run(1200);
+
+    for (const char* id : {"V1", "V3"})
+        EXPECT_EQ(order_of(world, id).state, JobState::kEnded) << order_of(world, id).reason.code;
+    std::map<std::pair<JobOrderId, VehicleId>, int> times;
+    for (const auto& event : world.store.events) {
+        if (event.type != "vehicle.makes_way") continue;
+        EXPECT_EQ(++times[std::pair(event.order, event.vehicle)], 1) << event.vehicle.str();
+    }
+    EXPECT_LE(world.count_events("vehicle.makes_way"), 3);
+}
+
+/// A line with a station in the middle at which nobody rests.
+plant::Plant line_of_work(int vehicles) {
+    plant::Plant plant =
+        plant_of({{"west", 10, 40, 1},
+                  {"east", 90, 40, 2},
+                  {"work", 50, 40, 3},
+                  {"fork", 30, 40},
+                  {"bay", 30, 52, 4}},
+                 {{"west", "fork"}, {"fork", "work"}, {"work", "east"}, {"fork", "bay"}}, vehicles);
+    plant.stations[2].resting_place = false;
+    return plant;
+}
+
+TEST(MakingWay, ALoadStaysWhereItIsWorkedOnUntilAnotherHasToPass) {
+    plant::Plant plant = line_of_work(2);
+    plant.vehicles[1].load_name = "A-101";
+    World world(plant);
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V2", {3}));
+    world.run(1800);
+    ASSERT_EQ(order_of(world, "V2").state, JobState::kEnded);
+    EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s3"));
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 0);
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(300);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
+}
+
+TEST(MakingWay, WithoutALoadTheWayIsLeftSoon) {
+    World world(line_of_work(2));
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V2", {3}));
+    world.run(300);
+
+    EXPECT_EQ(order_of(world, "V2").state, JobState::kEnded);
+    EXPECT_NE(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s3"));
 }
 
 TEST(MakingWay, AnIdleVehicleBesideAllPlacesLeavesTheWayOfAnother) {

@@ -38,6 +38,78 @@ TEST(TrafficScenarios, WhoWaitsIsInTheWaitForGraphWithWhomItWaitsFor) {
     EXPECT_TRUE(seen);
 }
 
+TEST(TrafficScenarios, WhoHasNothingToDoAnyMoreWaitsForNobody) {
+    World world(corridor());
+    confirm_poses(world);
+    close_lane(world, 35, 45);
+    ASSERT_TRUE(world.order("V1", {2}));
+    ASSERT_TRUE(world.order("V2", {1}));
+    world.run(30);
+    ASSERT_FALSE(world.fleet->traffic(world.now).waits.empty());
+
+    for (const auto& order : world.fleet->orders())
+        ASSERT_TRUE(world.fleet->cancel_order(order.id, std::nullopt, "op", world.now));
+    world.run(120);
+
+    EXPECT_TRUE(world.fleet->traffic(world.now).waits.empty());
+}
+
+TEST(TrafficScenarios, AnOrdersExpectedEndHasNeverPassed) {
+    World world(corridor());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2, 1}));
+    ASSERT_TRUE(world.order("V2", {1, 2}));
+    bool was_expected = false;
+    for (int i = 0; i < 6000; ++i) {
+        world.run(0.1);
+        if (i == 150) close_lane(world, 35, 45);
+        for (const auto& order : world.fleet->orders()) {
+            if (!order.expected) continue;
+            was_expected = true;
+            ASSERT_GT(*order.expected, world.now) << order.number << " at step " << i;
+        }
+        for (const auto& view : world.fleet->vehicles(world.now)) {
+            if (view.leg && view.leg->expected) {
+                ASSERT_GE(*view.leg->expected, world.now);
+            }
+        }
+    }
+    EXPECT_TRUE(was_expected);
+}
+
+TEST(TrafficScenarios, AnOrderThatHasWaitedLongGoesBeforeYoungerOnesForTheSameStation) {
+    World world(plant_of({{"west", 10, 40, 1},
+                          {"goal", 60, 40, 2},
+                          {"east", 90, 40, 3},
+                          {"fork", 45, 40},
+                          {"bay", 45, 52, 4},
+                          {"way", 75, 40},
+                          {"hole", 75, 52, 5}},
+                         {{"west", "fork"},
+                          {"fork", "bay"},
+                          {"fork", "goal"},
+                          {"goal", "way"},
+                          {"way", "hole"},
+                          {"way", "east"}},
+                         3));
+    confirm_poses(world);
+    auto& broken = world.vehicle("V2").state.errors;
+    broken.push_back({"driveFault", true, "hot", {}});
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(90);
+    ASSERT_EQ(order_of(world, "V1").reason.code, "floor_held");
+
+    ASSERT_TRUE(world.order("V3", {2}));  // it stands nearer
+    world.run(5);
+    EXPECT_EQ(order_of(world, "V3").reason.code, "goes_first");
+    broken.clear();
+    world.run(300);
+
+    for (const char* id : {"V1", "V3"})
+        EXPECT_EQ(order_of(world, id).state, JobState::kEnded) << order_of(world, id).reason.code;
+}
+
 TEST(TrafficScenarios, FourThatWantTheNextOnesPlaceGoRoundOverACrossing) {
     World world(plant_of({{"west", 10, 40, 1},
                           {"north", 40, 70, 2},
