@@ -277,7 +277,7 @@ void VehicleGateway::too_many(const plant::VehicleId& id, Row& row) {
         "The vehicle sends more messages than one link may; only the newest are taken.",
         {{"field", ""}, {"code", "too_many_messages"}}};
     row.refused_at = Steady::now();
-    ports_.runtime.input([id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
+    ports_.runtime.input(id, [id, refused = *row.refused](fleet::Fleet& fleet, Time at) {
         fleet.vehicle_message_refused(id, refused, at);
     });
 }
@@ -389,7 +389,7 @@ void VehicleGateway::not_sent(const plant::VehicleId& id, Row& row, const char* 
     row.told_not_sent = Steady::now();
     const fleet::VehicleError error{
         "messageNotSent", false, std::string("A message to the vehicle was left out: ") + why, {}};
-    ports_.runtime.input([id, error](fleet::Fleet& fleet, Time at) {
+    ports_.runtime.input(id, [id, error](fleet::Fleet& fleet, Time at) {
         fleet.vehicle_message_refused(id, error, at);
     });
 }

@@ -214,7 +214,7 @@ net::awaitable<void> LinkClient::Impl::connect() {
     tcp::resolver resolver(io);
     const auto found = co_await resolver.async_resolve(address.host, address.port, into(ec));
     if (ec) co_return trouble("cannot resolve " + address.host + ": " + ec.message());
-    beast::tcp_stream stream(io);
+    PlainStream stream(io);
     stream.expires_after(kConnectTime);
     co_await stream.async_connect(found, into(ec));
     if (ec) {

@@ -192,12 +192,20 @@ private:
             // Too far beside its station to see the codes: it is put there by hand.
             const auto& record = store_.vehicles.at(order.assigned_vehicle);
             const auto* station = plant::find_station(plant_, record.at_station);
-            if (station) vehicles_.at(order.assigned_vehicle).push(station->pose);
+            if (!station) continue;
+            vehicles_.at(order.assigned_vehicle).push(station->pose);
+            say_where(order.assigned_vehicle);
         }
         for (const auto& [id, record] : store_.vehicles) {
+            if (record.claim) say_where(id);
             if (record.needs_resume) static_cast<void>(fleet_->resume_fleet({id}, "person", now()));
         }
         settle();
+    }
+
+    /// The person who put it there, or has looked.
+    void say_where(const plant::VehicleId& id) {
+        static_cast<void>(fleet_->init_position(id, vehicles_.at(id).pose(), "person", now()));
     }
 
     static bool is_traffic(const std::string& code) {

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tests/simulation/fleet_judge_world.hpp"
 
 // How vehicles treat each other: not what keeps the floor safe, but what people can live with.
@@ -19,18 +21,36 @@ bool goes_before(const fleet::JobOrder& a, const fleet::JobOrder& b) {
 
 }  // namespace
 
-/// Nobody leaves twice for one order, but for having driven itself meanwhile, nor for one that does
-/// not go.
+/// Nobody leaves twice for one step of an order, but for having driven itself or a person's having
+/// let the order go on meanwhile; to go on to the same place after something stopped it is no
+/// second time. Nor does anybody leave for an order that does not go: said of orders that nothing
+/// has interrupted, the others go when their vehicles can.
 void World::check_making_way(const fleet::Event& event) {
+    const auto param = [&](const char* name) -> std::string {
+        for (const auto& [key, value] : event.params) {
+            const auto* text = std::get_if<std::string>(&value);
+            if (key == name && text) return *text;
+        }
+        return {};
+    };
+    Patience& order = patience_[event.order];
+    if (event.type == "job_order.state") {
+        if (param("to") == "Running") order.moved_aside.clear();
+        if (param("to") == "Interrupted") order.interrupted = true;
+    }
     if (event.type == "step.started") {
-        patience_[event.order].on_leg_s = now_s_;
+        order.on_leg_s = now_s_;
+        order.moved_aside.clear();
+        for (auto& [id, patience] : patience_) patience.moved_aside.erase(event.vehicle);
+    }
+    if (event.type == "vehicle.needs_resume") {  // it did not come to where it was sent
         for (auto& [id, patience] : patience_) patience.moved_aside.erase(event.vehicle);
     }
     if (event.type != "vehicle.makes_way" || event.order.empty()) return;
-    Patience& order = patience_[event.order];
-    if (!order.moved_aside.insert(event.vehicle).second)
+    const auto [before, first] = order.moved_aside.try_emplace(event.vehicle, param("station"));
+    if (!first && before->second != param("station"))
         violate(event.vehicle.str() + " makes way twice for order " + event.order.str());
-    if (now_s_ - order.on_leg_s > kLeave_s)
+    if (!order.interrupted && now_s_ - order.on_leg_s > kLeave_s)
         violate(event.vehicle.str() + " makes way for order " + event.order.str() +
                 ", which does not go");
 }
@@ -64,7 +84,7 @@ void World::note_patience() {
                             record->second.leg_data.order == id;
         if (drives) patience.on_leg_s = now_s_;
         if (!waits_for_floor(order))
-            patience = {now_s_, patience.on_leg_s, 0, patience.moved_aside};
+            patience = {now_s_, patience.on_leg_s, 0, patience.interrupted, patience.moved_aside};
     }
 }
 

@@ -105,6 +105,10 @@ void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     if (now_s_ < watch.person_at_s || down) return;
     watch.person_at_s = now_s_ + 5;
     const bool in_doubt = view->claimed_pose.has_value();
+    // It refuses to begin where the server takes it to stand: a person looks before the next try.
+    if (view->needs_resume_reason.code == "order_rejected" && vehicle.standing()) {
+        static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));
+    }
     if (waits && fleet_->resume_fleet({id}, "person", now())) {
         watch.restarted_on_leg = watch.needs_person = false;
     } else if (in_doubt) {

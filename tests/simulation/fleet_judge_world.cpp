@@ -73,7 +73,10 @@ void World::step(double dt_s) {
     move_vehicles(dt_s);
     check_bodies();
     check_movement();
-    if (unstored_) retry_store();
+    if (unstored_) {
+        retry_store();
+        if (!unstored_ && now_s_ >= stalled_until_s_) listen(dt_s);
+    }
     // A stalled or read-only server takes nothing; vehicles go on.
     if (now_s_ >= stalled_until_s_ && !unstored_) {
         settle();  // what was decided before a long command
@@ -99,6 +102,8 @@ void World::listen(double dt_s) {
     const double still_s = now_s_ - std::exchange(listened_s_, now_s_);
     for (auto& [id, watch] : watch_) watch.unheard_s += dt_s;
     if (still_s <= kStall_s) return;
+    settle();  // what was decided before goes out now
+    if (unstored_) return;
     for (auto& [id, watch] : watch_) watch.told_since_stall = false;
     fleet_->server_stood_still(now() - from_seconds(still_s), now());
     settle();

@@ -92,7 +92,8 @@ private:
         double waits_since_s = 0;  // for others' floor
         double on_leg_s = 0;       // last seen on a drive of its own
         int overtaken = 0;         // since it has waited too long
-        std::set<plant::VehicleId> moved_aside;
+        bool interrupted = false;
+        std::map<plant::VehicleId, std::string> moved_aside;  // and where to
     };
     struct Closed {
         fleet::ClosureId id;
