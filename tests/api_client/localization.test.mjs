@@ -41,7 +41,8 @@ test("a stranger, and any other address, gets no more than the usual body", asyn
   const send = (path, headers) => fetch(`${system.url}${path}`, { method: "POST", body, headers: { "Content-Type": "application/json", ...headers } }).then((answer) => answer.status, () => "cut off");
   const mine = { Authorization: `Bearer ${client.token}` };
   assert.equal(await send("/api/v1/localizations", mine), 200);
-  assert.equal(await send("/api/v1/localizations", {}), 413);
+  // Nothing is read of a stranger's body; the answer may be lost in what they still send.
+  assert.ok([401, "cut off"].includes(await send("/api/v1/localizations", {})));
   assert.equal(await send("/api/v1/routes", mine), 413);
   // Who asks first is told before the body is sent.
   const headers = { ...mine, "Content-Type": "application/json", "Content-Length": String(9 << 20), Expect: "100-continue" };

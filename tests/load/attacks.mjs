@@ -43,7 +43,7 @@ async function connections(system, count, end, every_ms, talk) {
   for (const socket of sockets) socket.destroy();
 }
 
-const bearer = (system) => ({ Authorization: `Bearer ${system.apiToken}` });
+const bearer = (system) => ({ Authorization: `Bearer ${system.attackerToken}` });
 const once = (socket, text) => { if (!socket.opened) { socket.opened = true; socket.write(text); } };
 
 export const attacks = {
@@ -69,12 +69,12 @@ export const attacks = {
   }),
 
   "bodies that never end": (system, end) => connections(system, 200, end, 500, (socket) => {
-    once(socket, `POST /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer ${system.apiToken}\r\nContent-Type: application/json\r\nContent-Length: 200000\r\n\r\n`);
+    once(socket, `POST /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nAuthorization: Bearer ${system.attackerToken}\r\nContent-Type: application/json\r\nContent-Length: 200000\r\n\r\n`);
     socket.write(" ");
   }),
 
   "readers that never read": (system, end) => connections(system, 60, end, 500, (socket) => {
-    once(socket, `GET /api/v1/stream HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nAuthorization: Bearer ${system.apiToken}\r\n\r\n`);
+    once(socket, `GET /api/v1/stream HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nAuthorization: Bearer ${system.attackerToken}\r\n\r\n`);
     socket.pause();
   }),
 
@@ -82,7 +82,7 @@ export const attacks = {
 
   "dashboards that come and go": (system, end) => connections(system, 40, end, 400, (socket) => {
     if (socket.opened) return socket.destroy();
-    once(socket, `GET /api/v1/stream HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nAuthorization: Bearer ${system.apiToken}\r\n\r\n`);
+    once(socket, `GET /api/v1/stream HTTP/1.1\r\nHost: x\r\nConnection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: MDEyMzQ1Njc4OWFiY2RlZg==\r\nAuthorization: Bearer ${system.attackerToken}\r\n\r\n`);
   }),
 
   "one vehicle whose error changes a hundred times a second": async (system, end) => {

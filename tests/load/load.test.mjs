@@ -31,6 +31,10 @@ async function hall(count) {
     const { pose, node, hall } = home.get(vehicle.home);
     return [vehicle.id, vehicle.manufacturer, vehicle.serial_number, tokens.get(`${vehicle.manufacturer}/${vehicle.serial_number}`), pose.x_m, pose.y_m, node, hall].join(" ");
   });
+  // An account has so many streams; a plant's panels have their own, and so has an attacker.
+  const programToken = () => system.cli(["token", "create", "--role", "viewer", "--scope", "api"]).trim();
+  system.dashboardTokens = Array.from({ length: 4 }, programToken);
+  system.attackerToken = system.cli(["token", "create", "--role", "operator", "--scope", "api"]).trim();
   system.tokenOfVehicle = (id) => { const { manufacturer, serial_number } = system.plant.vehicle(id); return tokens.get(`${manufacturer}/${serial_number}`); };
   system.vehiclesFile = join(system.directory, "vehicles");
   writeFileSync(system.vehiclesFile, `${rows.join("\n")}\n`);
@@ -42,7 +46,7 @@ async function load(system, { dashboards, requests, orders, seconds }) {
   const memory = [];
   const looks = setInterval(() => memory.push(rss_kb(system.server.pid)), 1000);
   try {
-    const args = ["--port", system.port, "--vehicles", system.vehiclesFile, "--token", system.apiToken, "--dashboards", dashboards, "--requests", requests, "--orders", orders, "--seconds", seconds];
+    const args = ["--port", system.port, "--vehicles", system.vehiclesFile, "--token", system.apiToken, "--dashboard-tokens", system.dashboardTokens.join(","), "--dashboards", dashboards, "--requests", requests, "--orders", orders, "--seconds", seconds];
     const { stdout } = await promisify(execFile)(join(BUILD, "load_client"), args.map(String), { timeout: (seconds + 120) * 1000 });
     const warm = memory[Math.floor(memory.length / 4)];
     return { ...JSON.parse(stdout), rss_kb: { warm, most: Math.max(...memory), end: memory.at(-1) } };

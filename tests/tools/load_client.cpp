@@ -59,6 +59,7 @@ struct Settings {
     std::uint16_t port = 0;
     std::string vehicles_file;  // a line each: id maker serial token x_m y_m node hall
     std::string token;
+    std::vector<std::string> dashboard_tokens;  // in turn: one account has so many streams
     double states_per_s = 10;
     int dashboards = 20;
     int watchers = 10;  // dashboards whose every frame is read; the others only take theirs
@@ -417,6 +418,9 @@ int main(int argc, char** argv) {
                    "a line each: id maker serial token x_m y_m node hall")
         ->required();
     app.add_option("--token", settings.token, "of the API, role operator")->required();
+    app.add_option("--dashboard-tokens", settings.dashboard_tokens, "of the API, comma-separated")
+        ->required()
+        ->delimiter(',');
     app.add_option("--states", settings.states_per_s, "of a vehicle in a second");
     app.add_option("--dashboards", settings.dashboards);
     app.add_option("--watchers", settings.watchers);
