@@ -41,7 +41,7 @@ public:
 
     /// One of the things people and vehicles do; every one is waited for.
     void step(int number);
-    /// A new order, until it is accepted; false when it never is.
+    /// A new order, until it is accepted; false when it is not within some 20 s.
     bool works_again();
     void pass(Duration time) { clock_.at += time.count(); }
     Time now() const { return clock_.now(); }
@@ -61,6 +61,7 @@ private:
     void create(const std::string& key, std::mt19937& random);
     void change(std::mt19937& random);
     void let_go();
+    void await_store();
 
     Ledger& ledger_;
     ManualClock clock_;
