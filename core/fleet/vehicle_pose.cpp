@@ -83,9 +83,14 @@ bool is_within_reach(const VehicleRun& run, const Pose2& pose, Time now) {
         now - newest.at >= kJudgedOver || !run.seen_before ? newest : *run.seen_before;
     const bool unseen = run.has_leg() && now - newest.at > kHidesADrive;
     if (!(unseen || moves(run.state) || newest.moving || from.moving)) return false;
-    const double speed_mps =
-        std::max({run.type->max_speed_mps * std::max(1.0, speed_share(run)),
-                  std::abs(run.state.velocity_mps), newest.speed_mps, from.speed_mps});
+    // On its leg, where the pose has to lie on the base in any case, a vehicle that is too fast is
+    // believed. Elsewhere a pose that jumps often brings the speed of its jump along.
+    const double told_mps =
+        run.has_leg()
+            ? std::max({std::abs(run.state.velocity_mps), newest.speed_mps, from.speed_mps})
+            : 0;
+    const double top_mps = run.type->max_speed_mps * std::max(1.0, speed_share(run));
+    const double speed_mps = std::max(top_mps, told_mps);
     return geometry::distance(from.pose.position(), pose.position()) <=
            kPush_m + speed_mps * seconds(now - from.at);
 }

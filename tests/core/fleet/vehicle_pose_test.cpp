@@ -89,6 +89,18 @@ TEST(ImpossiblePose, OfAStandingVehicleFreesNothingAndAsksAPerson) {
     EXPECT_GT(world.vehicle("V2").state.pose->x_m, 14) << "it drove onto it";
 }
 
+TEST(ImpossiblePose, IsNotMadePossibleByTheSpeedOfItsOwnJump) {
+    World world;
+    world.connect_all();
+    world.vehicles_move = false;
+    world.vehicle("V1").state.velocity_mps = 9;  // as a position that is differentiated says
+    claim(world, kAside);
+
+    EXPECT_TRUE(view(world).claimed_pose);
+    EXPECT_EQ(view(world).at_station, kFirst);
+    EXPECT_TRUE(view(world).needs_resume);
+}
+
 TEST(ImpossiblePose, HoldsTheFloorThatItClaimsToo) {
     World world;
     world.connect_all();
