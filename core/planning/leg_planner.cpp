@@ -218,7 +218,7 @@ struct LegPlanner::Tables {
     std::shared_ptr<const RoadmapIndex> shared;
     const RoadmapIndex& roads;
     std::vector<ClosedFloor> closures;
-    std::string closed;  // names them
+    LegMemo::Closures closed = std::make_shared<const std::string>();  // names them
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
     std::shared_ptr<LegMemo> memo = std::make_shared<LegMemo>();  // of all planners of the plant
@@ -249,7 +249,9 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
 Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
     assert(request.type);
     const auto* from = plant::find_station(tables_->plant, request.from_station);
-    if (!from || !(from->pose == request.start) || request.target_pose)
+    // A type that is not the plant's own may be another one the next time it has this address.
+    const bool own = plant::find_vehicle_type(tables_->plant, request.type->id) == request.type;
+    if (!own || !from || !(from->pose == request.start) || request.target_pose)
         return tables_->plan(request);
     if (auto known = tables_->memo->find(request, tables_->closed)) return std::move(*known);
     auto plan = tables_->plan(request);
@@ -310,8 +312,9 @@ std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, 
 
 void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
     tables_->closures = std::move(closures);
-    tables_->closed.clear();
-    for (const auto& closure : tables_->closures) tables_->closed += name_of(closure);
+    std::string closed;
+    for (const auto& closure : tables_->closures) closed += name_of(closure);
+    tables_->closed = std::make_shared<const std::string>(std::move(closed));
     for (auto& [key, prepared] : tables_->prepared) {
         prepared->lanes.set_closures(tables_->closures);
     }
