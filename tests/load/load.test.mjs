@@ -67,6 +67,7 @@ test("a shift's load: reports reach dashboards in time and nobody is taken for l
     assert.equal(found.vehicles_cut + found.dashboards_cut, 0);
     assert.equal(found.events_lost, 0);
     assert.deepEqual(Object.keys(found.statuses).filter((status) => !["200", "201", "101"].includes(status)), []);
+    assert.ok(found.not_asked_in_time <= 0.01 * kLoad.seconds * (kLoad.requests + kLoad.orders), `${found.not_asked_in_time} requests found every connection waiting`);
     assert.ok(found.states_per_s > kLoad.vehicles * 10 * 0.9, `${found.states_per_s} states a second`);
     assert.ok(found.state_to_dashboard.n > 1000 && found.state_to_dashboard.p99_ms <= kBounds.to_dashboard_p99_ms, `to dashboard ${JSON.stringify(found.state_to_dashboard)}`);
     assert.ok(found.accepted.p99_ms <= kBounds.accepted_p99_ms, `accepted ${JSON.stringify(found.accepted)}`);

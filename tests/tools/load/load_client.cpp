@@ -7,53 +7,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <vector>
 
-#include "tests/tools/web_socket_peer.hpp"
+#include "tests/tools/load/dashboard.hpp"
 
 namespace pulseline::load {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-/// Milliseconds in steps of a half, up to a minute.
-class Histogram {
-public:
-    void add(double ms) {
-        const double last = static_cast<double>(counts_.size() - 1);
-        ++counts_[static_cast<std::size_t>(std::clamp(ms * 2, 0.0, last))];
-        ++n_;
-        most_ms_ = std::max(most_ms_, ms);
-    }
-    nlohmann::json summary() const {
-        return {{"n", n_}, {"p50_ms", at(0.5)}, {"p99_ms", at(0.99)}, {"max_ms", most_ms_}};
-    }
-
-private:
-    double at(double share) const {
-        std::uint64_t below = 0;
-        for (std::size_t i = 0; i < counts_.size(); ++i) {
-            below += counts_[i];
-            if (n_ > 0 && static_cast<double>(below) >= share * static_cast<double>(n_)) {
-                return (static_cast<double>(i) + 1) / 2;
-            }
-        }
-        return 0;
-    }
-    std::vector<std::uint32_t> counts_ = std::vector<std::uint32_t>(120'000);
-    std::uint64_t n_ = 0;
-    double most_ms_ = 0;
-};
 
 struct Settings {
     std::uint16_t port = 0;
@@ -66,122 +31,6 @@ struct Settings {
     double requests_per_s = 20;
     double orders_per_s = 2;
     double seconds = 60;
-};
-
-/// A vehicle that stands and reports. The count of its states travels in its velocity, so that a
-/// dashboard's frame tells which of them it shows.
-struct Vehicle {
-    static constexpr int kCounts = 10'000;  // velocities are shown to 0.1 mm/s
-
-    std::string id, maker, serial, token, node, hall;
-    double x_m = 0, y_m = 0;
-    std::unique_ptr<Peer> peer;
-    std::uint64_t sent = 0;
-    std::vector<Clock::time_point> sent_at = std::vector<Clock::time_point>(kCounts);
-
-    std::string header(std::string_view now) const {
-        return fmt::format(
-            R"("headerId":{},"timestamp":"{}","version":"2.1.0","manufacturer":"{}","serialNumber":"{}")",
-            sent & 0xffffffff, now, maker, serial);
-    }
-    void connect(std::uint16_t port) {
-        peer = std::make_unique<Peer>(port);
-        peer->ask_upgrade(
-            "/vehicles/" + maker + "/" + serial,
-            "Sec-WebSocket-Protocol: vda5050.v2.json\r\nAuthorization: Bearer " + token + "\r\n");
-    }
-    void report(std::string_view now) {
-        ++sent;
-        const auto count = sent % kCounts;
-        sent_at[count] = Clock::now();
-        peer->send_text(fmt::format(
-            R"({{"topic":"state","retain":false,"payload":{{{},"orderId":"","orderUpdateId":0,"lastNodeId":"{}","lastNodeSequenceId":0,)"
-            R"("driving":false,"paused":false,"newBaseRequest":false,"distanceSinceLastNode":0.0,"operatingMode":"AUTOMATIC","nodeStates":[],"edgeStates":[],)"
-            R"("actionStates":[],"batteryState":{{"batteryCharge":81.5,"charging":false}},"errors":[],)"
-            R"("safetyState":{{"eStop":"NONE","fieldViolation":false}},)"
-            R"("agvPosition":{{"x":{:.4f},"y":{:.4f},"theta":0.0,"mapId":"{}","positionInitialized":true,"localizationScore":0.97,"deviationRange":0.003}},)"
-            R"("velocity":{{"vx":{:.4f},"vy":0.0,"omega":0.0}},"loads":[],"information":[]}}}})",
-            header(now), node, x_m, y_m, hall, static_cast<double>(count) / kCounts));
-    }
-};
-
-struct Totals {
-    Histogram to_dashboard;
-    Histogram answers;
-    Histogram accepted;
-    std::map<int, int> statuses;
-    std::map<int, std::string> refusals;  // the first of each status, for whoever reads the figures
-    std::uint64_t states = 0, frames = 0, events = 0, events_lost = 0;
-    std::set<std::string> vehicles_lost;
-    int vehicles_cut = 0, dashboards_cut = 0, requests_cut = 0;
-};
-
-class Dashboard {
-public:
-    Dashboard(std::uint16_t port, const std::string& token, bool watches)
-        : peer(std::make_unique<Peer>(port)), watches_(watches) {
-        peer->ask_upgrade("/api/v1/stream", "Authorization: Bearer " + token + "\r\n");
-    }
-    void take(std::string_view text, std::map<std::string, Vehicle*, std::less<>>& vehicles,
-              bool counts, Totals& totals) {
-        ++totals.frames;
-        if (text.starts_with(R"({"type":"poses")")) {
-            if (watches_) take_poses(text, vehicles, counts, totals);
-        } else if (text.starts_with(R"({"event")") ||
-                   text.find(R"("type":"event")") != std::string_view::npos) {
-            take_event(text, totals);
-        }
-    }
-    std::unique_ptr<Peer> peer;
-
-private:
-    void take_poses(std::string_view text, std::map<std::string, Vehicle*, std::less<>>& vehicles,
-                    bool counts, Totals& totals) {
-        const auto now = Clock::now();
-        for (std::size_t at = text.find("[["); at != std::string_view::npos;) {
-            at = text.find('"', at);
-            if (at == std::string_view::npos) break;
-            const auto end = text.find('"', at + 1);
-            const std::string_view id = text.substr(at + 1, end - at - 1);
-            std::array<double, 5> values{};
-            const char* from = text.data() + end + 2;
-            for (double& value : values)
-                from = std::from_chars(from, text.data() + text.size(), value).ptr + 1;
-            const auto found = vehicles.find(id);
-            if (found != vehicles.end()) {
-                const auto count =
-                    static_cast<std::size_t>(std::lround(values[3] * Vehicle::kCounts)) %
-                    Vehicle::kCounts;
-                auto& last = seen_[found->second];
-                if (count != last && count != 0 && counts) {
-                    totals.to_dashboard.add(std::chrono::duration<double, std::milli>(
-                                                now - found->second->sent_at[count])
-                                                .count());
-                }
-                last = count;
-            }
-            at = static_cast<std::size_t>(from - text.data());
-        }
-    }
-    void take_event(std::string_view text, Totals& totals) {
-        const auto parsed = nlohmann::json::parse(text, nullptr, false);
-        if (!parsed.is_object()) return;
-        const auto& event = parsed.contains("event") ? parsed["event"] : parsed;
-        if (!event.contains("seq")) return;
-        const auto seq = event["seq"].get<std::int64_t>();
-        if (last_seq_ != 0 && seq != last_seq_ + 1)
-            totals.events_lost += static_cast<std::uint64_t>(std::abs(seq - last_seq_ - 1));
-        last_seq_ = seq;
-        ++totals.events;
-        if (event.value("type", "") == "vehicle.link") {
-            const auto to = event.value("params", nlohmann::json::object()).value("to", "");
-            if (to == "lost" || to == "gone")
-                totals.vehicles_lost.insert(event.value("vehicle", ""));
-        }
-    }
-    bool watches_;
-    std::map<const Vehicle*, std::size_t> seen_;
-    std::int64_t last_seq_ = 0;
 };
 
 /// A connection that stays open and asks one thing after the other.
@@ -219,7 +68,6 @@ public:
     }
 
     nlohmann::json run() {
-        begin_ = Clock::now();
         connect_all();
         const double warm_s = std::min(10.0, settings_.seconds / 4);
         const auto start = Clock::now();
@@ -264,13 +112,15 @@ private:
             vehicle->report(stamp);
         }
         for (int i = 0; i < settings_.dashboards; ++i) {
-            dashboards_.push_back(std::make_unique<Dashboard>(settings_.port, settings_.token,
-                                                              i < settings_.watchers));
+            const auto& tokens = settings_.dashboard_tokens;
+            dashboards_.push_back(std::make_unique<Dashboard>(
+                settings_.port, tokens[static_cast<std::size_t>(i) % tokens.size()],
+                i < settings_.watchers));
             wait_and_read(0);
         }
         wait_until_open([&] {
             return std::ranges::all_of(
-                dashboards_, [](const auto& d) { return d->peer->open() || d->peer->ended(); });
+                dashboards_, [](const auto& d) { return d->peer().open() || d->peer().ended(); });
         });
         for (int i = 0; i < 24; ++i) {
             askers_.push_back({std::make_unique<Peer>(settings_.port), {}, false, i < 8});
@@ -287,8 +137,7 @@ private:
         }
     }
 
-    /// The next thing to ask, counted from the moment it was due: an asker that waits is the
-    /// server's delay too.
+    /// The next thing to ask; one that finds all askers still waiting is counted as not asked.
     void ask(bool order, std::uint64_t index) {
         const auto free = std::ranges::find_if(askers_, [&](const Asker& a) {
             return !a.busy && a.orders == order && !a.peer->ended();
@@ -329,7 +178,7 @@ private:
         };
         for (auto& v : vehicles_)
             if (v->peer) add(*v->peer);
-        for (auto& d : dashboards_) add(*d->peer);
+        for (auto& d : dashboards_) add(d->peer());
         for (auto& a : askers_) add(*a.peer);
         ::poll(polled_.data(), polled_.size(), timeout_ms);
         std::size_t next = 0;
@@ -345,25 +194,23 @@ private:
             if (v->peer->ended()) ++totals_.vehicles_cut;
         }
         for (auto& d : dashboards_) {
-            if (!ready(*d->peer)) continue;
-            d->peer->read([&](std::string_view text) { d->take(text, by_id_, counts_, totals_); },
-                          [](const Peer::Answer&) {});
-            if (d->peer->ended()) ++totals_.dashboards_cut;
+            if (!ready(d->peer())) continue;
+            d->peer().read([&](std::string_view text) { d->take(text, by_id_, counts_, totals_); },
+                           [](const Peer::Answer&) {});
+            if (d->peer().ended()) ++totals_.dashboards_cut;
         }
         for (auto& a : askers_) {
             if (!ready(*a.peer)) continue;
-            a.peer->read(
-                [](std::string_view) {},
-                [&](const Peer::Answer& answer) {
-                    a.busy = false;
-                    ++totals_.statuses[answer.status];
-                    if (answer.status >= 300) {
-                        totals_.refusals.try_emplace(answer.status, answer.body);
-                    }
-                    const double ms =
-                        std::chrono::duration<double, std::milli>(Clock::now() - a.due).count();
-                    if (counts_) (a.orders ? totals_.accepted : totals_.answers).add(ms);
-                });
+            a.peer->read([](std::string_view) {},
+                         [&](const Peer::Answer& answer) {
+                             a.busy = false;
+                             ++totals_.statuses[answer.status];
+                             if (answer.status >= 300) {
+                                 totals_.refusals.try_emplace(answer.status, answer.body);
+                             }
+                             const double ms = ms_since(a.due);
+                             if (counts_) (a.orders ? totals_.accepted : totals_.answers).add(ms);
+                         });
             if (!a.peer->ended()) continue;
             // A connection has a thousand requests; then it is begun anew.
             if (a.busy) ++totals_.requests_cut;
@@ -397,12 +244,11 @@ private:
 
     Settings settings_;
     std::vector<std::unique_ptr<Vehicle>> vehicles_;
-    std::map<std::string, Vehicle*, std::less<>> by_id_;
+    VehiclesById by_id_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
     std::vector<Asker> askers_;
     std::vector<pollfd> polled_;
     Totals totals_;
-    Clock::time_point begin_;
     bool counts_ = false;
     std::uint64_t waits_ = 0;
 };

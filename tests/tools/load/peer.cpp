@@ -1,4 +1,4 @@
-#include "tests/tools/web_socket_peer.hpp"
+#include "tests/tools/load/peer.hpp"
 
 #include <arpa/inet.h>
 #include <fcntl.h>
@@ -109,7 +109,6 @@ void Peer::read(const Message& message, const std::function<void(const Answer&)>
         const auto got = ::recv(socket_, bytes.data(), bytes.size(), 0);
         if (got > 0) {
             in_.append(bytes.data(), static_cast<std::size_t>(got));
-            bytes_in_ += static_cast<std::size_t>(got);
             if (static_cast<std::size_t>(got) < bytes.size()) break;
         } else if (got < 0 && errno == EINTR) {
             continue;

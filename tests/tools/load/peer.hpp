@@ -30,7 +30,6 @@ public:
     bool open() const { return open_; }    // the upgrade was accepted
     bool ended() const { return ended_; }  // by the other side, or broken
     bool writes_wait() const { return !out_.empty(); }
-    std::size_t bytes_in() const { return bytes_in_; }
 
     void ask_upgrade(const std::string& path, const std::string& headers);
     void send_raw(std::string_view bytes);
@@ -54,7 +53,6 @@ private:
     std::size_t taken_ = 0;  // of in_
     std::string out_;
     std::string whole_;  // parts of a split message
-    std::size_t bytes_in_ = 0;
 };
 
 }  // namespace pulseline::load
