@@ -68,7 +68,8 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
                                     : option.mode == order.steps[i].mode;
             if (!wanted || !option.plan) continue;
             step.chosen = option.mode;
-            step.alternatives = fleet.planner.alternatives(request, *option.plan, kAlternatives);
+            step.alternatives =
+                fleet.planner.alternatives(request, *option.plan, kAlternatives, standing);
             if (i == 0) first_plan = *option.plan;
         }
         if (i == 0) first = station;

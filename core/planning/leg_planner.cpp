@@ -224,6 +224,40 @@ struct LegPlanner::Tables {
     std::shared_ptr<LegMemo> memo = std::make_shared<LegMemo>();  // of all planners of the plant
 };
 
+namespace {
+
+/// No closure is called so: theirs are random.
+std::string id_of(const StandingBody& body) { return "stands " + body.vehicle.str(); }
+
+}  // namespace
+
+/// As long as it lives, floor under who stands there counts as closed for one body.
+class LegPlanner::GoingRound {
+public:
+    GoingRound(Tables& tables, Tables::Prepared& by, const plant::HallId& hall,
+               const std::vector<StandingBody>& standing)
+        : tables_(tables), by_(by), closed_(tables.closures.size()) {
+        for (const StandingBody& body : standing) {
+            tables.closures.push_back({id_of(body), body.vehicle.str(), hall, body.outline, 0});
+        }
+        changed_ = !standing.empty();
+        if (changed_) by.lanes.set_closures(tables.closures);
+    }
+    ~GoingRound() {
+        if (!changed_) return;
+        tables_.closures.resize(closed_);
+        by_.lanes.set_closures(tables_.closures);
+    }
+    GoingRound(const GoingRound&) = delete;
+    GoingRound& operator=(const GoingRound&) = delete;
+
+private:
+    Tables& tables_;
+    Tables::Prepared& by_;
+    std::size_t closed_;
+    bool changed_;
+};
+
 LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
 LegPlanner::LegPlanner(std::unique_ptr<Tables> tables) : tables_(std::move(tables)) {}
 LegPlanner LegPlanner::again() const { return LegPlanner(std::make_unique<Tables>(*tables_)); }
@@ -236,9 +270,13 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
     assert(request.type);
     std::unique_ptr<Tables::Prepared> fresh;
     Tables::Prepared& by = tables_->of(*request.type, request.loaded, fresh);
+    const GoingRound round(*tables_, by, request.hall, standing);
     auto options = tables_->assess(request, by, modes_of(*request.type), true, standing);
     for (ModeOption& option : options) {
         if (option.plan) {
+            for (const StandingBody& body : standing) {
+                std::erase(option.plan->closures, id_of(body));
+            }
             describe(*request.type, by.passage.body, *tables_->roads.obstacles(request.hall),
                      standing, *option.plan);
         }
@@ -281,11 +319,14 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
         [&](const LegPlan& rest) { return joined(*request.type, *first, rest); });
 }
 
-std::vector<LegAlternative> LegPlanner::alternatives(const LegRequest& request, const LegPlan& plan,
-                                                     int count) const {
+std::vector<LegAlternative> LegPlanner::alternatives(
+    const LegRequest& request, const LegPlan& plan, int count,
+    const std::vector<StandingBody>& standing) const {
     assert(request.type);
     std::unique_ptr<Tables::Prepared> fresh;
-    const auto task = tables_->task_of(request, tables_->of(*request.type, request.loaded, fresh));
+    Tables::Prepared& by = tables_->of(*request.type, request.loaded, fresh);
+    const GoingRound round(*tables_, by, request.hall, standing);
+    const auto task = tables_->task_of(request, by);
     if (!task) return {};
     const plant::RoutingCost& k = task->cost;
     std::vector<LegAlternative> found;

@@ -88,12 +88,13 @@ public:
     /// Every motion mode of the vehicle type with its plan or the reason against it, in the order
     /// of plant::kMotionModes. A mode other than kAuto that is refused stays refused; `linear`
     /// drives straight when that is free, else along the roadmap route (turning at its nodes,
-    /// forwards or backwards) found by the direction-penalised A*. Standing bodies only lower
-    /// `clearance_m` and set `nearest`; they make nothing infeasible, since they may have left by
-    /// the time the leg starts (traffic waits for them). Reason codes besides those of plan_motion:
-    /// blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or obstacle), no_route {from, to,
-    /// blocked_by?}, footprint_too_large {edge, by, clearance_m, limit_m}, station_not_for_type
-    /// {station, vehicle_type}, unknown_station, other_hall {from, to}.
+    /// forwards or backwards) found by the direction-penalised A*. Standing bodies are gone round
+    /// where a mode has a way, as the order will go; else they lower `clearance_m` and set
+    /// `nearest` and make nothing infeasible, since they may have left by the time the leg starts
+    /// (traffic sends idle ones away and waits for the others). Reason codes besides those of
+    /// plan_motion: blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or obstacle), no_route
+    /// {from, to, blocked_by?}, footprint_too_large {edge, by, clearance_m, limit_m},
+    /// station_not_for_type {station, vehicle_type}, unknown_station, other_hall {from, to}.
     std::vector<ModeOption> assess_modes(const LegRequest& request,
                                          const std::vector<StandingBody>& standing) const;
 
@@ -107,9 +108,10 @@ public:
 
     /// Up to `count` other ways along the roadmap, by cost, sufficiently different from `plan`
     /// (what plan_leg or assess_modes gave for the request) and from each other, none over closed
-    /// floor.
+    /// floor or who stands there.
     std::vector<LegAlternative> alternatives(const LegRequest& request, const LegPlan& plan,
-                                             int count) const;
+                                             int count,
+                                             const std::vector<StandingBody>& standing) const;
 
     /// Floor closed from now on, instead of what was: legs lead round it where they can.
     void set_closures(std::vector<ClosedFloor> closures);
@@ -119,6 +121,7 @@ public:
 
 private:
     struct Tables;
+    class GoingRound;
     explicit LegPlanner(std::unique_ptr<Tables> tables);
     std::unique_ptr<Tables> tables_;
 };

@@ -51,7 +51,7 @@ TEST(LegAlternatives, SayWhatAnotherWayTakesMore) {
     ASSERT_TRUE(plan) << plan.error().what;
     ASSERT_EQ(text(plan->route), "abcd");
 
-    const auto others = planner.alternatives(request, *plan, 3);
+    const auto others = planner.alternatives(request, *plan, 3, {});
 
     ASSERT_EQ(others.size(), 1u);
     const LegAlternative& other = others.front();
@@ -85,7 +85,7 @@ TEST(LegAlternatives, NameTurnsWhereTheyDecide) {
     ASSERT_TRUE(plan) << plan.error().what;
 
     bool found = false;
-    for (const auto& other : with_bend.alternatives(request, *plan, 3)) {
+    for (const auto& other : with_bend.alternatives(request, *plan, 3, {})) {
         EXPECT_NEAR(other.more_cost, other.more_length + other.more_turns, 1e-9);
         EXPECT_NEAR(other.plan.cost - plan->cost, other.more_cost, 1e-9);
         if (text(other.plan.route) != "abhcd") continue;
@@ -94,6 +94,53 @@ TEST(LegAlternatives, NameTurnsWhereTheyDecide) {
         EXPECT_NEAR(other.more_turns, 490.0 * (other.plan.turns - plan->turns), 1e-9);
     }
     EXPECT_TRUE(found);
+}
+
+TEST(LegPlanner, GoesRoundWhoStandsOnTheWay) {
+    LegWorld world = two_lanes();
+    const LegPlanner planner(world.plant());
+    const auto request = world.request("tug", 1, 2);
+    const StandingBody idle{plant::VehicleId("V9"), {on_short_lane()}};
+    const StandingBody other{plant::VehicleId("V8"), {on_long_lane()}};
+
+    const auto round = planner.assess_modes(request, {idle})[0];
+    const auto none_free = planner.assess_modes(request, {idle, other})[0];
+    const auto nobody = planner.assess_modes(request, {})[0];
+
+    ASSERT_TRUE(round.plan && none_free.plan && nobody.plan);
+    EXPECT_EQ(text(round.plan->route), "abfgd");
+    EXPECT_GT(round.plan->clearance_m, 0);
+    EXPECT_TRUE(planner.alternatives(request, *round.plan, 3, {idle}).empty());
+    // They may leave: a way is shown all the same, and who stands on it.
+    EXPECT_EQ(none_free.plan->clearance_m, 0);
+    EXPECT_EQ(none_free.plan->nearest, "V9");
+    EXPECT_TRUE(none_free.plan->closures.empty());
+    // The question before leaves nothing behind.
+    EXPECT_EQ(text(nobody.plan->route), "abcd");
+    EXPECT_EQ(text(planner.plan_leg(request)->route), "abcd");
+}
+
+TEST(LegPlanner, TakesTheRoadsWhereWhoStandsThereBarsTheDirectWay) {
+    LegWorld world(24);
+    plant::Plant& plant = world.plant();
+    plant.nodes.push_back({plant::NodeId("x"), plant::HallId("hall"), {8, 30}});
+    for (const auto& [from, to] : {std::pair("a", "x"), std::pair("x", "e")}) {
+        plant.edges.push_back(
+            {plant::EdgeId(std::string(from) + to), plant::NodeId(from), plant::NodeId(to), 0, {}});
+    }
+    const LegPlanner planner(world.plant());
+    const auto request = world.request("platform", 1, 3);
+    const auto direct = planner.assess_modes(request, {})[0];
+    ASSERT_TRUE(direct.plan);
+    ASSERT_TRUE(direct.plan->route.empty());
+    const StandingBody idle{plant::VehicleId("V9"),
+                            {geometry::transformed({20, 30, 0}, geometry::rectangle(1, 1))}};
+
+    const auto option = planner.assess_modes(request, {idle})[0];
+
+    ASSERT_TRUE(option.plan);
+    EXPECT_EQ(text(option.plan->route), "axe");
+    EXPECT_GT(option.plan->clearance_m, 0);
 }
 
 TEST(LegAlternatives, KeepOffClosedFloor) {
@@ -105,7 +152,7 @@ TEST(LegAlternatives, KeepOffClosedFloor) {
     const auto plan = planner.plan_leg(request);
 
     ASSERT_TRUE(plan);
-    EXPECT_TRUE(planner.alternatives(request, *plan, 3).empty());
+    EXPECT_TRUE(planner.alternatives(request, *plan, 3, {}).empty());
 }
 
 TEST(LegClosures, AreGoneRoundWhereThereIsAnotherWay) {
