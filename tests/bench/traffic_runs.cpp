@@ -81,9 +81,11 @@ private:
     };
 
     void step(bool new_orders) {
+        // All that end a move now have ended it before anybody is granted floor, or half of those
+        // who wait for another would wait a whole step longer.
+        for (VehicleIndex v = 0; v < vehicles_.size(); ++v) drive(v);
         for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
-            drive(v);
-            if (new_orders && vehicles_[v].goal == traffic::kNoPlace) {
+            if (new_orders && world_.vehicles[v].busy && vehicles_[v].goal == traffic::kNoPlace) {
                 vehicles_[v].goal = orders_.next(v);
                 vehicles_[v].since_s = vehicles_[v].given_s = now_s_;
             }

@@ -23,6 +23,7 @@ struct World {
         PlaceIndex start = 0;  // a resting place of that graph
         std::size_t zone = 0;  // whose orders it gets: its hall
         bool loaded = false;   // does not leave its rest for others while it has no order
+        bool busy = true;      // gets orders; the others stay where they rest
     };
     std::string name;
     std::vector<traffic::MoveGraph> graphs;
@@ -87,9 +88,13 @@ double quantile(std::vector<double>& values, double share);
 Run run_traffic(const World& world, double seconds, std::uint64_t releases);
 /// No more can be done: each vehicle on a floor of its own, the same orders one after the other.
 Run run_alone(const World& world, double seconds);
+/// Orders an hour that the floor lets through at most, whoever controls it: no piece of floor has
+/// two holders at a time. A true bound for orders between random goals; it holds in the long run.
+double floor_capacity(const World& world);
 /// A leg gets all its tiles at once. Stuck: no move in the last ten minutes.
 Run run_exclusive_legs(const World& world, double seconds);
 /// Only for vehicles of one class on moves of one step. Stuck: no order done in ten minutes.
-std::optional<Run> run_pibt(const World& world, double seconds);
+/// `one_holder`: a place is entered when it was free before, not while another leaves it.
+std::optional<Run> run_pibt(const World& world, double seconds, bool one_holder);
 
 }  // namespace pulseline::bench
