@@ -115,6 +115,14 @@ std::vector<fleet::JobOrder> load_orders(soci::session& sql, std::int64_t since_
         }
         of->steps.push_back(step.get());
     }
+    for (const auto& one : orders) {
+        // The fleet relies on it when it looks up the step of an open order.
+        const bool open =
+            one.state != fleet::JobState::kEnded && one.state != fleet::JobState::kAborted;
+        if (one.current_step < one.steps.size() + (open ? 0 : 1)) continue;
+        throw Error(Error::Kind::kBadValue, "The database lacks steps of the order " +
+                                                one.id.str() + "; restore a backup.");
+    }
     std::ranges::sort(orders, {}, &fleet::JobOrder::number);
     return orders;
 }
