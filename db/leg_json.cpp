@@ -206,7 +206,7 @@ Leg decode_leg(const Json& j) {
     // The fleet relies on it when it looks up nodes and edges. A vehicle may say that it has passed
     // more than was released.
     const auto counts = [&](std::size_t nodes) { return nodes >= 1 && nodes <= leg.nodes.size(); };
-    if (leg.edges.size() + 1 != leg.nodes.size() || !counts(leg.released_nodes) ||
+    if (leg.step < 0 || leg.edges.size() + 1 != leg.nodes.size() || !counts(leg.released_nodes) ||
         !counts(leg.passed_nodes)) {
         throw Error(Error::Kind::kBadValue, "The database holds a damaged leg; restore a backup.");
     }

@@ -228,7 +228,7 @@ std::string loaded_after(const std::string& damage) {
 TEST(FleetStore, RefusesALegWhoseCountsDoNotFit) {
     ASSERT_EQ(loaded_after("UPDATE vehicles_state SET x_m = 1"), "loaded");
     for (const char* part :
-         {"'$.passed_nodes', 9", "'$.passed_nodes', 0", "'$.released_nodes', 0",
+         {"'$.step', -1", "'$.passed_nodes', 9", "'$.passed_nodes', 0", "'$.released_nodes', 0",
           "'$.released_nodes', 4", "'$.edges', json('[]')", "'$.nodes', json('[]')"}) {
         EXPECT_EQ(loaded_after("UPDATE vehicles_state SET leg_data = json_set(leg_data, " +
                                std::string(part) + ")"),
