@@ -291,9 +291,10 @@ fleet::StoredFleet FleetStore::load() {
     return reading(database_.path(), [&] {
         soci::session& sql = database_.sql();
         fleet::StoredFleet stored;
-        stored.last_event_seq = scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events");
-        stored.last_journal_seq = journal_.last_seq();
-        stored.last_order_number = scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders");
+        stored.last_event_seq = count(scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events"));
+        stored.last_journal_seq = count(journal_.last_seq());
+        stored.last_order_number =
+            count(scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders"));
         const std::int64_t newest_ns = newest_time(sql);
         stored.last_time = time_from_ns(newest_ns);
         std::int64_t since_ns = newest_ns - kKept_ns;

@@ -214,7 +214,9 @@ std::string loaded_after(const std::string& damage) {
     records.orders = {samples.order(1, 0)};
     records.vehicles = {samples.vehicle("TP-01")};
     records.schedules = {samples.schedule("night", 0)};
+    records.events = {samples.event(1, 0)};
     store.commit(records);
+    database.sql() << "PRAGMA ignore_check_constraints = ON";
     database.sql() << damage;
     try {
         (void)store.load();
@@ -254,6 +256,18 @@ TEST(FleetStore, RefusesWhatIsNoWholeNumberOrNoKind) {
           "UPDATE job_order_schedules SET body = json_set(body, '$.steps[0].station', -1e30)",
           "UPDATE job_order_schedules SET daily_at_s = '[1e30]'"}) {
         EXPECT_TRUE(loaded_after(damage).ends_with("restore a backup.")) << damage;
+    }
+}
+
+TEST(FleetStore, RefusesCountsThatCannotGoOn) {
+    for (const char* damage :
+         {"UPDATE orders SET revision = 9223372036854775807", "UPDATE orders SET number = -1",
+          "UPDATE orders SET number = 9223372036854775807",
+          "UPDATE job_order_schedules SET revision = 9223372036854775807",
+          "UPDATE job_order_schedules SET made = 9223372036854775807",
+          "UPDATE job_order_schedules SET skipped = 9223372036854775807",
+          "UPDATE events SET seq = 9223372036854775807"}) {
+        EXPECT_NE(loaded_after(damage).find("a count that cannot be"), std::string::npos) << damage;
     }
 }
 
