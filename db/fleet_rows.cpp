@@ -75,7 +75,7 @@ void OrderRow::set(const fleet::JobOrder& order) {
 fleet::JobOrder OrderRow::get() const {
     fleet::JobOrder order;
     read_id(id, order.id);
-    order.number = number;
+    order.number = count(number);
     order.client_order_id = client_order_id;
     order.wanted_vehicle = plant::VehicleId(wanted_vehicle);
     order.assigned_vehicle = plant::VehicleId(assigned_vehicle);
@@ -90,7 +90,7 @@ fleet::JobOrder OrderRow::get() const {
     order.started = time_from_ns(started_ns);
     order.ended = time_from_ns(ended_ns);
     if (expected_ns != 0) order.expected = time_from_ns(expected_ns);
-    order.revision = revision;
+    order.revision = count(revision);
     order.wanted_type = plant::VehicleTypeId(wanted_type);
     if (earliest_start_ns != 0) order.earliest_start = time_from_ns(earliest_start_ns);
     if (due_ns != 0) order.due = time_from_ns(due_ns);

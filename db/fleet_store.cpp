@@ -115,6 +115,14 @@ std::vector<fleet::JobOrder> load_orders(soci::session& sql, std::int64_t since_
         }
         of->steps.push_back(step.get());
     }
+    for (const auto& one : orders) {
+        // The fleet relies on it when it looks up the step of an open order.
+        const bool open =
+            one.state != fleet::JobState::kEnded && one.state != fleet::JobState::kAborted;
+        if (one.current_step < one.steps.size() + (open ? 0 : 1)) continue;
+        throw Error(Error::Kind::kBadValue, "The database lacks steps of the order " +
+                                                one.id.str() + "; restore a backup.");
+    }
     std::ranges::sort(orders, {}, &fleet::JobOrder::number);
     return orders;
 }
@@ -283,9 +291,10 @@ fleet::StoredFleet FleetStore::load() {
     return reading(database_.path(), [&] {
         soci::session& sql = database_.sql();
         fleet::StoredFleet stored;
-        stored.last_event_seq = scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events");
-        stored.last_journal_seq = journal_.last_seq();
-        stored.last_order_number = scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders");
+        stored.last_event_seq = count(scalar(sql, "SELECT COALESCE(MAX(seq), 0) FROM events"));
+        stored.last_journal_seq = count(journal_.last_seq());
+        stored.last_order_number =
+            count(scalar(sql, "SELECT COALESCE(MAX(number), 0) FROM orders"));
         const std::int64_t newest_ns = newest_time(sql);
         stored.last_time = time_from_ns(newest_ns);
         std::int64_t since_ns = newest_ns - kKept_ns;

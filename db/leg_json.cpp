@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "db/error.hpp"
+#include "db/json_number.hpp"
 #include "db/names.hpp"
 
 namespace pulseline::db {
@@ -70,7 +71,7 @@ Json encode(const StopTarget& t) {
 StopTarget decode_stop_target(const Json& j) {
     StopTarget t;
     t.station_id = j.at("station");
-    t.station_number = j.at("number");
+    t.station_number = whole<int>(j.at("number"));
     t.target = decode_pose(j.at("target"));
     t.tolerance_x_m = j.at("tolerance").at(0);
     t.tolerance_y_m = j.at("tolerance").at(1);
@@ -100,7 +101,7 @@ Action decode_action(const Json& j) {
     Action a;
     a.type = j.at("type");
     a.id = j.at("id");
-    a.blocking = static_cast<fleet::BlockingType>(j.at("blocking").get<int>());
+    a.blocking = enumerator(j.at("blocking"), fleet::BlockingType::kHard);
     a.params = decode_params(j.at("params"));
     if (j.contains("stop_target")) a.stop_target = decode_stop_target(j.at("stop_target"));
     if (j.contains("init_position")) {
@@ -127,7 +128,7 @@ Json encode(const OrderNode& n) {
 OrderNode decode_node(const Json& j) {
     OrderNode n;
     n.node_id = j.at("id");
-    n.sequence_id = j.at("seq");
+    n.sequence_id = whole<decltype(n.sequence_id)>(j.at("seq"));
     n.released = j.at("released");
     n.pose = decode_pose(j.at("pose"));
     n.has_heading = j.at("has_heading");
@@ -151,7 +152,7 @@ Json encode(const Segment& s) {
 
 Segment decode_segment(const Json& j) {
     Segment s;
-    s.kind = static_cast<Segment::Kind>(j.at("kind").get<int>());
+    s.kind = enumerator(j.at("kind"), Segment::Kind::kCombined);
     s.start = decode_pose(j.at("start"));
     s.end = decode_pose(j.at("end"));
     s.turn_rad = j.at("turn");
@@ -176,8 +177,8 @@ Json encode(const OrderEdge& e) {
 }
 
 OrderEdge decode_edge(const Json& j) {
-    OrderEdge edge{j.at("id"), j.at("seq"), j.at("released"), decode_segment(j.at("segment")),
-                   j.at("max_speed")};
+    OrderEdge edge{j.at("id"), whole<decltype(OrderEdge::sequence_id)>(j.at("seq")),
+                   j.at("released"), decode_segment(j.at("segment")), j.at("max_speed")};
     if (const auto corridor = j.find("corridor"); corridor != j.end()) {
         edge.corridor = {corridor->at("left"), corridor->at("right")};
     }
@@ -188,20 +189,27 @@ Leg decode_leg(const Json& j) {
     Leg leg;
     read_id(j.at("id"), leg.id);
     read_id(j.at("order"), leg.order);
-    leg.step = j.at("step");
+    leg.step = whole<int>(j.at("step"));
     leg.vehicle = plant::VehicleId(j.at("vehicle"));
     leg.station = plant::StationId(j.at("station"));
     read(j.at("mode").get<std::string>(), leg.mode);
     leg.hall = j.at("hall");
-    leg.update_id = j.at("update");
+    leg.update_id = whole<std::int64_t>(j.at("update"));
     for (const Json& n : j.at("nodes")) leg.nodes.push_back(decode_node(n));
     for (const Json& e : j.at("edges")) leg.edges.push_back(decode_edge(e));
-    leg.released_nodes = j.at("released_nodes");
-    leg.passed_nodes = j.at("passed_nodes");
+    leg.released_nodes = whole<std::size_t>(j.at("released_nodes"));
+    leg.passed_nodes = whole<std::size_t>(j.at("passed_nodes"));
     leg.duration_s = j.at("duration");
-    leg.attempt = j.at("attempt");
+    leg.attempt = whole<int>(j.at("attempt"));
     leg.actions_only = j.value("actions_only", false);  // older rows do not say
     leg.charges = j.value("charges", false);
+    // The fleet relies on it when it looks up nodes and edges. A vehicle may say that it has passed
+    // more than was released.
+    const auto counts = [&](std::size_t nodes) { return nodes >= 1 && nodes <= leg.nodes.size(); };
+    if (leg.step < 0 || leg.edges.size() + 1 != leg.nodes.size() || !counts(leg.released_nodes) ||
+        !counts(leg.passed_nodes)) {
+        throw Error(Error::Kind::kBadValue, "The database holds a damaged leg; restore a backup.");
+    }
     return leg;
 }
 

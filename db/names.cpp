@@ -99,6 +99,13 @@ void read(const std::string& name, plant::AreaKind& to) {
                name, to);
 }
 
+std::int64_t count(std::int64_t value) {
+    constexpr std::int64_t kMost = std::int64_t{1} << 53;  // JSON's readers hold no more
+    if (value >= 0 && value <= kMost) return value;
+    throw Error(Error::Kind::kBadValue, "The database holds a count that cannot be: " +
+                                            std::to_string(value) + "; restore a backup.");
+}
+
 void bad_id(const std::string& text) {
     throw Error(Error::Kind::kBadValue,
                 "The database holds a damaged id \"" + text + "\"; restore a backup.");

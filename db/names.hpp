@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "core/fleet/job_order.hpp"
@@ -23,6 +24,9 @@ void read(const std::string& name, plant::MotionMode& to);
 void read(const std::string& name, plant::Kinematics& to);
 void read(const std::string& name, plant::MarkerKind& to);
 void read(const std::string& name, plant::AreaKind& to);
+
+/// The value, or db::Error when nobody can go on counting from it.
+std::int64_t count(std::int64_t value);
 
 /// '' for an empty id.
 template <class IdType>

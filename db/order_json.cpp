@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "db/error.hpp"
+#include "db/json_number.hpp"
 #include "db/leg_json.hpp"
 #include "db/names.hpp"
 
@@ -67,7 +68,7 @@ std::vector<fleet::Dependency> dependencies_from_json(const std::string& text) {
         for (const Json& item : json) {
             fleet::Dependency one;
             read_id(item.at("order"), one.order);
-            one.number = item.at("number");
+            one.number = whole<std::int64_t>(item.at("number"));
             const std::string outcome = item.at("outcome");
             if (!outcome.empty()) read(outcome, one.outcome.emplace());
             dependencies.push_back(one);
@@ -79,7 +80,11 @@ std::vector<fleet::Dependency> dependencies_from_json(const std::string& text) {
 std::string seconds_to_json(const std::vector<int>& seconds) { return text_of(Json(seconds)); }
 
 std::vector<int> seconds_from_json(const std::string& text) {
-    return decoded(text, [](const Json& json) { return json.get<std::vector<int>>(); });
+    return decoded(text, [](const Json& json) {
+        std::vector<int> seconds;
+        for (const Json& item : json) seconds.push_back(whole<int>(item));
+        return seconds;
+    });
 }
 
 std::string body_to_json(const fleet::NewOrder& order) {
@@ -104,13 +109,13 @@ fleet::NewOrder body_from_json(const std::string& text) {
         fleet::NewOrder order;
         order.vehicle = plant::VehicleId(json.at("vehicle").get<std::string>());
         order.vehicle_type = plant::VehicleTypeId(json.at("vehicle_type").get<std::string>());
-        order.priority = json.at("priority");
+        order.priority = whole<int>(json.at("priority"));
         order.start = json.at("start");
         order.sequence = json.at("sequence");
         order.from_template = json.at("template");
         for (const Json& item : json.at("steps")) {
             fleet::NewStep step;
-            step.station_number = item.at("station");
+            step.station_number = whole<int>(item.at("station"));
             read(item.at("mode").get<std::string>(), step.mode);
             step.before = decode_actions(item.at("before"));
             step.after = decode_actions(item.at("after"));

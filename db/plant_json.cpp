@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "db/error.hpp"
+#include "db/json_number.hpp"
 #include "db/leg_json.hpp"
 
 namespace pulseline::db {
@@ -98,8 +99,14 @@ std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
 }
 std::vector<plant::Camera> cameras_from_json(const std::string& text) {
     return list_from_json<plant::Camera>(text, [](const Json& j) {
-        plant::Camera camera{mounting_from_json(j), j.at("name"),  j.at("f_px"),  j.at("width_px"),
-                             j.at("height_px"),     j.at("cu_px"), j.at("cv_px"), j.at("k1")};
+        plant::Camera camera{mounting_from_json(j),
+                             j.at("name"),
+                             j.at("f_px"),
+                             whole<int>(j.at("width_px")),
+                             whole<int>(j.at("height_px")),
+                             j.at("cu_px"),
+                             j.at("cv_px"),
+                             j.at("k1")};
         if (j.contains("loaded")) camera.loaded = mounting_from_json(j.at("loaded"));
         return camera;
     });

@@ -41,12 +41,12 @@ fleet::Schedule ScheduleRow::get() const {
     schedule.paused = paused != 0;
     if (next_ns != 0) schedule.next = time_from_ns(next_ns);
     read_id(newest_order, schedule.newest_order);
-    schedule.made = made;
-    schedule.skipped = skipped;
+    schedule.made = count(made);
+    schedule.skipped = count(skipped);
     schedule.last_skip = {last_skip_code, params_from_json(last_skip_params)};
     schedule.created_by = created_by;
     schedule.created = time_from_ns(created_ns);
-    schedule.revision = revision;
+    schedule.revision = count(revision);
     return schedule;
 }
 

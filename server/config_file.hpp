@@ -12,5 +12,8 @@ namespace pulseline::server {
 /// those in `given` were set on the command line and win. An unknown key is an error.
 Status read_config_file(const std::string& path, const std::set<std::string>& given,
                         Options& options);
+/// The same of its text; errors name it `path`.
+Status read_config(const std::string& path, const std::string& bytes,
+                   const std::set<std::string>& given, Options& options);
 
 }  // namespace pulseline::server

@@ -1,4 +1,5 @@
 #include "api/http/problem.hpp"
+#include "api/http/requests.hpp"
 #include "server/sessions.hpp"
 
 namespace pulseline::server {
@@ -9,24 +10,14 @@ constexpr auto kHeartbeat = std::chrono::seconds(10);
 
 /// Where to start: behind Last-Event-ID, else behind `after`, else now.
 Result<std::int64_t> start_behind(const api::Request& request, std::int64_t newest) {
-    std::string text = request.header("last-event-id");
-    std::string field = "Last-Event-ID";
-    if (text.empty()) {
-        text = request.query_value("after").value_or("");
-        field = "after";
-    }
-    if (text.empty()) return newest;
-    const bool digits =
-        text.size() <= 18 && text.find_first_not_of("0123456789") == std::string::npos;
-    if (!digits) {
-        return fail(Errc::kInvalid, "bad_parameter",
-                    field + " must be a sequence number, such as 42.", field);
-    }
-    const auto seq = std::stoll(text);
+    const auto named = api::read_event_start(request);
+    if (!named) return fail(named.error());
+    const std::int64_t seq = named->value_or(newest);
     if (seq > newest) {
         return fail(Errc::kInvalid, "event_unknown",
-                    field + " is newer than the newest event; leave it out to start from now.",
-                    field, {{"newest", newest}});
+                    "That is newer than the newest event; leave it out to start from now.",
+                    request.header("last-event-id").empty() ? "?after" : "Last-Event-ID",
+                    {{"newest", newest}});
     }
     return seq;
 }

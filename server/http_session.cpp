@@ -250,7 +250,7 @@ api::Request unreadable(const Upgrade& message, const std::string& peer) {
 template <class Stream>
 tl::expected<api::Request, api::Response> understand(Context& context, const Upgrade& message,
                                                      const std::string& peer) {
-    auto read = to_request(context, message, peer, kIsTls<Stream>);
+    auto read = to_request(context.options.limits, context.proxies, message, peer, kIsTls<Stream>);
     if (read) return std::move(*read);
     const auto partial = unreadable<Stream>(message, peer);
     return tl::unexpected<api::Response>(

@@ -23,8 +23,9 @@ std::string request_id(beast::string_view offered) {
     return text.data();
 }
 
-Result<api::Request> to_request(const Context& context, const Upgrade& message,
-                                const std::string& peer, bool tls) {
+Result<api::Request> to_request(const Limits& limits, const TrustedProxies& proxies,
+                                const Parser::value_type& message, const std::string& peer,
+                                bool tls) {
     api::Request request;
     request.method = std::string(message.method_string());
     request.peer = peer;
@@ -50,7 +51,7 @@ Result<api::Request> to_request(const Context& context, const Upgrade& message,
         at->second += name == "cookie" ? "; " : ", ";
         at->second += std::string(field.value());
     }
-    if (fields > context.options.limits.header_fields) {
+    if (fields > limits.header_fields) {
         return fail(Errc::kInvalid, "too_many_headers", "Too many headers; send at most 64.");
     }
     if (message.version() == 11 && message.find(http::field::host) == message.end()) {
@@ -69,9 +70,9 @@ Result<api::Request> to_request(const Context& context, const Upgrade& message,
                         "The only transfer coding is chunked, in HTTP/1.1; send Content-Length.");
         }
     }
-    if (context.proxies.contains(peer)) {
+    if (proxies.contains(peer)) {
         request.secure = request.header("x-forwarded-proto") == "https";
-        request.peer = context.proxies.client(peer, request.header("x-forwarded-for"));
+        request.peer = proxies.client(peer, request.header("x-forwarded-for"));
     }
     const auto target = message.target();
     if (!api::parse_target({target.data(), target.size()}, request)) {

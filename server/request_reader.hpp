@@ -2,15 +2,19 @@
 
 #include <optional>
 
-#include "server/context.hpp"
+#include "api/http/message.hpp"
+#include "server/net.hpp"
+#include "server/options.hpp"
+#include "server/proxies.hpp"
 
 namespace pulseline::server {
 
 using Parser = http::request_parser<http::string_body>;
 
 /// The handlers' view of a parsed request. An error says what is wrong with the head.
-Result<api::Request> to_request(const Context& context, const Upgrade& message,
-                                const std::string& peer, bool tls);
+Result<api::Request> to_request(const Limits& limits, const TrustedProxies& proxies,
+                                const Parser::value_type& message, const std::string& peer,
+                                bool tls);
 
 /// A usable id of the client's, else a new one.
 std::string request_id(beast::string_view offered);

@@ -350,10 +350,9 @@ Result<fleet::StopQuery> read_stop_query(const Request& request) {
 }
 
 Result<std::optional<std::int64_t>> read_event_start(const Request& request) {
-    const auto header = request.headers.find("last-event-id");
-    const bool in_header = header != request.headers.end();
-    const auto text =
-        in_header ? std::optional<std::string>(header->second) : request.query_value("after");
+    const std::string& header = request.header("last-event-id");
+    const bool in_header = !header.empty();
+    const auto text = in_header ? std::optional<std::string>(header) : request.query_value("after");
     if (!text) return std::optional<std::int64_t>();
     const auto seq = parse_integer(*text, 0, std::numeric_limits<std::int64_t>::max());
     if (!seq) {

@@ -158,7 +158,7 @@ Json read_values(const Json& parameters, const Json* given, FieldErrors& errors)
         if (values.contains(name)) continue;
         const bool declared =
             std::any_of(parameters.begin(), parameters.end(),
-                        [&name = name](const Json& p) { return p["name"] == name; });
+                        [&wanted = name](const Json& p) { return p["name"] == wanted; });
         if (declared) continue;
         errors.add(json::child_pointer("/parameters", std::string_view(name)),
                    {"unknown_parameter", {{"parameter", name}}},

@@ -63,7 +63,7 @@ double way_s(FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
         fleet.planner.plan_leg(leg_request(fleet, run, run.record.pose, first.station, first.mode));
     if (plan) return plan->duration_s;
     const auto* station = plant::find_station(fleet.plant, first.station);
-    return nearly_there(run, run.record.pose, *station) ? 0 : kNever;
+    return station && nearly_there(run, run.record.pose, *station) ? 0 : kNever;
 }
 
 /// Why the order has no vehicle now.

@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::size_t kMostClosures = 200;
 constexpr std::size_t kMostCorners = 64;
+// An outline may reach any distance; its tiles beyond the hall and who stands half outside would
+// only take memory.
+constexpr double kBeyondHall_m = 20.0;
 constexpr double kLaneHalfWidth_m = 0.1;  // the line vehicles' centres follow
 // The ends of a lane stay open: who stands at its nodes is not on it. Nobody drives it without
 // crossing its middle.
@@ -53,9 +56,14 @@ std::optional<std::pair<const plant::RoadmapNode*, const plant::RoadmapNode*>> e
 
 traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
     traffic::TileSet tiles;
-    if (!closure.outline.empty()) {
-        tiles = traffic::tiles_under(hall_index(fleet.plant, closure.hall),
-                                     geometry::convex_pieces(closure.outline), 0);
+    if (const auto* hall = plant::find_hall(fleet.plant, closure.hall);
+        hall && !closure.outline.empty()) {
+        auto pieces = geometry::convex_pieces(closure.outline);
+        geometry::Box box = geometry::bounding_box(hall->outline);
+        box.min = {box.min.x_m - kBeyondHall_m, box.min.y_m - kBeyondHall_m};
+        box.max = {box.max.x_m + kBeyondHall_m, box.max.y_m + kBeyondHall_m};
+        for (auto& piece : pieces) piece = geometry::clipped(piece, box);
+        tiles = traffic::tiles_under(hall_index(fleet.plant, closure.hall), pieces, 0);
     }
     for (const auto& id : closure.edges) {
         const auto ends = ends_of(fleet.plant, id);

@@ -27,6 +27,23 @@ void interrupt_after_restart(FleetState& fleet, Time now) {
     }
 }
 
+/// The plant may have been imported anew: what is left of an order may name stations that are gone.
+/// A leg under way is driven to its end first, see start_step.
+void abort_without_station(FleetState& fleet, Time now) {
+    const auto open = fleet.orders.open();  // a copy: those that are aborted leave it
+    for (const JobOrderId& id : open) {
+        JobOrder& order = *fleet.find(id);
+        const VehicleRun* run = fleet.find(order.assigned_vehicle);
+        if (run && run->has_leg()) continue;
+        for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
+            const plant::StationId station = order.steps[i].station;
+            if (plant::find_station(fleet.plant, station)) continue;
+            abort_order(fleet, order, {"station_gone", {{"station", station.str()}}}, {}, now);
+            break;
+        }
+    }
+}
+
 }  // namespace
 
 namespace {
@@ -84,6 +101,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
         if (is_in_doubt(run)) keep_doubt(fleet, run, now);
     }
+    abort_without_station(fleet, now);
 }
 
 }  // namespace pulseline::fleet

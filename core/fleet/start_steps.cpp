@@ -119,6 +119,10 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     }
     Step& step = order.steps[order.current_step];
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
+    if (!station) {  // gone with the plant that it was ordered in
+        const Reason gone{"station_gone", {{"station", step.station.str()}}};
+        return abort_order(fleet, order, gone, {}, now);
+    }
     const LegId id(fleet.ids.next(now));
     auto actions = next_actions_leg(fleet, order, run, id);
     const bool corrects = !actions && nearly_there(run, run.record.pose, *station);

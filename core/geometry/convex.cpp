@@ -130,4 +130,28 @@ std::vector<Polygon> convex_pieces(const Polygon& polygon) {
     return result;
 }
 
+Polygon clipped(const Polygon& convex, const Box& box) {
+    Polygon left = convex;
+    // One side after the other: `inside` is how far a corner is on the good side of it.
+    const auto cut = [&left](auto inside) {
+        Polygon kept;
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            const Point2& a = left[i];
+            const Point2& b = left[(i + 1) % left.size()];
+            const double at_a = inside(a);
+            const double at_b = inside(b);
+            if (at_a >= 0) kept.push_back(a);
+            if ((at_a >= 0) == (at_b >= 0)) continue;
+            const double share = at_a / (at_a - at_b);
+            kept.push_back({a.x_m + share * (b.x_m - a.x_m), a.y_m + share * (b.y_m - a.y_m)});
+        }
+        left = std::move(kept);
+    };
+    cut([&](const Point2& p) { return p.x_m - box.min.x_m; });
+    cut([&](const Point2& p) { return box.max.x_m - p.x_m; });
+    cut([&](const Point2& p) { return p.y_m - box.min.y_m; });
+    cut([&](const Point2& p) { return box.max.y_m - p.y_m; });
+    return left;
+}
+
 }  // namespace pulseline::geometry

@@ -192,6 +192,7 @@ TEST(FleetStore, OrdersAndVehiclesAreReplacedById) {
     records.vehicles = {samples.vehicle("TP-01")};
     store.commit(records);
     records.orders[0].steps.pop_back();
+    records.orders[0].current_step = 0;
     records.orders[0].state = fleet::JobState::kInterrupted;
     records.vehicles[0].has_leg = false;
     records.vehicles[0].leg = {};
@@ -202,6 +203,82 @@ TEST(FleetStore, OrdersAndVehiclesAreReplacedById) {
     expect_same(stored.orders[0], records.orders[0]);
     ASSERT_EQ(stored.vehicles.size(), 1u);
     EXPECT_FALSE(stored.vehicles[0].has_leg);
+}
+
+/// What loading says of a fleet whose rows were damaged by that statement.
+std::string loaded_after(const std::string& damage) {
+    Database database(":memory:");
+    FleetStore store(database);
+    Samples samples(1);
+    fleet::Records records;
+    records.orders = {samples.order(1, 0)};
+    records.vehicles = {samples.vehicle("TP-01")};
+    records.schedules = {samples.schedule("night", 0)};
+    records.events = {samples.event(1, 0)};
+    store.commit(records);
+    database.sql() << "PRAGMA ignore_check_constraints = ON";
+    database.sql() << damage;
+    try {
+        (void)store.load();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), Error::Kind::kBadValue);
+        return error.what();
+    }
+    return "loaded";
+}
+
+TEST(FleetStore, RefusesALegWhoseCountsDoNotFit) {
+    ASSERT_EQ(loaded_after("UPDATE vehicles_state SET x_m = 1"), "loaded");
+    for (const char* part :
+         {"'$.step', -1", "'$.passed_nodes', 9", "'$.passed_nodes', 0", "'$.released_nodes', 0",
+          "'$.released_nodes', 4", "'$.edges', json('[]')", "'$.nodes', json('[]')"}) {
+        EXPECT_EQ(loaded_after("UPDATE vehicles_state SET leg_data = json_set(leg_data, " +
+                               std::string(part) + ")"),
+                  "The database holds a damaged leg; restore a backup.")
+            << part;
+    }
+}
+
+TEST(FleetStore, RefusesWhatIsNoWholeNumberOrNoKind) {
+    for (const char* part : {"'$.step', 1e300", "'$.step', 0.5", "'$.step', 3000000000",
+                             "'$.released_nodes', -1", "'$.update', 1e19", "'$.attempt', 'x'",
+                             "'$.nodes[0].seq', -1e30", "'$.edges[0].seq', 1e30",
+                             "'$.edges[0].segment.kind', 4", "'$.nodes[2].actions[0].blocking', -1",
+                             "'$.nodes[2].actions[0].stop_target.number', 1e10"}) {
+        EXPECT_TRUE(loaded_after("UPDATE vehicles_state SET leg_data = json_set(leg_data, " +
+                                 std::string(part) + ")")
+                        .ends_with("restore a backup."))
+            << part;
+    }
+    for (const char* damage :
+         {"UPDATE orders SET dependencies = json_set(dependencies, '$[0].number', 1e30)",
+          "UPDATE job_order_schedules SET body = json_set(body, '$.priority', 1e30)",
+          "UPDATE job_order_schedules SET body = json_set(body, '$.steps[0].station', -1e30)",
+          "UPDATE job_order_schedules SET daily_at_s = '[1e30]'"}) {
+        EXPECT_TRUE(loaded_after(damage).ends_with("restore a backup.")) << damage;
+    }
+}
+
+TEST(FleetStore, RefusesCountsThatCannotGoOn) {
+    for (const char* damage :
+         {"UPDATE orders SET revision = 9223372036854775807", "UPDATE orders SET number = -1",
+          "UPDATE orders SET number = 9223372036854775807",
+          "UPDATE job_order_schedules SET revision = 9223372036854775807",
+          "UPDATE job_order_schedules SET made = 9223372036854775807",
+          "UPDATE job_order_schedules SET skipped = 9223372036854775807",
+          "UPDATE events SET seq = 9223372036854775807"}) {
+        EXPECT_NE(loaded_after(damage).find("a count that cannot be"), std::string::npos) << damage;
+    }
+}
+
+TEST(FleetStore, RefusesAnOrderThatLacksItsStep) {
+    for (const char* damage :
+         {"DELETE FROM job_order_steps", "DELETE FROM job_order_steps WHERE position = 1",
+          "UPDATE orders SET current_step = 2"}) {
+        EXPECT_NE(loaded_after(damage).find("lacks steps of the order"), std::string::npos)
+            << damage;
+    }
+    EXPECT_EQ(loaded_after("UPDATE orders SET current_step = 2, state = 'Ended'"), "loaded");
 }
 
 TEST(FleetStore, FinalOrdersStaySevenDays) {

@@ -49,6 +49,54 @@ TEST_F(ConfigFile, RefusesAValueOfTheWrongKindAndTextThatIsNoToml) {
     EXPECT_FALSE(read("listen = \n"));
 }
 
+TEST_F(ConfigFile, RefusesAControlCharacterWithItsLine) {
+    for (const char character : {'\0', '\x01', '\x1b', '\x7f'}) {
+        const auto refused = read("db = 'x'\nlisten = " + std::string(1, character) + "\n");
+
+        ASSERT_FALSE(refused) << int(character);
+        EXPECT_NE(refused.error().what.find(".toml:2: there is a control character; remove it"),
+                  std::string::npos)
+            << refused.error().what;
+    }
+}
+
+TEST_F(ConfigFile, RefusesCharactersBeyondAsciiWithALineAndAWayToWriteThem) {
+    const auto refused = read("# Halle\ndb = x\u00fc\n");
+
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().what.find(".toml:2: there is a character beyond ASCII"),
+              std::string::npos)
+        << refused.error().what;
+    EXPECT_NE(refused.error().what.find("\\u00e4"), std::string::npos);
+    ASSERT_TRUE(read("db = \"/srv/M\\u00fcller.db\"\n"));
+    EXPECT_EQ(options_.database, "/srv/M\u00fcller.db");
+}
+
+TEST_F(ConfigFile, TakesCommentLinesInAnyLanguageAndTheMarkOfAnEditor) {
+    ASSERT_TRUE(
+        read("\xEF\xBB\xBF# Gr\u00f6\u00dfe der Halle\r\n\t# und mehr \x01\r\n"
+             "db = 'x'\r\n"));
+    const auto refused = read("# \u00e4\n\nlisen = 'x'\n");
+
+    EXPECT_EQ(options_.database, "x");
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().what.find(":3: unknown key"), std::string::npos);
+}
+
+TEST_F(ConfigFile, RefusesWhatTheParserDoesNotExpectItself) {
+    // Each is an assertion that fails inside toml++ 3.3.
+    EXPECT_FALSE(read("[|limits]\n"));
+    EXPECT_FALSE(read("[limits]\nconnections = 3\n[=]\n"));
+}
+
+TEST_F(ConfigFile, RefusesAFileThatIsTooLongOrNotThere) {
+    EXPECT_FALSE(read("db = 'x'\n" + std::string(17'000, '\n')));
+    std::string nested = "a";
+    for (int i = 0; i < 7'000; ++i) nested += ".a";
+    EXPECT_FALSE(read(nested + " = 1\n"));
+    EXPECT_FALSE(read_config_file("/nowhere/server.toml", {}, options_));
+}
+
 TEST_F(ConfigFile, GivesWayToTheCommandLine) {
     options_.listen = "127.0.0.1:1";
 

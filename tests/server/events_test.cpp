@@ -99,7 +99,13 @@ TEST(Events, RefuseAnIdThatIsNoNumberOrNotYetReached) {
     auto future = headers;
     future["Last-Event-ID"] = "999999";
 
-    EXPECT_EQ(request(server.port(), "GET", "/api/v1/events", wrong).status, 400);
+    const auto no_number = request(server.port(), "GET", "/api/v1/events", wrong);
+    const auto not_yet = request(server.port(), "GET", "/api/v1/events?after=999999", headers);
+
+    EXPECT_EQ(no_number.status, 400);
+    EXPECT_NE(no_number.body.find("\"wrong_type\""), std::string::npos) << no_number.body;
+    EXPECT_EQ(not_yet.status, 400);
+    EXPECT_NE(not_yet.body.find("\"event_unknown\""), std::string::npos) << not_yet.body;
     EXPECT_EQ(request(server.port(), "GET", "/api/v1/events", future).status, 400);
 }
 

@@ -288,7 +288,9 @@ void Reader::get(T& value) {
         const std::uint8_t present = byte();
         if (present > 1) refuse("neither a value nor none");
         value.reset();
-        if (present == 1) get(value.emplace());
+        // Not emplace(): clang takes a struct with defaults inside another struct for one that
+        // cannot be made without arguments.
+        if (present == 1) get(*(value = typename T::value_type{}));
     } else if constexpr (NumberList<T>) {
         value.resize(length());
         std::uint64_t before = 0;

@@ -39,6 +39,25 @@ TEST(Closures, ClosedLanesAreGoneRoundAndKeptOverARestart) {
     EXPECT_TRUE(world.store.closures.empty());
 }
 
+TEST(Closures, AnOutlineFarBeyondTheHallIsNoMoreThanTheHall) {
+    World world(two_free_ways());
+    confirm_poses(world);
+    NewClosure closure;
+    closure.name = "Everything";
+    closure.hall = world.plant.halls.front().id;
+    closure.outline = {{-1e5, -1e5}, {1e5, -1e5}, {1e5, 1e5}, {-1e5, 1e5}};
+
+    const auto closed = world.fleet->close_floor(closure, "op", world.now);
+    world.settle();
+    world.crash_server();
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(5);
+
+    ASSERT_TRUE(closed);
+    EXPECT_EQ(order_of(world, "V1").reason.code, "floor_closed");
+}
+
 TEST(Closures, AnOrderWithoutAnyOtherWayWaitsForTheClosureByName) {
     World world(corridor());
     confirm_poses(world);

@@ -126,6 +126,40 @@ TEST(LostLegs, TheCancelOfOneThatWasGivenUpWhileTheServerWasDownEndsTheOrderOnce
     EXPECT_EQ(std::count_if(world.store.events.begin(), world.store.events.end(), ends), 1);
 }
 
+/// The plant was imported anew without the stations of the only order, and the server started.
+void start_without_its_stations(World& world) {
+    for (auto& step : world.store.orders.begin()->second.steps)
+        step.station = plant::StationId("gone");
+    world.crash_server();
+    world.connect_all();
+}
+
+TEST(LostLegs, AnOrderWhoseStationIsGoneFromThePlantIsAbortedAtTheStart) {
+    World world;
+    ASSERT_TRUE(world.order("V1", {2, 3}));
+    world.settle();
+
+    start_without_its_stations(world);
+    world.settle();
+
+    EXPECT_EQ(world.only_order().state, JobState::kAborted);
+    EXPECT_EQ(world.only_order().reason.code, "station_gone");
+}
+
+TEST(LostLegs, OneUnderWayWhoseStationIsGoneEndsWithItsOrderWhenAPersonLetsItGoOn) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {2, 3}));
+    world.run(1);
+
+    start_without_its_stations(world);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kAborted);
+    EXPECT_EQ(world.only_order().reason.code, "station_gone");
+}
+
 TEST(LostLegs, OneWhoseStopIsStillBeingCorrectedIsNotOver) {
     World world;
     world.connect_all();

@@ -72,5 +72,14 @@ TEST(ConvexPieces, CrossedOutlineFallsBackToItsHull) {
     EXPECT_NEAR(area_m2(pieces[0]), 1, 1e-12);
 }
 
+TEST(Convex, ClippedKeepsWhatLiesInTheBox) {
+    const Box box{{0, 0}, {4, 2}};
+
+    EXPECT_DOUBLE_EQ(area_m2(clipped({{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, box)), 8);
+    EXPECT_DOUBLE_EQ(area_m2(clipped({{1, 1}, {2, 1}, {2, 2}}, box)), 0.5);
+    EXPECT_DOUBLE_EQ(area_m2(clipped({{0, 0}, {4, 0}, {0, 4}}, box)), 6);
+    EXPECT_TRUE(clipped({{5, 5}, {6, 5}, {6, 6}}, box).empty());
+}
+
 }  // namespace
 }  // namespace pulseline::geometry
