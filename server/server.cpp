@@ -139,7 +139,7 @@ Status Server::Impl::start() {
         [this](const access::Change& change) {
             runtime_->write([this, change] { access::apply(parts_.access, change); });
         },
-        clock_->now());
+        clock_->now(), stored.last_time);
     gateway_.emplace(gateway_ports());
     history_.emplace(parts_.history);
     const Limits& limits = options_.limits;
@@ -275,7 +275,7 @@ net::awaitable<void> Server::Impl::follow_clock() {
     }
 }
 
-/// When sessions were used, written down now and then.
+/// When sessions were used, written down now and then; those that have ended are dropped.
 net::awaitable<void> Server::Impl::keep_uses() {
     net::steady_timer timer(*io_);
     while (!stopping_) {
@@ -284,6 +284,7 @@ net::awaitable<void> Server::Impl::keep_uses() {
         co_await timer.async_wait(into(ec));
         const std::function<bool()> save = [this] {
             access_->save_uses();
+            access_->forget_ended(clock_->now());
             return true;
         };
         co_await on<bool>(context_->workers, *io_, save, "uses of sessions");
