@@ -91,5 +91,26 @@ TEST_F(EarlyDay, ATimeThatWasKeptADayTooEarlyIsKeptOnItsDay) {
     EXPECT_EQ(next, six);
 }
 
+TEST(ClockDiffers, IsToldAndShownUntilItAgrees) {
+    World world;
+    world.fleet->clock_differs(std::chrono::hours(-1), world.now);
+    world.settle();
+    ASSERT_TRUE(world.fleet->view(world.now).clock_difference);
+    const Time since = world.fleet->view(world.now).clock_difference->since;
+
+    world.run(2);
+    world.fleet->clock_differs(std::chrono::hours(1), world.now);
+    world.settle();
+    EXPECT_EQ(world.fleet->view(world.now).clock_difference->ahead, std::chrono::hours(1));
+    EXPECT_EQ(world.fleet->view(world.now).clock_difference->since, since);
+
+    world.fleet->clock_agrees(world.now);
+    world.fleet->clock_agrees(world.now);
+    world.settle();
+    EXPECT_FALSE(world.fleet->view(world.now).clock_difference);
+    EXPECT_EQ(world.count_events("clock.differs"), 2);
+    EXPECT_EQ(world.count_events("clock.agrees"), 1);
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing
