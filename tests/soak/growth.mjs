@@ -1,20 +1,32 @@
 // Whether something grows: a straight line through samples with the error of its slope, and how large a database may be.
 
-/** Slope of y over x in y's unit per x's unit, and its standard error, from the means of `blocks` equal parts: what follows
- * itself from sample to sample (a snapshot being written) would make the error look smaller than it is. */
-export function slope(samples, blocks = 20) {
+/** Slope of y over x in y's unit per x's unit, and its standard error, from means of some samples each: what follows itself
+ * from sample to sample (a snapshot being written) would make the error look smaller than it is. `breaks` are the x at which
+ * something from outside moved the level (a standstill of the machine, whose backlog had to be held): one slope, each part
+ * its own level. */
+export function slope(samples, breaks = [], blocks = 20) {
   const size = Math.max(1, Math.floor(samples.length / blocks));
-  const points = [];
-  for (let i = 0; i + size <= samples.length; i += size) {
-    const part = samples.slice(i, i + size);
-    points.push({ x: part.reduce((sum, p) => sum + p.x, 0) / size, y: part.reduce((sum, p) => sum + p.y, 0) / size });
+  const parts = new Map();
+  for (const sample of samples) {
+    const number = breaks.filter((x) => x <= sample.x).length;
+    parts.set(number, [...(parts.get(number) ?? []), sample]);
   }
-  const n = points.length, mean = (of) => points.reduce((sum, p) => sum + of(p), 0) / n;
-  const mx = mean((p) => p.x), my = mean((p) => p.y);
-  const sxx = points.reduce((sum, p) => sum + (p.x - mx) ** 2, 0);
-  const value = points.reduce((sum, p) => sum + (p.x - mx) * (p.y - my), 0) / sxx;
-  const rest = points.reduce((sum, p) => sum + (p.y - my - value * (p.x - mx)) ** 2, 0);
-  return { value, error: Math.sqrt(rest / Math.max(1, n - 2) / sxx) };
+  const mean = (of, list) => list.reduce((sum, p) => sum + of(p), 0) / list.length;
+  const points = [];
+  for (const part of parts.values()) {
+    const means = [];
+    for (let i = 0; i + size <= part.length; i += size) {
+      const block = part.slice(i, i + size);
+      means.push({ x: mean((p) => p.x, block), y: mean((p) => p.y, block) });
+    }
+    if (means.length === 0) continue;
+    const mx = mean((p) => p.x, means), my = mean((p) => p.y, means);
+    points.push(...means.map((p) => ({ x: p.x - mx, y: p.y - my })));
+  }
+  const sxx = points.reduce((sum, p) => sum + p.x ** 2, 0);
+  const value = points.reduce((sum, p) => sum + p.x * p.y, 0) / sxx;
+  const rest = points.reduce((sum, p) => sum + (p.y - value * p.x) ** 2, 0);
+  return { value, error: Math.sqrt(rest / Math.max(1, points.length - 1 - parts.size) / sxx) };
 }
 
 // What a row costs beside what it holds: its cell and page, and its places in the indexes of its table.

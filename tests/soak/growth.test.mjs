@@ -18,6 +18,16 @@ test("what does not grow is let stand, what grows by more than its bound is foun
   }
 });
 
+test("a standstill that moved the level is no growth, and hides none", () => {
+  const moved = (list) => list.map((p) => ({ ...p, y: p.x > 0.2 ? p.y + 0.6 : p.y }));
+  for (let seed = 1; seed <= 200; ++seed) {
+    assert.ok(slope(moved(samples(0, seed))).value > 1, "taken for growth without the break");
+    const flat = slope(moved(samples(0, seed)), [0.2]), leak = slope(moved(samples(5, seed)), [0.2]);
+    assert.ok(flat.value - 2 * flat.error <= 1, `seed ${seed}: ${JSON.stringify(flat)}`);
+    assert.ok(leak.value - 2 * leak.error > 1, `seed ${seed}: ${JSON.stringify(leak)}`);
+  }
+});
+
 test("a line without noise has its slope", () => {
   const { value, error } = slope(Array.from({ length: 40 }, (_, i) => ({ x: i, y: 3 - 2 * i })));
   assert.ok(Math.abs(value + 2) < 1e-9 && error < 1e-9);
