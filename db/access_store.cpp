@@ -121,15 +121,7 @@ void AccessStore::put(const access::Session& session) {
     row.created_ns = to_ns(session.created);
     row.expires_ns = to_ns(session.expires);
     row.used_ns = to_ns(session.used);
-    database_.transaction([&] {
-        Statement(database_.sql(), upsert_into("sessions", SessionRow::kColumns, "token_sha256"),
-                  row.fields())
-            .run();
-        // A sign-in is the moment to drop what has run out: nobody else ever would.
-        Statement(database_.sql(), "DELETE FROM sessions WHERE expires_ns <= :now",
-                  std::tie(row.created_ns))
-            .run();
-    });
+    upsert(database_, "sessions", "token_sha256", row);
 }
 
 void AccessStore::put_use(const std::string& token_sha256, Time used) {
@@ -143,10 +135,16 @@ void AccessStore::put_use(const std::string& token_sha256, Time used) {
 }
 
 void AccessStore::remove_session(const std::string& token_sha256) {
-    std::string key = token_sha256;
+    remove_sessions({token_sha256});
+}
+
+void AccessStore::remove_sessions(const std::vector<std::string>& token_sha256s) {
     database_.transaction([&] {
-        Statement(database_.sql(), "DELETE FROM sessions WHERE token_sha256 = :key", std::tie(key))
-            .run();
+        for (std::string key : token_sha256s) {
+            Statement(database_.sql(), "DELETE FROM sessions WHERE token_sha256 = :key",
+                      std::tie(key))
+                .run();
+        }
     });
 }
 

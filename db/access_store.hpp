@@ -18,6 +18,7 @@ public:
     void put(const access::Session& session) override;
     void put_use(const std::string& token_sha256, Time used) override;
     void remove_session(const std::string& token_sha256) override;
+    void remove_sessions(const std::vector<std::string>& token_sha256s) override;
     void put(const access::Token& token) override;
 
 private:

@@ -66,6 +66,7 @@ public:
     net::awaitable<void> offer_poses();
     net::awaitable<void> keep_uses();
     net::awaitable<void> follow_clock();
+    void tell_of_clock(bool differs, Duration ahead);
     net::awaitable<void> finish();
 
     // Outlives all that may hold the end up.
@@ -82,6 +83,7 @@ public:
     Metrics metrics_;
     CameraStore images_;
     std::optional<ServerClock> clock_;
+    ClockWatch clock_watch_;
     std::optional<StreamHub> hub_;
     std::optional<FleetRuntime> runtime_;
     std::optional<access::AccessControl> access_;
@@ -139,7 +141,7 @@ Status Server::Impl::start() {
         [this](const access::Change& change) {
             runtime_->write([this, change] { access::apply(parts_.access, change); });
         },
-        clock_->now());
+        clock_->now(), stored.last_time);
     gateway_.emplace(gateway_ports());
     history_.emplace(parts_.history);
     const Limits& limits = options_.limits;
@@ -255,19 +257,12 @@ net::awaitable<void> Server::Impl::offer_poses() {
 /// Core time follows UTC; people hear of it when the two differ.
 net::awaitable<void> Server::Impl::follow_clock() {
     net::steady_timer timer(*io_);
-    bool told = false;
     while (!stopping_) {
         clock_->follow();
         const Duration ahead = clock_->ahead();
-        const bool differs = std::chrono::abs(ahead) > ServerClock::kWorthTelling;
-        if (differs != told) {
-            log::warn(differs ? "clock_differs" : "clock_agrees",
-                      {{"ahead_s", std::to_string(std::llround(seconds(ahead)))},
-                       {"remedy", differs && ahead > ServerClock::kTolerated
-                                      ? "restart the server: it then starts at UTC"
-                                      : ""}});
+        if (const auto news = clock_watch_.look(ahead); news != ClockWatch::News::kNone) {
+            tell_of_clock(news == ClockWatch::News::kDiffers, ahead);
         }
-        told = differs;
         metrics_.clock_ahead_ms = ahead / std::chrono::milliseconds(1);
         timer.expires_after(kFollowClock);
         error_code ec;
@@ -275,7 +270,28 @@ net::awaitable<void> Server::Impl::follow_clock() {
     }
 }
 
-/// When sessions were used, written down now and then.
+/// In the log and in the events; while nothing can be stored, a second later again.
+void Server::Impl::tell_of_clock(bool differs, Duration ahead) {
+    const auto tell = [differs, ahead](fleet::Fleet& fleet, Time now) {
+        if (differs) {
+            fleet.clock_differs(ahead, now);
+        } else {
+            fleet.clock_agrees(now);
+        }
+        return true;
+    };
+    runtime_->command(tell, [this, differs, ahead](const Result<bool>& told) {
+        if (!told) return clock_watch_.not_told();
+        log::warn(differs ? "clock_differs" : "clock_agrees",
+                  {{"ahead_s", std::to_string(std::llround(seconds(ahead)))},
+                   {"remedy", differs && ahead > ServerClock::kTolerated
+                                  ? "set the machine's clock; if that is right, restart the "
+                                    "server: it then starts at UTC"
+                                  : ""}});
+    });
+}
+
+/// When sessions were used, written down now and then; those that have ended are dropped.
 net::awaitable<void> Server::Impl::keep_uses() {
     net::steady_timer timer(*io_);
     while (!stopping_) {
@@ -284,6 +300,7 @@ net::awaitable<void> Server::Impl::keep_uses() {
         co_await timer.async_wait(into(ec));
         const std::function<bool()> save = [this] {
             access_->save_uses();
+            access_->forget_ended(clock_->now());
             return true;
         };
         co_await on<bool>(context_->workers, *io_, save, "uses of sessions");

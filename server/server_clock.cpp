@@ -52,8 +52,10 @@ void ServerClock::follow() {
     const Time steady = steady_();
     begin_ = now_at(steady);
     begin_steady_ = steady;
-    ahead_ = begin_ - utc_();
+    const Time utc = utc_();
+    ahead_ = begin_ - utc;
     per_mille_ = 1000;
+    if (utc < built()) return;  // 1970: to wait for it would only make a minute longer
     if (ahead_ > kExact) per_mille_ = kSlower;
     if (ahead_ < -kExact) per_mille_ = kFaster;
 }
@@ -61,6 +63,23 @@ void ServerClock::follow() {
 Duration ServerClock::ahead() const {
     const std::lock_guard lock(mutex_);
     return ahead_;
+}
+
+ClockWatch::News ClockWatch::look(Duration ahead) {
+    if (std::chrono::abs(ahead) <= ServerClock::kWorthTelling) {
+        if (told_ == Duration::zero()) return News::kNone;
+        told_ = Duration::zero();
+        return News::kAgrees;
+    }
+    if (told_) {
+        // One that has grown or shrunk by half is worth a second word.
+        const Duration half = std::chrono::abs(*told_) / 2;
+        if (std::chrono::abs(ahead - *told_) < std::max(ServerClock::kWorthTelling, half)) {
+            return News::kNone;
+        }
+    }
+    told_ = ahead;
+    return News::kDiffers;
 }
 
 }  // namespace pulseline::server

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <mutex>
+#include <optional>
 
 #include "core/base/time.hpp"
 
@@ -11,7 +12,8 @@ namespace pulseline::server {
 /// the newest stored time is a little later. When that is much later, a clock once was ahead, or
 /// this one is behind; UTC is taken when it can be true, and the fleet takes back what it stored
 /// (StoredFleet::last_time). Later differences are made up slowly, a tenth faster or slower,
-/// because silence is counted in core time. Thread safety: full.
+/// because silence is counted in core time; a UTC that cannot be true is not followed at all.
+/// Thread safety: full.
 class ServerClock : public Clock {
 public:
     using Source = std::function<Time()>;
@@ -42,6 +44,19 @@ private:
     Time begin_steady_;
     int per_mille_ = 1000;  // of the steady clock's speed
     Duration ahead_{};
+};
+
+/// When people are told of a difference between core time and UTC, and when again: not each second
+/// while it is made up or a clock stands still.
+class ClockWatch {
+public:
+    enum class News { kNone, kDiffers, kAgrees };
+    News look(Duration ahead);
+    /// What `look` said last did not arrive: it says so again.
+    void not_told() { told_.reset(); }
+
+private:
+    std::optional<Duration> told_ = Duration::zero();  // none: nobody knows what they were told
 };
 
 }  // namespace pulseline::server

@@ -8,12 +8,18 @@
 #include <openssl/x509v3.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <ctime>
 #include <optional>
+
+#include "server/server_clock.hpp"
 
 namespace pulseline::server {
 namespace {
+
+constexpr std::int64_t kYear_s = 365L * 24 * 3600;
 
 template <auto F>
 struct Free {
@@ -70,8 +76,9 @@ std::optional<Pair> self_signed(const std::string& host) {
     RAND_bytes(reinterpret_cast<unsigned char*>(&serial), sizeof serial);
     X509_set_version(certificate, 2);
     ASN1_INTEGER_set_uint64(X509_get_serialNumber(certificate), serial >> 1U);
-    X509_gmtime_adj(X509_getm_notBefore(certificate), -3600);
-    X509_gmtime_adj(X509_getm_notAfter(certificate), 3L * 365 * 24 * 3600);
+    const Validity validity = self_signed_validity(std::time(nullptr));
+    ASN1_TIME_set(X509_getm_notBefore(certificate), validity.from_s);
+    ASN1_TIME_set(X509_getm_notAfter(certificate), validity.until_s);
     X509_set_pubkey(certificate, pair.key.get());
     X509_NAME* name = X509_get_subject_name(certificate);
     const auto* text = reinterpret_cast<const unsigned char*>("Pulseline");
@@ -108,6 +115,11 @@ bool save_pair(const Pair& pair, const std::string& path) {
 }
 
 }  // namespace
+
+Validity self_signed_validity(std::int64_t utc_s) {
+    const std::int64_t built_s = to_ns(ServerClock::built()) / 1'000'000'000;
+    return {built_s - 24 * 3600, std::max(utc_s, built_s) + 3 * kYear_s};
+}
 
 Result<std::unique_ptr<Tls>> make_tls(const Options& options, const std::string& host) {
     auto tls = std::make_unique<Tls>();

@@ -21,6 +21,8 @@ constexpr std::size_t kTokenIdLength = 12;
 constexpr const char* kTokenActor = "token:";
 constexpr Duration kClockTolerance = std::chrono::minutes(5);
 constexpr Duration kStoreUse = std::chrono::minutes(1);
+// A hall without vehicles stores nothing else for an hour; uses tell of later times until then.
+constexpr Duration kNothingStored = std::chrono::minutes(65);
 
 bool usable_name(const std::string& name) {
     return !name.empty() && name.size() <= kMaxNameBytes &&
@@ -61,8 +63,8 @@ void apply(Store& store, const Change& change) {
         void operator()(const User& user) const { store.put(user); }
         void operator()(const Session& session) const { store.put(session); }
         void operator()(const Token& token) const { store.put(token); }
-        void operator()(const RemoveSession& gone) const {
-            store.remove_session(gone.token_sha256);
+        void operator()(const RemoveSessions& gone) const {
+            store.remove_sessions(gone.token_sha256s);
         }
         void operator()(const SessionUses& all) const {
             for (const auto& [token_sha256, used] : all.uses) store.put_use(token_sha256, used);
@@ -84,6 +86,32 @@ public:
           cost(cost_in),
           sign_ins(limits_in.sign_ins_per_minute) {}
 
+    /// Those that had not ended when the server was last known to live, by the clock of now.
+    void take_sessions(Store& store, Time now, Time last_stored) {
+        const auto stored = store.sessions();
+        Time lived = std::max(now, last_stored);
+        for (const auto& session : stored) {
+            if (session.used - last_stored <= kNothingStored) lived = std::max(lived, session.used);
+        }
+        const Duration set_back = lived - now;
+        std::vector<std::string> ended;
+        for (Session session : stored) {
+            // One of a time that has not come yet was made by a clock that was ahead.
+            const bool possible = session.used <= lived + kClockTolerance;
+            if (!possible || lived >= ends({session, session.used})) {
+                ended.push_back(session.token_sha256);
+                continue;
+            }
+            if (set_back > Duration::zero()) {
+                session.created -= set_back;
+                session.expires -= set_back;
+                session.used -= set_back;
+                store.put(session);
+            }
+            sessions.emplace(session.token_sha256, LiveSession{session, session.used});
+        }
+        if (!ended.empty()) store.remove_sessions(ended);
+    }
     Time ends(const LiveSession& session) const {
         return std::min(session.stored.expires, session.used + limits.session_idle);
     }
@@ -144,17 +172,12 @@ public:
     SignInLimit sign_ins;
 };
 
-AccessControl::AccessControl(Store& store, Save save, Time now, Limits limits, HashCost cost)
+AccessControl::AccessControl(Store& store, Save save, Time now, Time last_stored, Limits limits,
+                             HashCost cost)
     : impl_(std::make_unique<Impl>(std::move(save), limits, cost)) {
     for (auto& user : store.users()) impl_->users.emplace(user.name, user);
-    for (auto& session : store.sessions()) {
-        const Impl::LiveSession live{session, session.used};
-        // One of a time that has not come yet was made by a clock that was ahead.
-        const bool possible = session.used <= now + kClockTolerance;
-        if (possible && now < impl_->ends(live))
-            impl_->sessions.emplace(session.token_sha256, live);
-    }
     for (auto& token : store.tokens()) impl_->tokens.emplace(token.token_sha256, token);
+    impl_->take_sessions(store, now, last_stored);
 }
 
 AccessControl::~AccessControl() = default;
@@ -204,8 +227,6 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
                         {{"retry_after_s", std::max<std::int64_t>(1, wait_s)}});
         }
         if (const auto it = impl_->users.find(name); it != impl_->users.end()) user = it->second;
-        std::erase_if(impl_->sessions,
-                      [&](const auto& entry) { return now >= impl_->ends(entry.second); });
     }
     // Unknown and disabled users cost the same work, so that the time tells nothing.
     bool right = false;
@@ -230,7 +251,7 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
     if (impl_->users.at(name).password_hash != user->password_hash) {
         // The password was changed while this one was being checked: its sessions have ended.
         lock.unlock();
-        impl_->save(RemoveSession{session.token_sha256});
+        impl_->save(RemoveSessions{{session.token_sha256}});
         return wrong_credentials();
     }
     impl_->sign_ins.succeeded(name, peer);
@@ -241,9 +262,23 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
 
 void AccessControl::sign_out(const Identity& identity) {
     if (identity.session_sha256.empty()) return;
-    impl_->save(RemoveSession{identity.session_sha256});
+    impl_->save(RemoveSessions{{identity.session_sha256}});
     const std::lock_guard lock(impl_->mutex);
     impl_->sessions.erase(identity.session_sha256);
+}
+
+void AccessControl::forget_ended(Time now) {
+    RemoveSessions ended;
+    {
+        const std::lock_guard lock(impl_->mutex);
+        for (const auto& [sha256, session] : impl_->sessions) {
+            if (now >= impl_->ends(session)) ended.token_sha256s.push_back(sha256);
+        }
+    }
+    if (ended.token_sha256s.empty()) return;
+    impl_->save(ended);
+    const std::lock_guard lock(impl_->mutex);
+    for (const auto& sha256 : ended.token_sha256s) impl_->sessions.erase(sha256);
 }
 
 void AccessControl::save_uses() {
@@ -292,7 +327,7 @@ Result<User> AccessControl::create_user(const std::string& name, Role role,
         }
     }
     impl_->save(user);
-    for (const auto& sha256 : ended) impl_->save(RemoveSession{sha256});
+    if (!ended.empty()) impl_->save(RemoveSessions{ended});
 
     const std::lock_guard lock(impl_->mutex);
     impl_->users[name] = user;

@@ -13,15 +13,15 @@
 
 namespace pulseline::access {
 
-struct RemoveSession {
-    std::string token_sha256;
+struct RemoveSessions {
+    std::vector<std::string> token_sha256s;
 };
 /// When sessions were used last, by their token_sha256.
 struct SessionUses {
     std::vector<std::pair<std::string, Time>> uses;
 };
 /// One thing to write through access::Store.
-using Change = std::variant<User, Session, Token, RemoveSession, SessionUses>;
+using Change = std::variant<User, Session, Token, RemoveSessions, SessionUses>;
 void apply(Store& store, const Change& change);  // call qualified: std::apply is near
 
 struct Limits {
@@ -54,7 +54,11 @@ class AccessControl {
 public:
     using Save = std::function<void(const Change&)>;
 
-    AccessControl(Store& store, Save save, Time now, Limits limits = {}, HashCost cost = {});
+    /// `last_stored`: the newest time the server is known to have lived at. When the clock was set
+    /// back since then, sessions are judged by that time and go on by the clock of now, so that
+    /// nobody at work is sent away and none that had ended lives again.
+    AccessControl(Store& store, Save save, Time now, Time last_stored = {}, Limits limits = {},
+                  HashCost cost = {});
     ~AccessControl();
 
     /// Who sends these headers (names in lower case). Never fails: who proves nothing is anonymous.
@@ -73,6 +77,9 @@ public:
     /// Stores when sessions were used, so that one left alone does not live again after a restart.
     /// A use within a minute of the stored one is not worth a write.
     void save_uses();
+    /// Drops sessions that have ended, from the store as well: a clock that is set back while the
+    /// server is down finds none that it could revive.
+    void forget_ended(Time now);
     /// Accounts with a session that may still be used.
     std::vector<std::string> signed_in(Time now) const;
 

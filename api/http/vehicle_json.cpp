@@ -126,6 +126,9 @@ Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet) {
     if (const auto& fault = fleet.store_fault) {
         json["read_only"] = {{"cause", fault->cause}, {"since", rfc3339(fault->since)}};
     }
+    if (const auto& clock = fleet.clock_difference) {
+        json["clock"] = {{"ahead_s", seconds(clock->ahead)}, {"since", rfc3339(clock->since)}};
+    }
     return json;
 }
 

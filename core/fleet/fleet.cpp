@@ -164,6 +164,23 @@ void Fleet::server_stood_still(Time since, Time now) {
     }
 }
 
+void Fleet::clock_differs(Duration ahead, Time now) {
+    FleetState& fleet = input<&Fleet::clock_differs>(now, ahead);
+    const Time since = fleet.clock_difference ? fleet.clock_difference->since : now;
+    fleet.clock_difference = ClockDifference{ahead, since};
+    add_event(fleet, now, "clock.differs", {}, {}, {}, {}, {{"ahead_s", seconds(ahead)}});
+    fleet.out.fleet_changed = true;
+}
+
+void Fleet::clock_agrees(Time now) {
+    FleetState& fleet = input<&Fleet::clock_agrees>(now);
+    if (!fleet.clock_difference) return;
+    add_event(fleet, now, "clock.agrees", {}, {}, {}, {},
+              {{"differed_s", seconds(now - fleet.clock_difference->since)}});
+    fleet.clock_difference.reset();
+    fleet.out.fleet_changed = true;
+}
+
 void Fleet::tick(Time now) {
     FleetState& fleet = input<&Fleet::tick>(now);
     update_links(fleet, now);

@@ -161,6 +161,11 @@ public:
     /// That time is no vehicle's silence, and nothing is released to one before its next state.
     void server_stood_still(Time since, Time now);
 
+    /// The machine's clock and the server's differ by so much, or again, or no more. Nothing else
+    /// changes: the core goes by the time that comes with its inputs.
+    void clock_differs(Duration ahead, Time now);
+    void clock_agrees(Time now);
+
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);
 

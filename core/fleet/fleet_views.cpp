@@ -36,6 +36,7 @@ std::int64_t Fleet::last_event_seq() const { return state_->event_seq; }
 FleetView Fleet::view(Time) const {
     FleetView view;
     view.store_fault = state_->store_fault;
+    view.clock_difference = state_->clock_difference;
     // While nothing can be stored, events still wait; a reader must not go on behind them.
     view.last_event_seq = state_->store_fault ? state_->stored_seq : state_->event_seq;
     view.started = state_->started;

@@ -50,6 +50,20 @@ namespace {
 
 void bring_back(Time& time, Time now) { time = std::min(time, now); }
 
+/// A time that was kept only a little too early is not kept again: six o'clock by a clock an hour
+/// ahead was that day's order. By one a day ahead it was another day's, and today's is still due.
+std::optional<Time> next_after(const Schedule& schedule, Duration ahead, Time now) {
+    auto next = next_time(schedule.recurrence, now);
+    while (next && *next < *schedule.next) {
+        const auto following = next_time(schedule.recurrence, *next);
+        const bool was_there = schedule.created <= *next;
+        const bool kept_for_it = !following || ahead < (*following - *next) / 2;
+        if (!was_there || !kept_for_it) break;
+        next = following;
+    }
+    return next;
+}
+
 }  // namespace
 
 void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
@@ -64,8 +78,8 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
     for (auto& schedule : stored.schedules) {
         // "From now on" was said to that clock.
         if (schedule.created > now) bring_back(schedule.recurrence.from, now);
+        if (schedule.next) schedule.next = next_after(schedule, stored.last_time - now, now);
         bring_back(schedule.created, now);
-        if (schedule.next) schedule.next = next_time(schedule.recurrence, now);
         fleet.standing.changed_schedules.insert(schedule.id);
     }
     for (auto& one : stored.templates) bring_back(one.created, now);

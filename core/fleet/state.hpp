@@ -139,6 +139,7 @@ struct FleetState {
     StandingOrders standing;
     std::int64_t stored_seq = 0;  // newest event of the store at start
     std::optional<StoreFault> store_fault;
+    std::optional<ClockDifference> clock_difference;
 
     // Put out by this step.
     Outputs out;

@@ -80,6 +80,12 @@ struct StoreFault {
     Time since;
 };
 
+/// The server's time and its machine's: people are told while they differ.
+struct ClockDifference {
+    Duration ahead{};  // of the server's time
+    Time since;
+};
+
 struct FleetView {
     bool paused = false;
     std::int64_t last_event_seq = 0;
@@ -88,6 +94,7 @@ struct FleetView {
     std::vector<plant::VehicleId> needs_resume;
     Time started;
     std::optional<StoreFault> store_fault;
+    std::optional<ClockDifference> clock_difference;
 };
 
 /// The live wait-for graph of traffic and the closed floor.

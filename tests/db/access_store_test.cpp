@@ -31,12 +31,14 @@ TEST_F(AccessStoreTest, UserIsReplacedByNameAndKeepsItsSessions) {
     EXPECT_EQ(store_.sessions().size(), 1u);
 }
 
-TEST_F(AccessStoreTest, SessionsGoWhenRemovedOrRunOut) {
+TEST_F(AccessStoreTest, SessionsGoWhenRemoved) {
     store_.put(access::Session{"a", "csrf", "ann", at(1), at(10)});
     store_.put(access::Session{"b", "csrf", "ann", at(2), at(100)});
     store_.put(access::Session{"c", "csrf", "ann", at(20), at(100)});
-    EXPECT_EQ(store_.sessions().size(), 2u);
+    store_.put(access::Session{"d", "csrf", "ann", at(20), at(100)});
     store_.remove_session("b");
+    EXPECT_EQ(store_.sessions().size(), 3u);
+    store_.remove_sessions({"a", "gone", "d"});
     const auto sessions = store_.sessions();
 
     ASSERT_EQ(sessions.size(), 1u);

@@ -2,44 +2,19 @@
 // PULSELINE_LOAD=full (the nightly) is a thousand vehicles for ten minutes; without it a smoke of it.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
-import { mkdirSync, mkdtempSync, readFileSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { promisify } from "node:util";
 
-import { manyVehicles } from "../bench/many_vehicles.mjs";
-import { BUILD, System } from "../harness/processes.mjs";
+import { BUILD } from "../harness/processes.mjs";
 import { attacks } from "./attacks.mjs";
+import { hall, rss_kb } from "./hall.mjs";
 
 const full = process.env.PULSELINE_LOAD === "full";
 const kLoad = full ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 600 } : { vehicles: 300, dashboards: 20, requests: 50, orders: 5, seconds: 40 };
 // On two cores that the load itself shares; the figures to hold are the full ones.
 const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024, health_p99_ms: 100, vehicle_p99_ms: 250 };
-
-const rss_kb = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, "utf8"))[1]);
-
-/** A plant of small carriers in lanes of their own, with a token for each. */
-async function hall(count) {
-  const file = join(mkdtempSync(join(tmpdir(), "pulseline-load-")), "plant.json");
-  writeFileSync(file, JSON.stringify(manyVehicles(count)));
-  const system = await System.create(file);
-  const tokens = new Map(system.cli(["token", "create", "--all-vehicles"]).trim().split("\n").map((line) => line.split(" ")));
-  const { vehicles, stations } = system.plant.model;
-  const home = new Map(stations.map((station) => [station.id, station]));
-  const rows = vehicles.map((vehicle) => {
-    const { pose, node, hall } = home.get(vehicle.home);
-    return [vehicle.id, vehicle.manufacturer, vehicle.serial_number, tokens.get(`${vehicle.manufacturer}/${vehicle.serial_number}`), pose.x_m, pose.y_m, node, hall].join(" ");
-  });
-  // An account has so many streams; a plant's panels have their own, and so has an attacker.
-  const programToken = () => system.cli(["token", "create", "--role", "viewer", "--scope", "api"]).trim();
-  system.dashboardTokens = Array.from({ length: 4 }, programToken);
-  system.attackerToken = system.cli(["token", "create", "--role", "operator", "--scope", "api"]).trim();
-  system.tokenOfVehicle = (id) => { const { manufacturer, serial_number } = system.plant.vehicle(id); return tokens.get(`${manufacturer}/${serial_number}`); };
-  system.vehiclesFile = join(system.directory, "vehicles");
-  writeFileSync(system.vehiclesFile, `${rows.join("\n")}\n`);
-  return system;
-}
 
 /** Times that are not held, of a measurement that says its others by itself: the machine of a quick run is shared, and whoever else works
  *  on it would be blamed on the server. So they are taken once more, and the second ones count; the nightly's count at once. */

@@ -93,5 +93,67 @@ TEST(ServerClock, NeverGoesBackWhenUtcDoes) {
     EXPECT_LT(clock.ahead(), hours(1)) << "it waits for UTC, slowly";
 }
 
+TEST(ServerClock, KeepsItsPaceWhileUtcIsOneThatCannotBeTrue) {
+    Machine machine;
+    auto clock = machine.start(Time{});
+    const Time right = machine.utc;
+    machine.utc = Time{};  // 1970
+    clock.follow();
+    EXPECT_EQ(clock.ahead(), right - Time{}) << "people are told";
+
+    machine.pass(clock, 3600);
+    EXPECT_EQ(clock.now(), right + hours(1)) << "an hour's schedule is kept in an hour";
+
+    machine.utc = right + hours(1);
+    clock.follow();
+    EXPECT_EQ(clock.ahead(), Duration::zero()) << "and nothing has to be made up for";
+}
+
+TEST(ServerClock, KeepsItsPaceWhenItWasStartedIn1970) {
+    Machine machine;
+    const Time stored = machine.utc;
+    machine.utc = Time{};
+    auto clock = machine.start(stored);
+
+    machine.pass(clock, 3600);
+
+    EXPECT_EQ(clock.now(), stored + hours(1));
+}
+
+using News = ClockWatch::News;
+
+TEST(ClockWatch, TellsOnceThatTheClocksDifferAndOnceThatTheyAgree) {
+    ClockWatch watch;
+    EXPECT_EQ(watch.look(seconds(9)), News::kNone);
+    EXPECT_EQ(watch.look(-seconds(3600)), News::kDiffers);
+    EXPECT_EQ(watch.look(-seconds(3599)), News::kNone);
+    EXPECT_EQ(watch.look(seconds(1)), News::kAgrees);
+    EXPECT_EQ(watch.look(seconds(1)), News::kNone);
+}
+
+TEST(ClockWatch, TellsOfTheNextJumpToo) {
+    ClockWatch watch;
+    EXPECT_EQ(watch.look(-hours(1)), News::kDiffers);
+    EXPECT_EQ(watch.look(hours(1)), News::kDiffers);
+    EXPECT_EQ(watch.look(hours(24)), News::kDiffers);
+}
+
+TEST(ClockWatch, TellsOfAClockThatStandsStillAFewTimesOnly) {
+    ClockWatch watch;
+    int told = 0;
+    for (int s = 0; s < 3600; ++s) told += watch.look(seconds(s)) == News::kDiffers ? 1 : 0;
+    EXPECT_GT(told, 5);
+    EXPECT_LT(told, 20);
+}
+
+TEST(ClockWatch, TellsAgainWhatDidNotArrive) {
+    ClockWatch watch;
+    EXPECT_EQ(watch.look(hours(1)), News::kDiffers);
+    watch.not_told();
+    EXPECT_EQ(watch.look(hours(1)), News::kDiffers);
+    watch.not_told();
+    EXPECT_EQ(watch.look(seconds(0)), News::kAgrees);
+}
+
 }  // namespace
 }  // namespace pulseline::server

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "server/net.hpp"
+#include "server/server_clock.hpp"
+#include "server/tls.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 
@@ -52,6 +54,15 @@ TEST(Tls, ServesEncryptedWithACertificateOfItsOwnThatStays) {
     const auto key = std::filesystem::status(options.database + ".tls.pem").permissions();
     EXPECT_EQ(key, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
     std::filesystem::remove_all(directory);
+}
+
+TEST(Tls, ACertificateMadeByAWrongClockIsGoodByARightOne) {
+    const std::int64_t right_s = to_ns(ServerClock::built()) / 1'000'000'000 + 24 * 3600;
+    for (const std::int64_t clock_s : {std::int64_t{600}, right_s - 3600, right_s + 365L * 86400}) {
+        const Validity validity = self_signed_validity(clock_s);
+        EXPECT_LT(validity.from_s, right_s) << clock_s;
+        EXPECT_GT(validity.until_s, right_s + 2L * 365 * 86400) << clock_s;
+    }
 }
 
 TEST(Tls, NamesTheFileThatIsNoCertificate) {

@@ -1,7 +1,8 @@
-// What tests and benchmarks do with a database file while no server has it:
-//   stored fill FILE EVENTS ORDERS   adds a past of so many events and finished orders of the last
-//   six days stored check FILE                one JSON line: faults found, and what is stored of
-//   each order
+// What tests and benchmarks do with a database file while no server has it.
+//   stored fill FILE EVENTS ORDERS: adds a past of so many events and finished orders of six days.
+//   stored check FILE: one JSON line of the faults found, and what is stored of each order.
+//   stored sizes FILE: one JSON line of the file's bytes and the free ones among them, and of each
+//   table its rows and the bytes of what they hold.
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -171,6 +172,44 @@ int check(const std::string& path) {
     return 0;
 }
 
+/// What the columns of a table hold, without what SQLite needs to keep it.
+std::string content_of(soci::session& sql, const std::string& table) {
+    std::string sum = "0";
+    for (const auto& column : rows(sql, "SELECT name FROM pragma_table_info('" + table + "')")) {
+        // Numbers take 1 to 8 bytes; times and measures, which are most of them, the latter.
+        const auto name = "\"" + column["name"].get<std::string>() + "\"";
+        sum += " + CASE typeof(" + name + ") WHEN 'text' THEN length(CAST(" + name +
+               " AS BLOB)) WHEN 'blob' THEN length(" + name + ") WHEN 'integer' THEN CASE WHEN " +
+               name + " BETWEEN -32768 AND 32767 THEN 2 ELSE 8 END ELSE 8 END";
+    }
+    return "COALESCE(SUM(" + sum + "), 0)";
+}
+
+int sizes(const std::string& path) {
+    Database database(path);
+    auto& sql = database.sql();
+    const auto pragma = [&](const char* name) {
+        long long value = 0;
+        sql << std::string("PRAGMA ") + name, soci::into(value);
+        return value;
+    };
+    Json tables;
+    for (const auto& table : rows(sql, "SELECT name FROM sqlite_master WHERE type = 'table'")) {
+        const auto name = table["name"].get<std::string>();
+        long long count = 0;
+        long long bytes = 0;
+        sql << "SELECT COUNT(*), " + content_of(sql, name) + " FROM \"" + name + "\"",
+            soci::into(count), soci::into(bytes);
+        tables[name] = {{"rows", count}, {"bytes", bytes}};
+    }
+    const long long page = pragma("page_size");
+    const Json report{{"bytes", page * pragma("page_count")},
+                      {"free_bytes", page * pragma("freelist_count")},
+                      {"tables", std::move(tables)}};
+    std::cout << report.dump() << '\n';
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -179,7 +218,8 @@ int main(int argc, char** argv) {
         if (verb == "fill" && argc == 5)
             return fill(argv[2], std::atoll(argv[3]), std::atoll(argv[4]));
         if (verb == "check" && argc == 3) return check(argv[2]);
-        std::cerr << "stored fill FILE EVENTS ORDERS | stored check FILE\n";
+        if (verb == "sizes" && argc == 3) return sizes(argv[2]);
+        std::cerr << "stored fill FILE EVENTS ORDERS | stored check FILE | stored sizes FILE\n";
     } catch (const std::exception& e) {
         std::cerr << "stored: " << e.what() << '\n';
     }

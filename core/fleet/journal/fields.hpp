@@ -123,6 +123,7 @@ PULSELINE_FIELDS(ControlRequest, method, update, if_revision, actor, idempotency
 
 // --- views.hpp, ports.hpp: what a step puts out
 PULSELINE_FIELDS(StoreFault, cause, since)
+PULSELINE_FIELDS(ClockDifference, ahead, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose,

@@ -41,6 +41,8 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "store_works_again",
     "server_stood_still",
     "commands_expired",
+    "clock_differs",
+    "clock_agrees",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

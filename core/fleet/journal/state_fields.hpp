@@ -81,8 +81,8 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
-           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry, areas, newest_plan,
-           swept] = it;
+           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
+           areas, newest_plan, swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
           gave_up, cancelling, floor, seen, seen_before, stated, leg_started, foreign_since,
@@ -103,10 +103,10 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
     auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
-           keys_swept, event_seq, order_number, standing, stored_seq, store_fault, out,
-           stored_vehicles, stored_orders, changed_vehicles, changed_stations] = it;
+           keys_swept, event_seq, order_number, standing, stored_seq, store_fault, clock_difference,
+           out, stored_vehicles, stored_orders, changed_vehicles, changed_stations] = it;
     visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
-          standing, stored_seq, store_fault);
+          standing, stored_seq, store_fault, clock_difference);
 }
 
 }  // namespace fleet

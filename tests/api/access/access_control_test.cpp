@@ -23,14 +23,14 @@ class AccessControlTest : public testing::Test {
 protected:
     AccessControlTest() { restart(); }
 
-    void restart() {
+    void restart(Time last_stored = {}) {
         access = std::make_unique<AccessControl>(
             store,
             [this](const Change& change) {
                 if (disk_full) throw std::runtime_error("disk full");
                 pulseline::access::apply(store, change);
             },
-            now, Limits{}, kCheap);
+            now, last_stored, Limits{}, kCheap);
     }
     SignedIn sign_in(const std::string& name = "mei") {
         auto signed_in = access->sign_in(name, kPassword, "10.0.0.7", now);
@@ -361,6 +361,66 @@ TEST_F(AccessControlTest, ASessionInUseGoesOnAfterARestart) {
 
     EXPECT_EQ(with_cookie(signed_in.cookie_token).name, "mei");
     EXPECT_EQ(access->signed_in(now), std::vector<std::string>{"mei"});
+}
+
+TEST_F(AccessControlTest, WhoWorksStaysSignedInWhenTheClockIsSetBackBetweenTwoStarts) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+    const Time stored = now;
+
+    now -= hours(1);
+    restart(stored);
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).name, "mei");
+
+    // Once more, the clock unchanged: what was taken back has been stored.
+    restart(now);
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).name, "mei");
+    now += minutes(30);
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous)
+        << "idle for as long as ever";
+}
+
+TEST_F(AccessControlTest, ASessionThatHadEndedDoesNotLiveAgainWhenTheClockIsSetBack) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+    const Time stored = now + minutes(80);
+
+    now += minutes(20);  // an hour before that
+    restart(stored);
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+
+    // Nor at a start that knows of no later time.
+    restart();
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+    EXPECT_TRUE(store.sessions().empty());
+}
+
+TEST_F(AccessControlTest, ASessionThatHasEndedIsDroppedFromTheStore) {
+    add_user("mei", Role::kOperator);
+    const SignedIn signed_in = sign_in();
+    now += minutes(29);
+    access->forget_ended(now);
+    EXPECT_EQ(store.sessions().size(), 1U);
+
+    now += minutes(1);
+    access->forget_ended(now);
+    EXPECT_TRUE(store.sessions().empty());
+
+    now -= hours(1);
+    restart();
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).kind, Identity::Kind::kAnonymous);
+}
+
+TEST_F(AccessControlTest, AUseTellsOfALaterTimeThanWhatAHallWithoutVehiclesStored) {
+    add_user("mei", Role::kOperator);
+    const Time stored = now;
+    now += minutes(40);
+    const SignedIn signed_in = sign_in();
+
+    now -= hours(1);
+    restart(stored);
+
+    EXPECT_EQ(with_cookie(signed_in.cookie_token).name, "mei");
 }
 
 TEST_F(AccessControlTest, ASessionThatEndedMeanwhileIsNotStoredAgainByItsUse) {

@@ -125,7 +125,7 @@ ApiWorld::ApiWorld(plant::Plant plant)
       access(
           access_store,
           [this](const access::Change& change) { access::apply(access_store, change); }, world.now,
-          {}, kCheap),
+          Time{}, access::Limits{}, kCheap),
       history(world.store),
       documents(make_documents(world.plant)) {
     identity.kind = access::Identity::Kind::kToken;

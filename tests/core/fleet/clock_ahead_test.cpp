@@ -51,5 +51,66 @@ TEST_F(ClockAhead, NewOrdersStillSortBehindOldOnes) {
     EXPECT_GT(made->order.id, old);
 }
 
+// A schedule of one time a day, made while the clock was right; then the clock is set on by
+// `ahead`, the time comes by it, and the server starts again by a right one.
+class EarlyDay : public ::testing::Test {
+protected:
+    std::optional<Time> next_after(Duration ahead) {
+        using std::chrono::hours;
+        const Time midnight = world.now - world.now.time_since_epoch() % hours(24) + hours(48);
+        six = midnight + hours(6);
+        NewSchedule wanted;
+        wanted.name = "morning";
+        wanted.recurrence.daily_at_s = {6 * 3600};
+        wanted.recurrence.window = std::chrono::minutes(30);
+        wanted.order.vehicle = plant::VehicleId("V1");
+        wanted.order.steps = {{2, plant::MotionMode::kAuto}};
+        EXPECT_TRUE(world.fleet->create_schedule(wanted, world.now));
+        world.settle();
+        world.now = six - ahead + std::chrono::minutes(5);  // the truth
+        const Time right = world.now;
+        world.now += ahead;
+        world.crash_server();  // started again by the wrong clock
+        world.run(1);
+        EXPECT_EQ(world.store.schedules.begin()->second.made, 1);
+        world.now = right + std::chrono::minutes(1);
+        world.crash_server();
+        return world.store.schedules.begin()->second.next;
+    }
+    World world;
+    Time six;
+};
+
+TEST_F(EarlyDay, ATimeThatWasKeptAnHourTooEarlyIsNotKeptTwice) {
+    const auto next = next_after(std::chrono::hours(1));
+    EXPECT_EQ(next, six + std::chrono::hours(24));
+}
+
+TEST_F(EarlyDay, ATimeThatWasKeptADayTooEarlyIsKeptOnItsDay) {
+    const auto next = next_after(std::chrono::hours(24));
+    EXPECT_EQ(next, six);
+}
+
+TEST(ClockDiffers, IsToldAndShownUntilItAgrees) {
+    World world;
+    world.fleet->clock_differs(std::chrono::hours(-1), world.now);
+    world.settle();
+    ASSERT_TRUE(world.fleet->view(world.now).clock_difference);
+    const Time since = world.fleet->view(world.now).clock_difference->since;
+
+    world.run(2);
+    world.fleet->clock_differs(std::chrono::hours(1), world.now);
+    world.settle();
+    EXPECT_EQ(world.fleet->view(world.now).clock_difference->ahead, std::chrono::hours(1));
+    EXPECT_EQ(world.fleet->view(world.now).clock_difference->since, since);
+
+    world.fleet->clock_agrees(world.now);
+    world.fleet->clock_agrees(world.now);
+    world.settle();
+    EXPECT_FALSE(world.fleet->view(world.now).clock_difference);
+    EXPECT_EQ(world.count_events("clock.differs"), 2);
+    EXPECT_EQ(world.count_events("clock.agrees"), 1);
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing

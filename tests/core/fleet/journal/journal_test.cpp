@@ -67,6 +67,8 @@ std::string every_call(Recorder& recorder) {
     fleet.store_works_again(kNow);
     fleet.server_stood_still(kNow, kNow);
     fleet.commands_expired({v1}, {id}, kNow);
+    fleet.clock_differs(Duration(-7), kNow);
+    fleet.clock_agrees(kNow);
     fleet.tick(kNow + Duration(5));
     static_cast<void>(fleet.take_outputs(kNow + Duration(6)));
     return recorder.take();

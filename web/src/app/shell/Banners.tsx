@@ -1,7 +1,7 @@
 import { useEffect, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Fleet } from "@/shared/api/types";
-import { age, timeOfDay } from "@/shared/i18n/format";
+import { age, days, timeOfDay } from "@/shared/i18n/format";
 import {
   alarms,
   silent,
@@ -49,6 +49,7 @@ export function Banners({ onResume }: { onResume: () => void }) {
         urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />
       )}
       <WaitingBanner onResume={onResume} />
+      <ClockBanner />
     </div>
   );
 }
@@ -139,6 +140,22 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
           {t("resume.action")}
         </Button>
       }
+    />
+  );
+}
+
+/** The machine's clock was set or stands still: what the server shows as time is not what the wall shows. */
+function ClockBanner() {
+  const { t } = useTranslation();
+  const clock = useFleet()?.clock;
+  if (clock === undefined) return null;
+  const by = days(Math.abs(clock.ahead_s));
+  return (
+    <Banner
+      priority="low"
+      word={t("clock.word")}
+      what={<b>{t(clock.ahead_s > 0 ? "clock.ahead" : "clock.behind", { by })}</b>}
+      todo={t("clock.todo")}
     />
   );
 }

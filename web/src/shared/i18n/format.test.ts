@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { age, deg, duration, fixed, kNone, mass, mm, signed, signedDeg, signedMm } from "./format";
+import { age, days, deg, duration, fixed, kNone, mass, mm, signed, signedDeg, signedMm } from "./format";
 
 it.each([
   [-1.25, 1, "\u22121.3"],
@@ -28,6 +28,13 @@ it.each([
   [3661, "1:01:01"],
   [-4, "0:00"],
 ])("duration(%s) is %s", (s, text) => expect(duration(s)).toBe(text));
+
+it.each([
+  [172_799, "47:59:59"],
+  [172_800, "2\u00a0d"],
+  [31_536_000, "365\u00a0d"],
+  [undefined, kNone],
+])("days(%s) is %s", (s, text) => expect(days(s)).toBe(text));
 
 it.each([
   [0.24, "0.2\u00a0s"],

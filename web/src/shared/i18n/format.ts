@@ -45,6 +45,12 @@ export function duration(s: number | undefined): string {
   return hours > 0 ? `${hours}:${two(minutes)}:${two(total % 60)}` : `${minutes}:${two(total % 60)}`;
 }
 
+/** A duration that may be years: whole days from two of them on. */
+export function days(s: number | undefined): string {
+  const kDay_s = 86_400;
+  return finite(s) && s >= 2 * kDay_s ? `${Math.round(s / kDay_s)}${kThin}d` : duration(s);
+}
+
 /** Age of a value: tenths below ten seconds, whole seconds below a minute, then m:ss. */
 export function age(s: number | undefined): string {
   if (!finite(s)) return kNone;
