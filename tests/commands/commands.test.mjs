@@ -171,7 +171,7 @@ test("./dev run serves the page and its vehicles on a bare machine", { timeout: 
     const cookie = signedIn.headers.get("set-cookie").split(";")[0];
     await until("the vehicle's connection", async () => (await (await fetch(`${origin}/api/v1/vehicles/TP-01`, { headers: { cookie } })).json()).link === "live");
   } finally {
-    process.kill(-demo.pid, "SIGINT");
+    if (demo.exitCode === null) process.kill(-demo.pid, "SIGINT");  // what it ended with is told above
     await over;
     rmSync(folder, { recursive: true, force: true });
   }
