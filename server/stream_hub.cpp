@@ -171,13 +171,14 @@ void StreamHub::wake_all() {
 void StreamHub::push(StreamClient& client, const Frame& text) {
     if (!client.subscribed || client.overflowed) return;
     client.changes.emplace_back(text);
+    ++client.frames;
     client.bytes += text->size();
-    if (client.changes.size() > StreamClient::kMaxChanges ||
-        client.bytes > StreamClient::kMaxBytes) {
+    if (client.frames > StreamClient::kMaxFrames || client.bytes > StreamClient::kMaxBytes) {
         client.overflowed = true;
         client.subscribed = false;
         client.changes.clear();
         client.vehicles.clear();
+        client.frames = client.bytes = 0;
         ++metrics_.slow_readers_closed;
     }
     client.wake();
@@ -188,17 +189,21 @@ void StreamHub::push_all(const Frame& text) {
 }
 
 Frame StreamHub::next(StreamClient& client) {
-    if (!client.changes.empty()) {
+    // In turns: a thousand vehicles that change one after the other must not keep the poses back.
+    const bool poses_first = client.poses_due && std::exchange(client.poses_next, false);
+    if (!client.changes.empty() && !poses_first) {
         if (const auto* waits = std::get_if<Unwritten>(&client.changes.front())) {
             if (!**waits) return nullptr;
             const Frame snapshot = **waits;
             client.changes.pop_front();
             return snapshot;
         }
+        client.poses_next = true;
         const auto change = std::move(client.changes.front());
         client.changes.pop_front();
         if (const auto* text = std::get_if<Frame>(&change)) {
-            client.bytes -= std::min(client.bytes, (*text)->size());
+            --client.frames;
+            client.bytes -= (*text)->size();
             return *text;
         }
         const auto& id = std::get<plant::VehicleId>(change);

@@ -25,7 +25,8 @@ using Unwritten = std::shared_ptr<Frame>;
 /// What waits to be written to one dashboard: changes in order, of poses and vehicles only the
 /// newest. The session's writer takes frames with StreamHub::next().
 struct StreamClient {
-    static constexpr std::size_t kMaxChanges = 1024;
+    // Of what cannot be left out. Vehicles in `changes` do not count: there is one entry for each.
+    static constexpr std::size_t kMaxFrames = 1024;
     static constexpr std::size_t kMaxBytes = 1 << 20;
 
     std::function<void()> wake;  // there is something to write
@@ -34,9 +35,11 @@ struct StreamClient {
     bool refused = false;        // there is no snapshot for it now: close with 1013
     std::deque<std::variant<Frame, plant::VehicleId, Unwritten>> changes;
     std::set<plant::VehicleId> vehicles;  // in `changes`
-    std::size_t bytes = 0;
+    std::size_t frames = 0;               // in `changes`
+    std::size_t bytes = 0;                // of those
     std::uint64_t poses_seen = 0;
     bool poses_due = false;
+    bool poses_next = false;  // a change was written last
 };
 
 /// Tells dashboards and event readers what was committed. Thread safety: none, the network thread

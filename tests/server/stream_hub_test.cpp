@@ -86,6 +86,49 @@ TEST_F(StreamHubTest, WhoComesMeanwhileSharesTheNextOne) {
     EXPECT_EQ(hub.next(clients[1]), hub.next(clients[2]));
 }
 
+/// A batch with changes of so many vehicles.
+Published changed(int vehicles) {
+    Published batch;
+    for (int i = 0; i < vehicles; ++i) {
+        fleet::VehicleView view;
+        view.id = plant::VehicleId("V" + std::to_string(i));
+        batch.outputs.vehicles.push_back(view);
+    }
+    return batch;
+}
+
+TEST_F(StreamHubTest, AThousandVehiclesThatWaitAreNoReasonToSendSomebodyAway) {
+    hub.subscribe(clients[0]);
+    asked[0](events::Snapshot{});
+    write_next();
+
+    for (int i = 0; i < 3; ++i) hub.publish(changed(2000));
+    Published fleet;
+    fleet.fleet = fleet::FleetView{};
+    for (std::size_t i = 0; i < StreamClient::kMaxFrames; ++i) hub.publish(fleet);
+    EXPECT_FALSE(clients[0].overflowed);
+
+    hub.publish(fleet);
+    EXPECT_TRUE(clients[0].overflowed);
+}
+
+TEST_F(StreamHubTest, PosesDoNotWaitUntilEveryChangeIsWritten) {
+    hub.subscribe(clients[0]);
+    asked[0](events::Snapshot{});
+    write_next();
+    EXPECT_NE(hub.next(clients[0])->find("\"snapshot\""), std::string::npos);
+    hub.publish(changed(1000));
+    hub.poses().put(plant.vehicles[0].id, {1, 2, 0}, 0.5, clock.now());
+    hub.offer_poses();
+
+    std::string types;
+    for (int i = 0; i < 3; ++i) {
+        types += hub.next(clients[0])->find("\"poses\"") != std::string::npos ? 'p' : 'v';
+    }
+
+    EXPECT_EQ(types, "vpv");
+}
+
 TEST_F(StreamHubTest, WithoutASnapshotTheyAreSentAway) {
     hub.subscribe(clients[0]);
 

@@ -9,10 +9,12 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <deque>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/tools/load/dashboard.hpp"
@@ -39,7 +41,10 @@ struct Asker {
     Clock::time_point due;
     bool busy = false;
     bool orders = false;
+    bool cancels = false;  // what it waits for now
 };
+
+constexpr std::size_t kOpenOrders = 500;  // more are cancelled, the oldest first
 
 std::string rfc3339_now() {
     const auto now = std::chrono::system_clock::now();
@@ -123,7 +128,7 @@ private:
                 dashboards_, [](const auto& d) { return d->peer().open() || d->peer().ended(); });
         });
         for (int i = 0; i < 24; ++i) {
-            askers_.push_back({std::make_unique<Peer>(settings_.port), {}, false, i < 8});
+            askers_.push_back({std::make_unique<Peer>(settings_.port), {}, false, i < 8, false});
         }
     }
 
@@ -139,10 +144,8 @@ private:
 
     /// The next thing to ask; one that finds all askers still waiting is counted as not asked.
     void ask(bool order, std::uint64_t index) {
-        const auto free = std::ranges::find_if(askers_, [&](const Asker& a) {
-            return !a.busy && a.orders == order && !a.peer->ended();
-        });
-        if (free == askers_.end()) {
+        Asker* free = free_asker(order);
+        if (!free) {
             ++waits_;
             return;
         }
@@ -168,7 +171,33 @@ private:
         }
     }
 
+    Asker* free_asker(bool order) {
+        const auto free = std::ranges::find_if(askers_, [&](const Asker& a) {
+            return !a.busy && a.orders == order && !a.peer->ended();
+        });
+        return free == askers_.end() ? nullptr : &*free;
+    }
+
+    /// A server takes no more than so many open orders, and nobody ends these.
+    void cancel_the_oldest() {
+        Asker* free = free_asker(true);
+        if (open_orders_.size() <= kOpenOrders || !free) return;
+        free->busy = free->cancels = true;
+        free->due = Clock::now();
+        free->peer->send_raw("POST /api/v1/job-orders/" + open_orders_.front() +
+                             "/cancel HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer " +
+                             settings_.token +
+                             "\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}");
+        open_orders_.pop_front();
+    }
+
+    void note_order(std::string_view body) {
+        const auto answer = nlohmann::json::parse(body, nullptr, false);
+        if (answer.is_object()) open_orders_.push_back(answer.value("id", ""));
+    }
+
     void wait_and_read(int timeout_ms) {
+        cancel_the_oldest();
         polled_.clear();
         const auto add = [&](Peer& peer) {
             if (!peer.ended())
@@ -208,13 +237,15 @@ private:
                              if (answer.status >= 300) {
                                  totals_.refusals.try_emplace(answer.status, answer.body);
                              }
+                             const bool created = a.orders && !std::exchange(a.cancels, false);
+                             if (created && answer.status == 201) note_order(answer.body);
                              const double ms = ms_since(a.due);
-                             if (counts_) (a.orders ? totals_.accepted : totals_.answers).add(ms);
+                             if (counts_) (created ? totals_.accepted : totals_.answers).add(ms);
                          });
             if (!a.peer->ended()) continue;
             // A connection has a thousand requests; then it is begun anew.
             if (a.busy) ++totals_.requests_cut;
-            a = {std::make_unique<Peer>(settings_.port), {}, false, a.orders};
+            a = {std::make_unique<Peer>(settings_.port), {}, false, a.orders, false};
         }
     }
 
@@ -247,6 +278,7 @@ private:
     VehiclesById by_id_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
     std::vector<Asker> askers_;
+    std::deque<std::string> open_orders_;
     std::vector<pollfd> polled_;
     Totals totals_;
     bool counts_ = false;
