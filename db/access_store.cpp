@@ -134,10 +134,6 @@ void AccessStore::put_use(const std::string& token_sha256, Time used) {
     });
 }
 
-void AccessStore::remove_session(const std::string& token_sha256) {
-    remove_sessions({token_sha256});
-}
-
 void AccessStore::remove_sessions(const std::vector<std::string>& token_sha256s) {
     database_.transaction([&] {
         for (std::string key : token_sha256s) {

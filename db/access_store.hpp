@@ -11,13 +11,12 @@ public:
     explicit AccessStore(Database& database) : database_(database) {}
 
     std::vector<access::User> users() override;
-    /// Without those that ended before the newest one began; the caller still checks `expires`.
+    /// Those that have ended, too: by which clock, the caller knows.
     std::vector<access::Session> sessions() override;
     std::vector<access::Token> tokens() override;
     void put(const access::User& user) override;
     void put(const access::Session& session) override;
     void put_use(const std::string& token_sha256, Time used) override;
-    void remove_session(const std::string& token_sha256) override;
     void remove_sessions(const std::vector<std::string>& token_sha256s) override;
     void put(const access::Token& token) override;
 

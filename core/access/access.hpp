@@ -55,7 +55,6 @@ public:
     virtual void put(const Session& session) = 0;
     /// Only of sessions that are still there.
     virtual void put_use(const std::string& token_sha256, Time used) = 0;
-    virtual void remove_session(const std::string& token_sha256) = 0;
     /// In one transaction, however many they are.
     virtual void remove_sessions(const std::vector<std::string>& token_sha256s) = 0;
     virtual void put(const Token& token) = 0;

@@ -36,7 +36,7 @@ TEST_F(AccessStoreTest, SessionsGoWhenRemoved) {
     store_.put(access::Session{"b", "csrf", "ann", at(2), at(100)});
     store_.put(access::Session{"c", "csrf", "ann", at(20), at(100)});
     store_.put(access::Session{"d", "csrf", "ann", at(20), at(100)});
-    store_.remove_session("b");
+    store_.remove_sessions({"b"});
     EXPECT_EQ(store_.sessions().size(), 3u);
     store_.remove_sessions({"a", "gone", "d"});
     const auto sessions = store_.sessions();

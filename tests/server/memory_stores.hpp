@@ -171,7 +171,6 @@ public:
     void put(const access::User& user) override { users_.push_back(user); }
     void put(const access::Session& session) override { sessions_.push_back(session); }
     void put_use(const std::string&, Time) override {}
-    void remove_session(const std::string&) override {}
     void remove_sessions(const std::vector<std::string>&) override {}
     void put(const access::Token& token) override { tokens_.push_back(token); }
 

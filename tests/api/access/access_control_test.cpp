@@ -429,7 +429,7 @@ TEST_F(AccessControlTest, ASessionThatEndedMeanwhileIsNotStoredAgainByItsUse) {
     now += minutes(5);
     const Identity identity = with_cookie(signed_in.cookie_token);
 
-    store.remove_session(identity.session_sha256);
+    store.remove_sessions({identity.session_sha256});
     access->save_uses();
 
     EXPECT_TRUE(store.sessions().empty());

@@ -21,7 +21,6 @@ public:
         const auto session = sessions_.find(sha256);
         if (session != sessions_.end()) session->second.used = used;
     }
-    void remove_session(const std::string& sha256) override { sessions_.erase(sha256); }
     void remove_sessions(const std::vector<std::string>& all) override {
         for (const auto& sha256 : all) sessions_.erase(sha256);
     }
