@@ -16,6 +16,7 @@ using traffic::GraphIndex;
 using traffic::PlaceIndex;
 
 constexpr double kHandOver_s = 120;
+constexpr double kStuck_s = 600;  // of the baselines
 
 struct World {
     struct Vehicle {
