@@ -8,6 +8,8 @@ namespace {
 constexpr std::size_t kStopsShown = 50;
 constexpr std::size_t kFinishedShown = 50;
 constexpr std::size_t kEventsKept = 4096;
+// Of changes in one frame: poses must not wait long behind them.
+constexpr std::size_t kJoinedBytes = 64 << 10;
 
 Frame frame(std::string text) { return std::make_shared<const std::string>(std::move(text)); }
 
@@ -199,18 +201,7 @@ Frame StreamHub::next(StreamClient& client) {
             return snapshot;
         }
         client.poses_next = true;
-        const auto change = std::move(client.changes.front());
-        client.changes.pop_front();
-        if (const auto* text = std::get_if<Frame>(&change)) {
-            --client.frames;
-            client.bytes -= (*text)->size();
-            return *text;
-        }
-        const auto& id = std::get<plant::VehicleId>(change);
-        client.vehicles.erase(id);
-        auto& row = vehicles_[id];
-        if (!row.frame) row.frame = frame(events::vehicle_frame(plant_, images_, row.view));
-        return row.frame;
+        return next_changes(client);
     }
     if (!client.poses_due) return nullptr;
     client.poses_due = false;
@@ -221,6 +212,43 @@ Frame StreamHub::next(StreamClient& client) {
                        frame(events::poses_frame(now, poses_.since(from, now)))};
     }
     return last_poses_.frame;
+}
+
+Frame StreamHub::next_changes(StreamClient& client) {
+    std::vector<Frame> parts;
+    std::size_t bytes = 0;
+    while (!client.changes.empty() && bytes < kJoinedBytes &&
+           !std::holds_alternative<Unwritten>(client.changes.front())) {
+        parts.push_back(take_change(client));
+        bytes += parts.back()->size();
+    }
+    if (parts.size() == 1) return parts.front();
+    if (last_changes_.parts != parts) {
+        std::vector<std::string_view> texts;
+        texts.reserve(parts.size());
+        for (const auto& part : parts) texts.emplace_back(*part);
+        last_changes_ = {std::move(parts), frame(events::changes_frame(texts))};
+    }
+    return last_changes_.frame;
+}
+
+Frame StreamHub::take_change(StreamClient& client) {
+    const auto change = std::move(client.changes.front());
+    client.changes.pop_front();
+    if (const auto* text = std::get_if<Frame>(&change)) {
+        --client.frames;
+        client.bytes -= (*text)->size();
+        return *text;
+    }
+    const auto& id = std::get<plant::VehicleId>(change);
+    client.vehicles.erase(id);
+    return vehicle_frame(id);
+}
+
+Frame StreamHub::vehicle_frame(const plant::VehicleId& id) {
+    auto& row = vehicles_[id];
+    if (!row.frame) row.frame = frame(events::vehicle_frame(plant_, images_, row.view));
+    return row.frame;
 }
 
 Frame StreamHub::event(std::int64_t seq) const {

@@ -1,6 +1,7 @@
 #include "api/events/frames.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "api/http/common_json.hpp"
 #include "api/http/job_order_json.hpp"
@@ -70,6 +71,10 @@ std::string fleet_frame(const plant::Plant& plant, const fleet::FleetView& fleet
 
 std::string event_frame(const fleet::Event& event) {
     return frame("event", api::event_json(event));
+}
+
+std::string changes_frame(const std::vector<std::string_view>& frames) {
+    return fmt::format(R"({{"type":"changes","changes":[{}]}})", fmt::join(frames, ","));
 }
 
 std::string sse(const fleet::Event& event) {

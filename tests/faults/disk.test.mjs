@@ -48,7 +48,7 @@ const order = (number) => client.request("POST", "/api/v1/job-orders", { body: {
 async function listen() {
   const frames = [];
   const socket = new WebSocket(`${system.url.replace("http", "ws")}/api/v1/stream`, { headers: { Authorization: `Bearer ${system.apiToken}` } });
-  socket.onmessage = ({ data }) => frames.push(JSON.parse(data));
+  socket.onmessage = ({ data }) => { const frame = JSON.parse(data); frames.push(...(frame.type === "changes" ? frame.changes : [frame])); };
   await until("the stream begins", () => frames.some((f) => f.type === "snapshot"), { timeout_s: 10 });
   return { frames, close: () => socket.close() };
 }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "server/camera_store.hpp"
 #include "tests/server/test_server.hpp"
 
@@ -112,6 +114,28 @@ TEST_F(StreamHubTest, AThousandVehiclesThatWaitAreNoReasonToSendSomebodyAway) {
     EXPECT_TRUE(clients[0].overflowed);
 }
 
+TEST_F(StreamHubTest, ChangesThatWaitTogetherAreOneFrameThatDashboardsShare) {
+    hub.subscribe(clients[0]);
+    hub.subscribe(clients[1]);
+    asked[0](events::Snapshot{});
+    write_next();
+    for (int i = 0; i < 2; ++i) hub.next(clients[i]);
+    auto batch = changed(2);
+    batch.fleet = fleet::FleetView{};
+
+    hub.publish(batch);
+
+    const Frame frame = hub.next(clients[0]);
+    const auto json = nlohmann::json::parse(*frame);
+    EXPECT_EQ(json["type"], "changes");
+    std::string types;
+    for (const auto& change : json["changes"]) types += change["type"].get<std::string>() + " ";
+    EXPECT_EQ(types, "vehicle vehicle fleet ");
+    EXPECT_EQ(hub.next(clients[1]), frame);
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+    EXPECT_EQ(clients[0].frames + clients[0].bytes, 0u);
+}
+
 TEST_F(StreamHubTest, PosesDoNotWaitUntilEveryChangeIsWritten) {
     hub.subscribe(clients[0]);
     asked[0](events::Snapshot{});
@@ -123,7 +147,9 @@ TEST_F(StreamHubTest, PosesDoNotWaitUntilEveryChangeIsWritten) {
 
     std::string types;
     for (int i = 0; i < 3; ++i) {
-        types += hub.next(clients[0])->find("\"poses\"") != std::string::npos ? 'p' : 'v';
+        const Frame frame = hub.next(clients[0]);
+        ASSERT_TRUE(frame);
+        types += frame->find("\"poses\"") != std::string::npos ? 'p' : 'v';
     }
 
     EXPECT_EQ(types, "vpv");

@@ -1,5 +1,8 @@
 #include "tests/server/ws_client.hpp"
 
+#include <deque>
+#include <nlohmann/json.hpp>
+
 #include "server/net.hpp"
 
 namespace pulseline::server::testing {
@@ -9,6 +12,7 @@ struct WsClient::Impl {
     websocket::stream<PlainStream> socket{io};
     http::response<http::string_body> answer;
     bool open = false;
+    std::deque<std::string> changes;  // of the last frame that joined several
 
     /// Runs one asynchronous operation to its end, at most 10 s.
     error_code finish(std::function<void(std::function<void(error_code)>)> start) {
@@ -63,6 +67,21 @@ void WsClient::send_binary(const std::string& bytes) {
 }
 
 std::optional<std::string> WsClient::read() {
+    auto& changes = impl_->changes;
+    while (changes.empty()) {
+        const auto text = read_message();
+        if (!text || !text->starts_with(R"({"type":"changes")")) return text;
+        const auto frame = nlohmann::ordered_json::parse(*text);
+        for (const auto& change : frame["changes"]) {
+            changes.push_back(change.dump());
+        }
+    }
+    const std::string change = std::move(changes.front());
+    changes.pop_front();
+    return change;
+}
+
+std::optional<std::string> WsClient::read_message() {
     beast::flat_buffer buffer;
     const auto ec = impl_->finish([&](auto done) {
         impl_->socket.async_read(buffer, [done](error_code e, std::size_t) { done(e); });

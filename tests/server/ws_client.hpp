@@ -20,7 +20,8 @@ public:
     std::string problem() const;
     void send(const std::string& text);
     void send_binary(const std::string& bytes);
-    /// Next message; nothing when the socket ended.
+    /// Next message, of a stream's frame of several changes each one; nothing when the socket
+    /// ended.
     std::optional<std::string> read();
     /// Reads on to a message that holds `part`.
     std::optional<std::string> read_until(const std::string& part);
@@ -30,6 +31,8 @@ public:
     void cut();
 
 private:
+    std::optional<std::string> read_message();
+
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

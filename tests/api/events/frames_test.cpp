@@ -50,6 +50,16 @@ TEST_F(FramesTest, SnapshotOfARunningFleetFitsTheDocument) {
     EXPECT_EQ(json["vehicles"].size(), 2U);
 }
 
+TEST_F(FramesTest, ChangesInOneFrameFitTheDocument) {
+    const auto vehicle = vehicle_frame(api.world.plant, api.images, v1());
+    const auto fleet = fleet_frame(api.world.plant, api.world.fleet->view(api.world.now));
+
+    const std::string frame = changes_frame({vehicle, fleet});
+
+    EXPECT_EQ(breach(frame), "");
+    EXPECT_EQ(Json::parse(frame)["changes"][1], Json::parse(fleet));
+}
+
 TEST_F(FramesTest, EveryChangeFrameFitsTheDocument) {
     const auto& plant = api.world.plant;
     EXPECT_TRUE(v1().leg.has_value());

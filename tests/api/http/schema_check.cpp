@@ -79,9 +79,8 @@ std::string breach(const Json& given, const Json& value, const std::string& at) 
         for (const auto& option : schema["oneOf"]) {
             const auto found = breach(option, value, at);
             if (found.empty()) ++fitting;
-            if (value.value("type", "") == option["properties"]["type"].value("const", "")) {
-                why = found;
-            }
+            const Json kind = option.value("/properties/type/const"_json_pointer, Json());
+            if (kind.is_null() || kind == value.value("type", "")) why += found;
         }
         return fitting == 1 ? "" : at + " fits " + std::to_string(fitting) + " options: " + why;
     }

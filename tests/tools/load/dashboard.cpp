@@ -7,8 +7,9 @@
 
 namespace pulseline::load {
 
-Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches)
-    : peer_(std::make_unique<Peer>(port)), watches_(watches) {
+Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches,
+                     EventReader& reader)
+    : peer_(std::make_unique<Peer>(port)), reader_(reader), watches_(watches) {
     peer_->ask_upgrade("/api/v1/stream", "Authorization: Bearer " + token + "\r\n");
 }
 
@@ -18,7 +19,7 @@ void Dashboard::take(std::string_view text, const VehiclesById& vehicles, bool c
     if (text.starts_with(R"({"type":"poses")")) {
         if (watches_) take_poses(text, vehicles, counts, totals);
     } else if (text.find(R"("type":"event")") != std::string_view::npos) {
-        take_event(text, totals);
+        take_events(text, totals);
     }
 }
 
@@ -47,20 +48,35 @@ void Dashboard::take_poses(std::string_view text, const VehiclesById& vehicles, 
         at = static_cast<std::size_t>(from - text.data());
     }
 }
-void Dashboard::take_event(std::string_view text, Totals& totals) {
-    const auto parsed = nlohmann::json::parse(text, nullptr, false);
-    if (!parsed.is_object()) return;
-    const auto& event = parsed.contains("event") ? parsed["event"] : parsed;
-    if (!event.contains("seq")) return;
-    const auto seq = event["seq"].get<std::int64_t>();
-    if (last_seq_ != 0 && seq != last_seq_ + 1)
-        totals.events_lost += static_cast<std::uint64_t>(std::abs(seq - last_seq_ - 1));
-    last_seq_ = seq;
-    ++totals.events;
-    if (event.value("type", "") == "vehicle.link") {
-        const auto to = event.value("params", nlohmann::json::object()).value("to", "");
-        if (to == "lost" || to == "gone") totals.vehicles_lost.insert(event.value("vehicle", ""));
+
+void Dashboard::take_events(std::string_view text, Totals& totals) {
+    for (const auto& event : reader_.read(text)) {
+        if (last_seq_ != 0 && event.seq != last_seq_ + 1)
+            totals.events_lost += static_cast<std::uint64_t>(std::abs(event.seq - last_seq_ - 1));
+        last_seq_ = event.seq;
+        ++totals.events;
+        if (!event.lost.empty()) totals.vehicles_lost.insert(event.lost);
     }
+}
+
+const std::vector<HeardEvent>& EventReader::read(std::string_view text) {
+    if (text == text_) return events_;
+    text_ = text;
+    events_.clear();
+    const auto frame = nlohmann::json::parse(text, nullptr, false);
+    if (!frame.is_object()) return events_;
+    const auto& changes = frame.contains("changes") ? frame["changes"] : nlohmann::json{frame};
+    for (const auto& change : changes) {
+        if (!change.contains("event")) continue;
+        const auto& event = change["event"];
+        HeardEvent heard{event["seq"].get<std::int64_t>(), ""};
+        if (event["type"] == "vehicle.link") {
+            const auto to = event["params"].value("to", "");
+            if (to == "lost" || to == "gone") heard.lost = event.value("vehicle", "");
+        }
+        events_.push_back(std::move(heard));
+    }
+    return events_;
 }
 
 }  // namespace pulseline::load

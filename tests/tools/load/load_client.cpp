@@ -120,7 +120,7 @@ private:
             const auto& tokens = settings_.dashboard_tokens;
             dashboards_.push_back(std::make_unique<Dashboard>(
                 settings_.port, tokens[static_cast<std::size_t>(i) % tokens.size()],
-                i < settings_.watchers));
+                i < settings_.watchers, reader_));
             wait_and_read(0);
         }
         wait_until_open([&] {
@@ -276,6 +276,7 @@ private:
     Settings settings_;
     std::vector<std::unique_ptr<Vehicle>> vehicles_;
     VehiclesById by_id_;
+    EventReader reader_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
     std::vector<Asker> askers_;
     std::deque<std::string> open_orders_;

@@ -21,3 +21,11 @@ it.each(["", "{", "null", "[]", '{"type":"unheard"}', '"snapshot"', undefined, 5
 it("takes a known frame", () => {
   expect(parseFrame('{"type":"poses","at":"","poses":[]}')?.type).toBe("poses");
 });
+
+it("keeps of a frame with several changes those it knows", () => {
+  const frame = parseFrame(
+    '{"type":"changes","changes":[{"type":"unheard"},null,{"type":"event","event":{}}]}',
+  );
+  expect(frame).toEqual({ type: "changes", changes: [{ type: "event", event: {} }] });
+  expect(parseFrame('{"type":"changes"}')).toBeUndefined();
+});

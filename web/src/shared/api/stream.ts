@@ -6,16 +6,8 @@ export const kSilenceMs = 2500;
 const kRetryMinMs = 500;
 const kRetryMaxMs = 10_000;
 
-const kFrameTypes = new Set([
-  "snapshot",
-  "poses",
-  "vehicle",
-  "station",
-  "job_order",
-  "stop_record",
-  "fleet",
-  "event",
-]);
+const kChangeTypes = new Set(["vehicle", "station", "job_order", "stop_record", "fleet", "event"]);
+const kFrameTypes = new Set(["snapshot", "poses", "changes", ...kChangeTypes]);
 
 /** Wait before try number `attempt` (0-based): exponential with full jitter, never outside 0.5 to 10 s. */
 export function retryDelayMs(attempt: number, random: number): number {
@@ -23,13 +15,20 @@ export function retryDelayMs(attempt: number, random: number): number {
   return kRetryMinMs + random * (ceiling - kRetryMinMs);
 }
 
+function isOf(types: ReadonlySet<string>, value: unknown): boolean {
+  return typeof value === "object" && value !== null && "type" in value && types.has(String(value.type));
+}
+
 /** A frame, or undefined when the text is none. An unknown type is ignored: the server may be newer. */
 export function parseFrame(text: unknown): StreamFrame | undefined {
   if (typeof text !== "string") return undefined;
   try {
     const value: unknown = JSON.parse(text);
-    if (typeof value !== "object" || value === null || !("type" in value)) return undefined;
-    return kFrameTypes.has(String(value.type)) ? (value as StreamFrame) : undefined;
+    if (!isOf(kFrameTypes, value)) return undefined;
+    const frame = value as StreamFrame;
+    return frame.type === "changes"
+      ? { ...frame, changes: frame.changes.filter((change) => isOf(kChangeTypes, change)) }
+      : frame;
   } catch {
     return undefined;
   }

@@ -70,6 +70,23 @@ describe("reduce", () => {
   it("knows how far the server's clock is ahead", () => {
     expect(reduce(emptyState, snapshot([]), Date.parse("2026-01-01T00:00:00Z")).clockOffsetMs).toBe(10_000);
   });
+  it("takes several changes of one frame in order", () => {
+    const old = reduce(emptyState, snapshot([vehicle("A")]), 0);
+    const state = reduce(
+      old,
+      {
+        type: "changes",
+        changes: [
+          { type: "vehicle", vehicle: vehicle("A", { activity: "moving" }) },
+          { type: "job_order", job_order: order(4) },
+          { type: "job_order", job_order: order(2) },
+        ],
+      },
+      0,
+    );
+    expect(state.vehicles.get("A")?.activity).toBe("moving");
+    expect(state.jobOrders.get("o")?.revision).toBe(4);
+  });
   it("changes only the part a frame is about", () => {
     const old = reduce(emptyState, snapshot([vehicle("A")]), 0);
     const state = reduce(old, { type: "vehicle", vehicle: vehicle("A", { activity: "moving" }) }, 0);

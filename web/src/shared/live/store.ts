@@ -89,6 +89,8 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
       return { ...state, stopRecords: withStop(state.stopRecords, frame.stop_record) };
     case "fleet":
       return { ...state, fleet: frame.fleet };
+    case "changes":
+      return frame.changes.reduce((next, change) => reduce(next, change, wallMs), state);
     case "poses":
     case "event":
       return state;
