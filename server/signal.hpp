@@ -11,8 +11,7 @@ class Signal {
 public:
     explicit Signal(net::io_context& io) : timer_(io) {}
     void set() {
-        set_ = true;
-        timer_.cancel();
+        if (!std::exchange(set_, true)) timer_.cancel();
     }
     /// False when `most` passed without a set().
     net::awaitable<bool> wait(std::chrono::steady_clock::duration most) {

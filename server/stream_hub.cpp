@@ -18,7 +18,14 @@ Frame frame(std::string text) { return std::make_shared<const std::string>(std::
 StreamHub::StreamHub(const plant::Plant& plant, const api::CameraImages& images, const Clock& clock,
                      Metrics& metrics)
     : plant_(plant), images_(images), clock_(clock), metrics_(metrics) {
-    for (const auto& vehicle : plant.vehicles) vehicles_[vehicle.id].view.id = vehicle.id;
+    for (const auto& vehicle : plant.vehicles) row_of(vehicle.id);
+}
+
+StreamHub::VehicleRow& StreamHub::row_of(const plant::VehicleId& id) {
+    const auto [found, is_new] =
+        row_of_.try_emplace(id, static_cast<VehicleRowIndex>(vehicles_.size()));
+    if (is_new) vehicles_.emplace_back().view.id = id;
+    return vehicles_[found->second];
 }
 
 void StreamHub::start(std::vector<fleet::StopRecord> stops, std::int64_t last_event_seq) {
@@ -30,10 +37,15 @@ void StreamHub::start(std::vector<fleet::StopRecord> stops, std::int64_t last_ev
 void StreamHub::publish(const FleetRuntime::Published& batch) {
     const auto& out = batch.outputs;
     for (const auto& vehicle : out.vehicles) {
-        vehicles_[vehicle.id] = {vehicle, nullptr};
+        VehicleRow& row = row_of(vehicle.id);
+        row = {vehicle, nullptr};
+        const auto index = static_cast<VehicleRowIndex>(&row - vehicles_.data());
         for (auto* client : clients_) {
-            if (!client->subscribed || !client->vehicles.insert(vehicle.id).second) continue;
-            client->changes.emplace_back(vehicle.id);
+            if (!client->subscribed) continue;
+            client->vehicles.resize(vehicles_.size());
+            if (client->vehicles[index]) continue;
+            client->vehicles[index] = true;
+            client->changes.emplace_back(index);
             client->wake();
         }
     }
@@ -125,7 +137,7 @@ void StreamHub::share(Result<events::Snapshot> snapshot) {
         return refuse_those_who_want();
     }
     if (!std::exchange(known_, true)) {
-        for (const auto& vehicle : snapshot->vehicles) vehicles_[vehicle.id] = {vehicle, nullptr};
+        for (const auto& vehicle : snapshot->vehicles) row_of(vehicle.id) = {vehicle, nullptr};
         open_orders_.clear();
         for (const auto& order : snapshot->job_orders) note_order(order);
     }
@@ -240,13 +252,9 @@ Frame StreamHub::take_change(StreamClient& client) {
         client.bytes -= (*text)->size();
         return *text;
     }
-    const auto& id = std::get<plant::VehicleId>(change);
-    client.vehicles.erase(id);
-    return vehicle_frame(id);
-}
-
-Frame StreamHub::vehicle_frame(const plant::VehicleId& id) {
-    auto& row = vehicles_[id];
+    const auto index = std::get<VehicleRowIndex>(change);
+    client.vehicles[index] = false;
+    auto& row = vehicles_[index];
     if (!row.frame) row.frame = frame(events::vehicle_frame(plant_, images_, row.view));
     return row.frame;
 }
@@ -281,7 +289,7 @@ std::map<std::string, int> StreamHub::vehicles_by_link() const {
                             fleet::Link::kLost, fleet::Link::kGone}) {
         counts[fleet::to_string(link)] = 0;
     }
-    for (const auto& [id, row] : vehicles_) ++counts[fleet::to_string(row.view.link)];
+    for (const auto& row : vehicles_) ++counts[fleet::to_string(row.view.link)];
     return counts;
 }
 

@@ -23,6 +23,10 @@ using Frame = std::shared_ptr<const std::string>;
 /// A snapshot that is being written down elsewhere: what changes meanwhile waits behind it.
 using Unwritten = std::shared_ptr<Frame>;
 
+/// Of a vehicle in StreamHub's rows. A thousand of them may wait for each of two hundred
+/// dashboards.
+using VehicleRowIndex = std::uint32_t;
+
 /// What waits to be written to one dashboard: changes in order, of poses and vehicles only the
 /// newest. The session's writer takes frames with StreamHub::next().
 struct StreamClient {
@@ -34,10 +38,10 @@ struct StreamClient {
     bool subscribed = false;     // a snapshot is in the queue or written
     bool overflowed = false;     // fell behind: close with 1013
     bool refused = false;        // there is no snapshot for it now: close with 1013
-    std::deque<std::variant<Frame, plant::VehicleId, Unwritten>> changes;
-    std::set<plant::VehicleId> vehicles;  // in `changes`
-    std::size_t frames = 0;               // in `changes`
-    std::size_t bytes = 0;                // of those
+    std::deque<std::variant<Frame, VehicleRowIndex, Unwritten>> changes;
+    std::vector<bool> vehicles;  // by row: in `changes`
+    std::size_t frames = 0;      // in `changes`
+    std::size_t bytes = 0;       // of those
     std::uint64_t poses_seen = 0;
     bool poses_due = false;
     bool poses_next = false;  // a change was written last
@@ -103,7 +107,7 @@ private:
     /// Takes what waits, in order, up to a snapshot; null when there is none.
     Frame next_changes(StreamClient& client);
     Frame take_change(StreamClient& client);
-    Frame vehicle_frame(const plant::VehicleId& id);
+    VehicleRow& row_of(const plant::VehicleId& id);
     void push(StreamClient& client, const Frame& frame);
     void push_all(const Frame& frame);
     void ask();
@@ -122,7 +126,8 @@ private:
     std::set<StreamClient*> wanting_;  // a snapshot
     bool asking_ = false;              // one is on its way to be written
     bool known_ = true;                // false: the rows here may be of a fleet that is no more
-    std::map<plant::VehicleId, VehicleRow> vehicles_;
+    std::vector<VehicleRow> vehicles_;
+    std::map<plant::VehicleId, VehicleRowIndex> row_of_;
     std::map<fleet::JobOrderId, fleet::JobState> open_orders_;
     std::map<std::string, int> finished_orders_;  // since start
     std::deque<fleet::StopRecord> stops_;         // newest first
