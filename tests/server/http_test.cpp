@@ -139,19 +139,19 @@ struct SlowStore : MemoryStore {
 
 TEST(Http, EndsWithoutWhatStillWaits) {
     SlowStore store;
-    TestServer server({}, &store);
+    auto server = std::make_unique<TestServer>(Options{}, &store);
     const std::string ask = "GET /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nAuthorization: " +
-                            server.viewer_token().at("Authorization") + "\r\n\r\n";
+                            server->viewer_token().at("Authorization") + "\r\n\r\n";
     std::vector<std::unique_ptr<TcpClient>> clients;
     for (int i = 0; i < 50; ++i) {
-        clients.push_back(std::make_unique<TcpClient>(server.port()));
+        clients.push_back(std::make_unique<TcpClient>(server->port()));
         clients.back()->send(ask);
     }
     while (store.asked < 1) std::this_thread::yield();
-    EXPECT_EQ(request(server.port(), "GET", "/healthz").status, 200);  // all of them are in by now
+    EXPECT_EQ(request(server->port(), "GET", "/healthz").status, 200);  // all of them are in by now
     const auto begin = std::chrono::steady_clock::now();
 
-    server.stop();
+    server.reset();
 
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
     EXPECT_LT(store.asked, 40);
