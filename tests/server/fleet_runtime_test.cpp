@@ -310,6 +310,27 @@ TEST(FleetRuntime, AFloodOfCommandsLeavesRoomForTicksAndReads) {
     EXPECT_GT(server.runtime->queues().commands, 100u);
 }
 
+TEST(FleetRuntime, AFloodOfReadsLeavesRoomForTicksAndCommands) {
+    Runtime server;
+    ASSERT_TRUE(server.until([&] { return server.runtime->queues().tick_age_s < 0.5; }));
+    for (int i = 0; i < 300; ++i) {
+        server.runtime->read(
+            [](fleet::Fleet&, Time) {
+                std::this_thread::sleep_for(milliseconds(5));
+                return 1;
+            },
+            [](Result<int>) {});
+    }
+
+    const auto begin = Steady::now();
+    auto command = server.ask(pause_fleet);
+
+    // The whole flood takes 1.5 s at least.
+    ASSERT_EQ(command.wait_for(kPatience), std::future_status::ready);
+    EXPECT_LT(Steady::now() - begin, std::chrono::seconds(1));
+    EXPECT_GT(server.runtime->queues().reads, 100u);
+}
+
 TEST(FleetRuntime, ACommandThatHasWaitedTooLongChangesNothing) {
     Runtime server;
     std::promise<void> go;
