@@ -50,17 +50,32 @@ bool origin_allowed(const Request& request, const AccessPolicy& policy) {
            std::find(policy.origins.begin(), policy.origins.end(), origin) != policy.origins.end();
 }
 
+std::string in_lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// Whether the page asked this server under a name that is ours. Somebody else may let a name of
+/// his own lead here (DNS rebinding): to the browser his pages are then of the same origin.
+bool host_is_ours(const Request& request, const AccessPolicy& policy) {
+    const std::string host = "://" + in_lower_case(request.header("host"));
+    return std::any_of(policy.origins.begin(), policy.origins.end(), [&](const auto& origin) {
+        const auto scheme_end = origin.find("://");
+        return scheme_end != std::string::npos && origin.substr(scheme_end) == host;
+    });
+}
+
 /// The browser itself says that the page is ours, or the caller is no browser page at all.
 bool same_site(const Request& request, const AccessPolicy& policy) {
     const std::string& site = request.header("sec-fetch-site");
-    if (site == "same-origin" || origin_allowed(request, policy)) return true;
+    if (origin_allowed(request, policy)) return true;
+    if (site == "same-origin") return host_is_ours(request, policy);
     return site.empty() && request.header("origin").empty();
 }
 
 bool is_json(std::string media_type) {
-    media_type = media_type.substr(0, media_type.find(';'));
-    std::transform(media_type.begin(), media_type.end(), media_type.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    media_type = in_lower_case(media_type.substr(0, media_type.find(';')));
     const auto end = media_type.find_last_not_of(" \t");
     return media_type.substr(0, end == std::string::npos ? 0 : end + 1) == "application/json";
 }
@@ -92,9 +107,11 @@ std::optional<Response> check_cross_site(const Route& route, const Request& requ
     const bool browser = request.identity.by_cookie() || !route.least;
     if (!route.changes() || !browser) return std::nullopt;
     if (!same_site(request, policy)) {
-        return refuse(403, request, "cross_site",
-                      "A page of another origin may not change anything here; use the dashboard.",
-                      request.header("origin").empty() ? "Sec-Fetch-Site" : "Origin");
+        return refuse(
+            403, request, "cross_site",
+            "A page of another origin may not change anything here; open the dashboard at an "
+            "address the server allows.",
+            request.header("origin").empty() ? "Sec-Fetch-Site" : "Origin");
     }
     const std::string& csrf = request.identity.csrf_token;
     if (request.identity.by_cookie() && route.least &&

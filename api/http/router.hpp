@@ -80,8 +80,9 @@ Match match(Request& request);
 
 /// Role, cross-site rules, media type and known query parameters; nothing when the request may
 /// pass. A change with a session cookie needs X-Pulseline-CSRF of that session, a same-origin
-/// Sec-Fetch-Site or an allowed Origin, and application/json; a WebSocket with a cookie needs an
-/// allowed Origin. Bearer tokens need none of it, since no browser sends them by itself.
+/// Sec-Fetch-Site under a Host of ours or an allowed Origin, and application/json; a WebSocket with
+/// a cookie needs an allowed Origin. Bearer tokens need none of it, since no browser sends them by
+/// itself.
 std::optional<Response> authorise(const Route& route, const Request& request,
                                   const AccessPolicy& policy);
 

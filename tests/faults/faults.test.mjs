@@ -78,6 +78,18 @@ test("a full disk at the start is named", { skip: process.getuid() !== 0 && "nee
   }
 });
 
+test("a low limit of open files is raised at the start", async (t) => {
+  const port = await freePort();
+  const args = ["serve", "--db", join(system.directory, "files.db"), "--plant", system.plant.file, "--listen", `127.0.0.1:${port}`];
+  const server = system.start("prlimit", ["--nofile=100:1000", SERVER, ...args], "files");
+  t.after(() => system.kill(server));
+  await until(() => `it answers; its log:\n${system.log("files")}`, async () => {
+    try { return (await fetch(`http://127.0.0.1:${port}/readyz`)).ok; } catch { return false; }
+  }, { timeout_s: 20 });
+  assert.match(readFileSync(`/proc/${server.pid}/limits`, "utf8"), /^Max open files +1000 +1000 /m);
+  assert.match(system.log("files"), /few_descriptors allowed=1000/);
+});
+
 test("a wrong or missing vehicle token is refused and the agent says so", async () => {
   const { manufacturer, serial_number } = system.plant.vehicle("TP-01");
   const agent = system.start(join(BUILD, "pulseline-agent"), ["--server", `ws://127.0.0.1:${system.port}`, "--vehicle", `${manufacturer}/${serial_number}`, "--token", "plv_wrong", "--world", system.plant.file, "--sensing", "analytic"], "agent-wrong");

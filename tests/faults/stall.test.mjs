@@ -50,7 +50,7 @@ test("a log that nobody reads keeps nobody waiting", async () => {
   try {
     const url = `http://127.0.0.1:${port}`;
     await until("the server answers", async () => { try { return (await fetch(`${url}/healthz`)).ok; } catch { return false; } }, { timeout_s: 20 });
-    // Each leaves a line of some 8 KB; a pipe holds 64 KB.
+    // Each leaves a line of some 400 bytes; a pipe holds 64 KB.
     const path = `/api/v1/${"x".repeat(6000)}`;
     for (let i = 0; i < 300; ++i) assert.equal((await fetch(url + path, { signal: AbortSignal.timeout(10_000) })).status, 404);
     assert.ok((await fetch(`${url}/healthz`, { signal: AbortSignal.timeout(10_000) })).ok);

@@ -9,6 +9,7 @@
 #include <array>
 #include <vector>
 
+#include "server/descriptors.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 
@@ -31,6 +32,22 @@ public:
 private:
     rlimit before_{};
 };
+
+TEST(Descriptors, AreAsManyAsTheSystemAllows) {
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit few = before;
+    few.rlim_cur = 100;
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &few), 0);
+
+    const auto allowed = raise_descriptor_limit();
+
+    rlimit after{};
+    getrlimit(RLIMIT_NOFILE, &after);
+    setrlimit(RLIMIT_NOFILE, &before);
+    EXPECT_EQ(allowed, before.rlim_max);
+    EXPECT_EQ(after.rlim_cur, before.rlim_max);
+}
 
 TEST(Descriptors, WhenTheyRunOutNewConnectionsAreClosedAndOldOnesServed) {
     TestServer server;

@@ -101,9 +101,20 @@ public:
     struct LateClock : Clock {
         std::atomic<std::int64_t> late_ns{0};
         Time now() const override {
+            if (looks_left_ > 0 && --looks_left_ == 0) act_();
             return Time{Steady::now().time_since_epoch() + std::chrono::hours(24 * 365)} +
                    Duration(late_ns);
         }
+        /// REQUIRES: the fleet thread. It asks for the time when it begins to wait, and when it has
+        /// decided what to do.
+        void between_two_looks(std::function<void()> act) {
+            act_ = std::move(act);
+            looks_left_ = 2;
+        }
+
+    private:
+        std::function<void()> act_;
+        mutable std::atomic<int> looks_left_{0};
     };
 
     MemoryStore store;
@@ -112,11 +123,13 @@ public:
     std::atomic<bool> publish_throws{false};
     std::atomic<int> deliver_throws{0};
     std::atomic<bool> deaf{false};
+    std::atomic<int> pauses_shown{0};  // views of a fleet that is paused
     std::optional<FleetRuntime> runtime;
 
 private:
     void publish(const Published& batch) {
         if (publish_throws) throw std::runtime_error("a dashboard's frame cannot be made");
+        if (batch.fleet && batch.fleet->paused) ++pauses_shown;
         const std::lock_guard lock(mutex_);
         for (const auto& message : batch.outputs.messages) {
             if (!message.instant_actions) continue;
@@ -232,6 +245,19 @@ TEST(FleetRuntime, AFaultOfTheFleetThreadEndsInReadOnlyAndComesBack) {
     EXPECT_TRUE(server.ask(pause_fleet).get());
 }
 
+TEST(FleetRuntime, AFaultOfTheCommitThreadIsOverByItself) {
+    Runtime server;
+    // What is stored cannot be handed over.
+    server.deliver_throws = 1;
+    server.runtime->command(pause_fleet, [](Result<int>) {});
+
+    ASSERT_TRUE(server.until([&] { return server.deliver_throws == 0; }));
+    EXPECT_TRUE(server.until([&] { return server.events("fleet.paused") == 1; }));
+    EXPECT_TRUE(server.until([&] { return server.metrics.fleet_rebuilds > 0; }));
+    ASSERT_TRUE(server.until([&] { return server.runtime->writable(); }));
+    EXPECT_TRUE(server.ask(pause_fleet).get());
+}
+
 TEST(FleetRuntime, AStallIsNobodysSilence) {
     Runtime server;
     server.report();
@@ -284,6 +310,27 @@ TEST(FleetRuntime, AFloodOfCommandsLeavesRoomForTicksAndReads) {
     EXPECT_GT(server.runtime->queues().commands, 100u);
 }
 
+TEST(FleetRuntime, AFloodOfReadsLeavesRoomForTicksAndCommands) {
+    Runtime server;
+    ASSERT_TRUE(server.until([&] { return server.runtime->queues().tick_age_s < 0.5; }));
+    for (int i = 0; i < 300; ++i) {
+        server.runtime->read(
+            [](fleet::Fleet&, Time) {
+                std::this_thread::sleep_for(milliseconds(5));
+                return 1;
+            },
+            [](Result<int>) {});
+    }
+
+    const auto begin = Steady::now();
+    auto command = server.ask(pause_fleet);
+
+    // The whole flood takes 1.5 s at least.
+    ASSERT_EQ(command.wait_for(kPatience), std::future_status::ready);
+    EXPECT_LT(Steady::now() - begin, std::chrono::seconds(1));
+    EXPECT_GT(server.runtime->queues().reads, 100u);
+}
+
 TEST(FleetRuntime, ACommandThatHasWaitedTooLongChangesNothing) {
     Runtime server;
     std::promise<void> go;
@@ -300,6 +347,46 @@ TEST(FleetRuntime, ACommandThatHasWaitedTooLongChangesNothing) {
     ASSERT_FALSE(late);
     EXPECT_EQ(late.error().reason.code, "command_expired");
     EXPECT_EQ(server.events("fleet.paused"), 0);
+}
+
+TEST(FailedCommit, IsOfUnknownOutcomeUnlessTheDiskTookNothing) {
+    for (const bool full : {false, true}) {
+        Runtime server;
+        (full ? server.store.is_full : server.store.fails) = true;
+
+        const auto caught = server.ask(pause_fleet).get();
+
+        ASSERT_FALSE(caught);
+        EXPECT_EQ(caught.error().reason.code, "store_unavailable");
+        const auto& told = caught.error().what;
+        EXPECT_EQ(told.find("Idempotency-Key") != std::string::npos, !full) << told;
+        EXPECT_EQ(told.find("nothing was changed") != std::string::npos, full) << told;
+    }
+}
+
+/// The fleet thread has decided what this turn is about, and not yet begun with it.
+TEST(FailedCommit, BetweenTwoLooksOfTheFleetThreadIsToldAndNothingOfItIsShown) {
+    Runtime server;
+    server.store.hang();
+    auto lost = server.ask(pause_fleet);
+    ASSERT_TRUE(server.until([&] { return server.runtime->queues().commits > 0; }));
+    auto behind = server.ask([&](fleet::Fleet&, Time) {
+        server.clock.between_two_looks([&] {
+            server.store.fails = true;
+            server.store.go_on();
+            EXPECT_TRUE(server.until([&] { return !server.runtime->writable(); }));
+            server.store.fails = false;
+        });
+        return 1;
+    });
+
+    EXPECT_FALSE(lost.get());
+    EXPECT_FALSE(behind.get());
+    ASSERT_TRUE(server.until([&] { return server.runtime->writable(); }));
+    EXPECT_TRUE(server.until([&] { return server.events("store.recovered") == 1; }));
+    EXPECT_EQ(server.events("store.failed"), 1);
+    EXPECT_EQ(server.events("fleet.paused"), 0);
+    EXPECT_EQ(server.pauses_shown, 0) << "what is not stored is shown";
 }
 
 struct HungDisk : ::testing::Test {
@@ -345,6 +432,23 @@ TEST_F(HungDisk, RefusesCommandsWithinASecondAnswersReadsAndStopsVehicles) {
     EXPECT_TRUE(vehicle->paused) << "the pause is not recorded";
     EXPECT_TRUE(vehicle->needs_resume);
     EXPECT_EQ(vehicle->needs_resume_reason.code, "command_expired");
+}
+
+TEST_F(HungDisk, LetsNothingPileUp) {
+    server.store.hang();
+    auto caught = server.ask(resume_vehicle);
+    ASSERT_TRUE(server.until([&] { return !server.runtime->writable(); }));
+    const auto held = server.runtime->queues().commits;
+
+    // Its vehicles go on talking until the commit is given up.
+    std::size_t most = 0;
+    while (caught.wait_for(milliseconds(10)) != std::future_status::ready) {
+        server.report();
+        most = std::max(most, server.runtime->queues().commits);
+    }
+
+    EXPECT_LE(most, held);
+    EXPECT_TRUE(server.until([&] { return server.runtime->queues().commands == 0; }));
 }
 
 TEST_F(HungDisk, WhoseHangIsShortCostsNothing) {

@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <memory>
+#include <thread>
+
 #include "server/listener.hpp"
+#include "server/log.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 
@@ -108,6 +113,48 @@ TEST(Http, MakesItsOwnRequestIdWhenTheOfferedOneCouldForgeALogLine) {
     const auto answer = request(server.port(), "GET", "/healthz", {{"X-Request-Id", "a b\"c"}});
 
     EXPECT_EQ(answer.headers.at("x-request-id").size(), 24U);
+}
+
+TEST(Http, LogsTheBeginningOfAPathOnly) {
+    TestServer server;
+    ::testing::internal::CaptureStderr();
+
+    request(server.port(), "GET", "/api/v1/" + std::string(6000, 'x'));
+
+    EXPECT_TRUE(log::flush());
+    const std::string logged = ::testing::internal::GetCapturedStderr();
+    EXPECT_NE(logged.find("path=/api/v1/xxx"), std::string::npos) << logged;
+    EXPECT_LT(logged.size(), 1000U);
+}
+
+/// A store whose lists take a while.
+struct SlowStore : MemoryStore {
+    std::atomic<int> asked{0};
+    std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override {
+        ++asked;
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        return MemoryStore::orders(query);
+    }
+};
+
+TEST(Http, EndsWithoutWhatStillWaits) {
+    SlowStore store;
+    auto server = std::make_unique<TestServer>(Options{}, &store);
+    const std::string ask = "GET /api/v1/job-orders HTTP/1.1\r\nHost: x\r\nAuthorization: " +
+                            server->viewer_token().at("Authorization") + "\r\n\r\n";
+    std::vector<std::unique_ptr<TcpClient>> clients;
+    for (int i = 0; i < 50; ++i) {
+        clients.push_back(std::make_unique<TcpClient>(server->port()));
+        clients.back()->send(ask);
+    }
+    while (store.asked < 1) std::this_thread::yield();
+    EXPECT_EQ(request(server->port(), "GET", "/healthz").status, 200);  // all of them are in by now
+    const auto begin = std::chrono::steady_clock::now();
+
+    server.reset();
+
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+    EXPECT_LT(store.asked, 40);
 }
 
 TEST(Http, AnswersHeadLikeGetWithoutABody) {

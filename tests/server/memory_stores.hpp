@@ -11,6 +11,7 @@
 
 #include "core/access/access.hpp"
 #include "core/fleet/ports.hpp"
+#include "db/error.hpp"
 
 /// Stores in memory that can be told to fail, for tests of what the server does around them.
 namespace pulseline::server::testing {
@@ -18,6 +19,7 @@ namespace pulseline::server::testing {
 class MemoryStore : public fleet::Store, public fleet::History {
 public:
     std::atomic<bool> fails{false};
+    std::atomic<bool> is_full{false};
     std::atomic<int> commits{0};
 
     fleet::StoredFleet load() override {
@@ -48,7 +50,7 @@ public:
         return stored;
     }
     void put_snapshot(const fleet::SnapshotRow& snapshot) override {
-        if (fails) throw std::runtime_error("disk full (by the test)");
+        throw_if_told();
         const std::lock_guard lock(mutex_);
         snapshot_ = snapshot;
     }
@@ -67,7 +69,7 @@ public:
             std::unique_lock lock(hang_mutex_);
             hang_wake_.wait(lock, [this] { return !hangs_; });
         }
-        if (fails) throw std::runtime_error("disk full (by the test)");
+        throw_if_told();
         const std::lock_guard lock(mutex_);
         for (const auto& row : records.journal) {
             if (row.seq != (journal_.empty() ? 0 : journal_.back().seq) + 1) {
@@ -148,6 +150,11 @@ public:
     }
 
 private:
+    void throw_if_told() const {
+        if (is_full) throw db::Error(db::Error::Kind::kFull, "disk full (by the test)");
+        if (fails) throw std::runtime_error("disk error (by the test)");
+    }
+
     std::mutex hang_mutex_;
     std::condition_variable hang_wake_;
     bool hangs_ = false;

@@ -68,5 +68,23 @@ TEST(TrustedProxies, NobodyElseMayNameAnAddress) {
     EXPECT_EQ(wrong_passwords(options), (std::vector<int>{401, 401, 401, 401, 401, 401, 401}));
 }
 
+TEST(TrustedProxies, NobodyElseMaySayThatAConnectionIsSecure) {
+    for (const auto& [proxy, secure] : {std::pair{"10.9.9.9", false}, {"127.0.0.1", true}}) {
+        Options options;
+        options.behind_proxy = {proxy};
+        TestServer server(options);
+        (void)server.server().access().create_user("ann", access::Role::kOperator, "right password",
+                                                   Time{});
+
+        const auto answer =
+            request(server.port(), "POST", "/api/v1/session", {{"X-Forwarded-Proto", "https"}},
+                    R"({"name":"ann","password":"right password"})");
+
+        ASSERT_EQ(answer.status, 200) << answer.body;
+        const auto& cookie = answer.headers.at("set-cookie");
+        EXPECT_EQ(cookie.find("; Secure") != std::string::npos, secure) << cookie;
+    }
+}
+
 }  // namespace
 }  // namespace pulseline::server::testing

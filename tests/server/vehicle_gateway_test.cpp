@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "server/log.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 #include "tests/server/ws_client.hpp"
@@ -124,6 +125,23 @@ TEST(VehicleGateway, ClosesALinkThatMixesMalformedMessagesWithGoodOnes) {
     for (int i = 0; i < 40; ++i) vehicle.send(i % 3 == 2 ? state_frame(i) : "[");
 
     EXPECT_EQ(vehicle.close_code(), 1008);
+}
+
+TEST(VehicleGateway, LogsMalformedMessagesOnceInAWhile) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    ::testing::internal::CaptureStderr();
+
+    for (int i = 0; i < 15; ++i) vehicle.send("[");
+    vehicle.send(state_frame(1));
+
+    EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+    EXPECT_TRUE(log::flush());
+    const std::string logged = ::testing::internal::GetCapturedStderr();
+    const auto first = logged.find("vehicle_message_refused");
+    ASSERT_NE(first, std::string::npos) << logged;
+    EXPECT_EQ(logged.find("vehicle_message_refused", first + 1), std::string::npos) << logged;
 }
 
 TEST(VehicleGateway, TakesTheNewestOfTooManyMessagesAndTellsOfItOnce) {

@@ -132,6 +132,30 @@ TEST(JobOrders, DryRunOfWhatCannotBeSaysWhy) {
     EXPECT_EQ(preview.json()["problem"]["code"], "unknown_station");
 }
 
+TEST(JobOrders, ADryRunAndAnOrderOfManyStepsArePlannedOffTheFleetsThread) {
+    ApiWorld api;
+    FleetContext context{*api.world.fleet, api.world.plant, api.images, api.world.now};
+    const auto answer = [&](int steps, bool dry_run) {
+        Request request;
+        request.method = "POST";
+        request.identity = api.identity;
+        request.headers = {{"content-type", "application/json"}};
+        EXPECT_TRUE(parse_target(kOrders + (dry_run ? "?dryRun=true" : ""), request));
+        Json body = {{"vehicle", "V1"}, {"steps", Json::array()}};
+        for (int i = 0; i < steps; ++i) body["steps"].push_back({{"station", 2 + i % 2}});
+        request.body = body.dump();
+        const Match found = match(request);
+        EXPECT_EQ(found.route->asks(request), dry_run);
+        return std::get<FleetHandler>(found.route->handler)(context, request);
+    };
+
+    EXPECT_TRUE(answer(1, true).plan);
+    EXPECT_TRUE(answer(100, true).plan);
+    EXPECT_TRUE(answer(100, false).plan);
+    EXPECT_EQ(api.world.fleet->orders().size(), 0U) << "none of them is made yet";
+    EXPECT_EQ(answer(1, false).response.status, 201);
+}
+
 TEST(JobOrders, ChangesHonourIfMatch) {
     ApiWorld api;
     const Answer created = api.post(kOrders, kToTwo);

@@ -29,6 +29,7 @@ TEST(Session, SignInGivesACookieThatWorksAndSignOutEndsIt) {
     const ApiWorld::Headers headers = {
         {"cookie", set_cookie.substr(0, set_cookie.find(';'))},
         {"x-pulseline-csrf", signed_in.json()["csrf_token"].get<std::string>()},
+        {"host", "127.0.0.1:8080"},
         {"sec-fetch-site", "same-origin"}};
 
     EXPECT_EQ(api.call("GET", "/api/v1/session", "", headers).json(), signed_in.json());

@@ -152,6 +152,15 @@ TEST(Routes, AreThoseOfOpenApiAndBack) {
     }
 }
 
+/// Behind them nobody's list waits.
+TEST(Routes, WhatTakesLongHasALaneOfItsOwn) {
+    std::set<std::string> heavy;
+    for (const Route& route : routes()) {
+        if (route.heavy) heavy.insert(route.operation);
+    }
+    EXPECT_EQ(heavy, (std::set<std::string>{"printMarkers", "localize"}));
+}
+
 TEST(Match, FillsDecodedParametersAndKnowsHead) {
     Request request;
     request.method = "HEAD";
@@ -217,7 +226,7 @@ TEST(CrossSite, AChangeWithACookieNeedsTokenAndAPageOfOurs) {
     };
     for (const Case& one : cases) {
         Request request = request_of("POST", "/api/v1/fleet/pause", user(Role::kOperator));
-        request.headers = {{"x-pulseline-csrf", one.csrf}};
+        request.headers = {{"host", "hall.example:8443"}, {"x-pulseline-csrf", one.csrf}};
         if (one.fetch_site != nullptr) request.headers["sec-fetch-site"] = one.fetch_site;
         if (one.origin != nullptr) request.headers["origin"] = one.origin;
         EXPECT_EQ(code_of(request), one.code)
@@ -229,7 +238,7 @@ TEST(CrossSite, AChangeWithACookieNeedsTokenAndAPageOfOurs) {
 TEST(CrossSite, ASessionWithoutCsrfTokenNeverPassesAnEmptyHeader) {
     Request request = request_of("POST", "/api/v1/fleet/pause", user(Role::kOperator));
     request.identity.csrf_token.clear();
-    request.headers = {{"sec-fetch-site", "same-origin"}};
+    request.headers = {{"host", "hall.example:8443"}, {"sec-fetch-site", "same-origin"}};
     EXPECT_EQ(code_of(request), "csrf_token_wrong");
 }
 
@@ -249,6 +258,29 @@ TEST(CrossSite, AStrangersPageMaySignNobodyIn) {
     EXPECT_EQ(code_of(request), "cross_site");
     request.headers = {{"content-type", "text/plain"}};
     EXPECT_EQ(code_of(request), "not_json_media_type");
+}
+
+TEST(CrossSite, APageUnderANameThatIsNotOursIsAStrangers) {
+    Request request = request_of("POST", "/api/v1/session", Identity{});
+    request.body = "{}";
+    for (const auto& [host, code] :
+         std::map<std::string, std::string>{{"hall.example:8443", ""},
+                                            {"Hall.Example:8443", ""},
+                                            {"hall.example", "cross_site"},
+                                            {"evil.example:8443", "cross_site"},
+                                            {"evil.hall.example:8443", "cross_site"},
+                                            {"https://hall.example:8443", "cross_site"},
+                                            {"", "cross_site"}}) {
+        request.headers = {{"content-type", "application/json"},
+                           {"sec-fetch-site", "same-origin"},
+                           {"host", host}};
+        EXPECT_EQ(code_of(request), code) << host;
+    }
+    request.headers["host"] = "evil.example:8443";
+    request.headers["origin"] = "https://evil.example:8443";
+    EXPECT_EQ(code_of(request), "cross_site");
+    request.headers["origin"] = kOrigin;  // behind a proxy that does not pass the Host on
+    EXPECT_EQ(code_of(request), "");
 }
 
 TEST(CrossSite, ABodyFromABrowserMustBeJson) {

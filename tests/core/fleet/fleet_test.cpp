@@ -235,6 +235,28 @@ TEST(Fleet, TheSameIdempotencyKeyGivesTheSameOrder) {
     EXPECT_EQ(world.store.orders.size(), 1u);
 }
 
+TEST(Fleet, AClientsNameIsFreeSevenDaysAfterItsOrderHasEnded) {
+    World world;
+    world.connect_all();
+    NewOrder request;
+    request.client_order_id = "WO-7";
+    request.steps = {{2, plant::MotionMode::kAuto}};
+    ASSERT_TRUE(world.order(request));
+    world.run(60);
+    ASSERT_EQ(world.only_order().state, JobState::kEnded);
+    const auto refusal = [&] {
+        const auto again = world.order(request);
+        return again ? std::string() : again.error().reason.code;
+    };
+
+    world.now = world.only_order().ended + std::chrono::hours(24 * 7) - std::chrono::seconds(5);
+    world.run(1);
+    EXPECT_EQ(refusal(), "duplicate_client_order_id");
+
+    world.run(10);
+    EXPECT_EQ(refusal(), "");
+}
+
 TEST(Fleet, CancelIsAskedConfirmedAndThenAborted) {
     World world;
     world.connect_all();

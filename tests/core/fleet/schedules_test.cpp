@@ -111,6 +111,29 @@ TEST_F(Schedules, LeaveATimeOutWhileTheOrderBeforeIsOpen) {
     EXPECT_EQ(told, 1) << "by the first that is made again";
 }
 
+TEST_F(Schedules, OfTheSameTimeAreMadeSomeAtATick) {
+    NewSchedule wanted = every(3600);
+    wanted.recurrence.from = world.now + std::chrono::seconds(10);
+    for (int i = 0; i < 20; ++i) {
+        wanted.name = "round " + std::to_string(i);
+        make(wanted);
+    }
+    std::size_t before = 0;
+    std::size_t most = 0;
+    world.now += std::chrono::seconds(10);
+    for (int i = 0; i < 10; ++i) {
+        world.now += std::chrono::milliseconds(50);
+        world.fleet->tick(world.now);
+        world.settle();
+        most = std::max(most, world.store.orders.size() - before);
+        before = world.store.orders.size();
+    }
+
+    EXPECT_EQ(before, 20U);
+    EXPECT_LE(most, 4U) << "each is planned: nobody else may wait for all";
+    for (const auto& [id, schedule] : world.store.schedules) EXPECT_EQ(schedule.skipped, 0);
+}
+
 TEST_F(Schedules, WaitForAPersonAfterARestartAndMakeNoBurst) {
     const auto id = make(every(100)).id;
     world.run(60);

@@ -59,7 +59,10 @@ TEST(TilesUnder, WhatLiesNowhereCoversNone) {
     EXPECT_TRUE(tiles_under(0, {{{infinite, 0}, {1, 0}, {1, 1}}}, 0.1).empty());
     EXPECT_TRUE(tiles_under(0, {{{0, 0}, {1, -infinite}, {1, 1}}}, 0).empty());
     // Beyond what a tile can name lies its outermost one.
-    EXPECT_EQ(tiles_under(0, {{{1e300, 1e300}}}, 0).size(), 1u);
+    const TileSet outermost = tiles_under(0, {{{1e300, 1e300}}}, 0);
+    ASSERT_EQ(outermost.size(), 1u);
+    EXPECT_GT(tile_box(outermost.front()).min.x_m, 1e6);
+    EXPECT_GT(tile_box(outermost.front()).min.y_m, 1e6);
 }
 
 TEST(TilesUnder, AreSortedUniqueAndCarryTheirPlace) {
