@@ -39,6 +39,7 @@ TileIndexes merge(const TileIndexes& a, const TileIndexes& b) {
     TileIndexes result;
     result.reserve(a.size() + b.size());
     std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(result));
+    result.shrink_to_fit();  // most is in both, and there is one for each move of a plant
     return result;
 }
 
