@@ -140,6 +140,7 @@ public:
     static Identity of(const Token& token) {
         Identity identity;
         identity.name = kTokenActor + token.id;
+        identity.token_sha256 = token.token_sha256;
         if (token.role) {
             identity.kind = Identity::Kind::kToken;
             identity.role = token.role;
@@ -203,9 +204,8 @@ bool AccessControl::still_valid(const Identity& identity, Time now) const {
         const auto* session = impl_->live(identity.session_sha256, now);
         return session != nullptr && impl_->of(*session).role == identity.role;
     }
-    return std::any_of(impl_->tokens.begin(), impl_->tokens.end(), [&](const auto& entry) {
-        return !entry.second.revoked && kTokenActor + entry.second.id == identity.name;
-    });
+    const auto token = impl_->tokens.find(identity.token_sha256);
+    return token != impl_->tokens.end() && !token->second.revoked;
 }
 
 void AccessControl::touch(const Identity& identity, Time now) {

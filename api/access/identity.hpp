@@ -21,7 +21,8 @@ struct Identity {
     std::optional<Role> role;  // none: may use public operations only
     std::optional<Time> expires;
 
-    std::string session_sha256;  // kUser: names the session without being its secret
+    std::string token_sha256;    // kToken, kVehicle: names the token without being its secret
+    std::string session_sha256;  // kUser: likewise the session
     std::string csrf_token;      // kUser: what X-Pulseline-CSRF must carry
 
     std::string vehicle_manufacturer;  // kVehicle

@@ -125,51 +125,51 @@ std::string child_pointer(const std::string& pointer, std::size_t index) {
     return pointer + "/" + std::to_string(index);
 }
 
-std::string read_text(const Json& value, const std::string& pointer, FieldErrors& errors,
+std::string read_text(const Json& value, const Place& place, FieldErrors& errors,
                       TextLimits limits) {
     if (!value.is_string()) {
-        wrong_type_at(errors, pointer, "string");
+        wrong_type_at(errors, place.pointer(), "string");
         return {};
     }
     const auto& text = value.get_ref<const std::string&>();
     if (text.size() < limits.min || text.size() > limits.max) {
-        errors.add(pointer,
+        errors.add(place.pointer(),
                    {"wrong_length", {{"min", clamped(limits.min)}, {"max", clamped(limits.max)}}},
                    "The text must have " + counted({limits.min, limits.max}) + " bytes.");
         return {};
     }
     if (std::any_of(text.begin(), text.end(),
                     [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; })) {
-        errors.add(pointer, {"control_character", {}},
+        errors.add(place.pointer(), {"control_character", {}},
                    "The text holds a control character; remove it.");
         return {};
     }
     return text;
 }
 
-double read_number(const Json& value, const std::string& pointer, FieldErrors& errors,
+double read_number(const Json& value, const Place& place, FieldErrors& errors,
                    NumberLimits limits) {
     if (!value.is_number()) {
-        wrong_type_at(errors, pointer, "number");
+        wrong_type_at(errors, place.pointer(), "number");
         return 0;
     }
     const auto number = value.get<double>();
     if (!(number >= limits.min && number <= limits.max)) {
-        out_of_range(errors, pointer, limits.min, limits.max,
+        out_of_range(errors, place.pointer(), limits.min, limits.max,
                      shown(limits.min) + " to " + shown(limits.max));
         return 0;
     }
     return number;
 }
 
-std::int64_t read_integer(const Json& value, const std::string& pointer, FieldErrors& errors,
+std::int64_t read_integer(const Json& value, const Place& place, FieldErrors& errors,
                           IntegerLimits limits) {
     // 3.0 is an integer to JSON Schema and to every JavaScript client.
     constexpr double kExact = 9007199254740992.0;  // 2^53
     const bool whole = value.is_number_float() && std::abs(value.get<double>()) <= kExact &&
                        value.get<double>() == std::trunc(value.get<double>());
     if (!value.is_number_integer() && !whole) {
-        wrong_type_at(errors, pointer, "integer");
+        wrong_type_at(errors, place.pointer(), "integer");
         return 0;
     }
     constexpr auto kMost = std::numeric_limits<std::int64_t>::max();
@@ -177,40 +177,40 @@ std::int64_t read_integer(const Json& value, const std::string& pointer, FieldEr
                            value.get<std::uint64_t>() > static_cast<std::uint64_t>(kMost);
     const std::int64_t number = too_large ? kMost : value.get<std::int64_t>();
     if (too_large || number < limits.min || number > limits.max) {
-        out_of_range(errors, pointer, limits.min, limits.max,
+        out_of_range(errors, place.pointer(), limits.min, limits.max,
                      std::to_string(limits.min) + " to " + std::to_string(limits.max));
         return 0;
     }
     return number;
 }
 
-Time read_time(const Json& value, const std::string& pointer, FieldErrors& errors) {
+Time read_time(const Json& value, const Place& place, FieldErrors& errors) {
     if (!value.is_string()) {
-        wrong_type_at(errors, pointer, "string");
+        wrong_type_at(errors, place.pointer(), "string");
         return {};
     }
     const auto time = parse_time(value.get_ref<const std::string&>());
     if (!time) {
-        errors.add(pointer, {"bad_time", {}},
+        errors.add(place.pointer(), {"bad_time", {}},
                    "Write the time as RFC 3339 says, for example 2026-11-21T06:30:00Z.");
     }
     return time.value_or(Time{});
 }
 
-bool read_boolean(const Json& value, const std::string& pointer, FieldErrors& errors) {
+bool read_boolean(const Json& value, const Place& place, FieldErrors& errors) {
     if (value.is_boolean()) return value.get<bool>();
-    wrong_type_at(errors, pointer, "boolean");
+    wrong_type_at(errors, place.pointer(), "boolean");
     return false;
 }
 
-const Json* read_array(const Json& value, const std::string& pointer, FieldErrors& errors,
+const Json* read_array(const Json& value, const Place& place, FieldErrors& errors,
                        CountLimits limits) {
     if (!value.is_array()) {
-        wrong_type_at(errors, pointer, "array");
+        wrong_type_at(errors, place.pointer(), "array");
         return nullptr;
     }
     if (value.size() < limits.min || value.size() > limits.max) {
-        errors.add(pointer,
+        errors.add(place.pointer(),
                    {"wrong_count", {{"min", clamped(limits.min)}, {"max", clamped(limits.max)}}},
                    "The array must have " + counted(limits) + " items.");
         return nullptr;
@@ -225,7 +225,7 @@ ObjectReader::ObjectReader(const Json& value, std::string pointer, FieldErrors& 
 
 const Json* ObjectReader::find(const char* name) {
     if (value_ == nullptr) return nullptr;
-    known_.insert(name);
+    known_.emplace_back(name);
     const auto it = value_->find(name);
     return it == value_->end() ? nullptr : &*it;
 }
@@ -242,7 +242,7 @@ const Json* ObjectReader::required(const char* name) {
 std::string ObjectReader::text(const char* name, TextLimits limits) {
     const Json* found = required(name);
     if (found == nullptr) return {};
-    return read_text(*found, child_pointer(pointer_, std::string_view(name)), errors_, limits);
+    return read_text(*found, {pointer_, name}, errors_, limits);
 }
 
 std::string ObjectReader::text_or(const char* name, std::string fallback, TextLimits limits) {
@@ -252,7 +252,7 @@ std::string ObjectReader::text_or(const char* name, std::string fallback, TextLi
 double ObjectReader::number(const char* name, NumberLimits limits) {
     const Json* found = required(name);
     if (found == nullptr) return 0;
-    return read_number(*found, child_pointer(pointer_, std::string_view(name)), errors_, limits);
+    return read_number(*found, {pointer_, name}, errors_, limits);
 }
 
 double ObjectReader::number_or(const char* name, double fallback, NumberLimits limits) {
@@ -262,7 +262,7 @@ double ObjectReader::number_or(const char* name, double fallback, NumberLimits l
 std::int64_t ObjectReader::integer(const char* name, IntegerLimits limits) {
     const Json* found = required(name);
     if (found == nullptr) return 0;
-    return read_integer(*found, child_pointer(pointer_, std::string_view(name)), errors_, limits);
+    return read_integer(*found, {pointer_, name}, errors_, limits);
 }
 
 std::int64_t ObjectReader::integer_or(const char* name, std::int64_t fallback,
@@ -273,7 +273,7 @@ std::int64_t ObjectReader::integer_or(const char* name, std::int64_t fallback,
 bool ObjectReader::boolean(const char* name) {
     const Json* found = required(name);
     if (found == nullptr) return false;
-    return read_boolean(*found, child_pointer(pointer_, std::string_view(name)), errors_);
+    return read_boolean(*found, {pointer_, name}, errors_);
 }
 
 bool ObjectReader::boolean_or(const char* name, bool fallback) {
@@ -283,7 +283,7 @@ bool ObjectReader::boolean_or(const char* name, bool fallback) {
 std::optional<Time> ObjectReader::time_if_any(const char* name) {
     const Json* found = find(name);
     if (found == nullptr) return std::nullopt;
-    return read_time(*found, child_pointer(pointer_, std::string_view(name)), errors_);
+    return read_time(*found, {pointer_, name}, errors_);
 }
 
 ObjectReader ObjectReader::object(const char* name) {
@@ -302,7 +302,7 @@ std::optional<ObjectReader> ObjectReader::object_if_any(const char* name) {
 void ObjectReader::refuse_unknown() {
     if (value_ == nullptr) return;
     for (const auto& [key, value] : value_->items()) {
-        if (known_.count(key) != 0) continue;
+        if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
         errors_.add(child_pointer(pointer_, std::string_view(key)), {"unknown_field", {}},
                     "There is no such field; remove it or correct its name.");
     }

@@ -4,7 +4,6 @@
 #include <initializer_list>
 #include <limits>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -50,20 +49,35 @@ struct CountLimits {
 std::string child_pointer(const std::string& pointer, std::string_view key);
 std::string child_pointer(const std::string& pointer, std::size_t index);
 
+/// Where a value stands. Written out only when something is wrong with it: vehicles report ten
+/// times a second, and all but a few of their fields are right.
+class Place {
+public:
+    Place(const std::string& pointer) : pointer_(pointer) {}  // NOLINT: a pointer is a place
+    Place(const std::string& parent, const char* key) : pointer_(parent), key_(key) {}
+    std::string pointer() const {
+        return key_ ? child_pointer(pointer_, std::string_view(key_)) : pointer_;
+    }
+
+private:
+    const std::string& pointer_;  // outlives it: a Place is an argument only
+    const char* key_ = nullptr;
+};
+
 // One value of a type. On failure the error is kept and a default comes back.
 // Reason codes: wrong_type {expected}, wrong_length {min, max}, control_character,
 // out_of_range {min, max}, not_one_of {allowed}, wrong_count {min, max}.
-std::string read_text(const Json& value, const std::string& pointer, FieldErrors& errors,
+std::string read_text(const Json& value, const Place& place, FieldErrors& errors,
                       TextLimits limits = {});
-double read_number(const Json& value, const std::string& pointer, FieldErrors& errors,
+double read_number(const Json& value, const Place& place, FieldErrors& errors,
                    NumberLimits limits = {});
-std::int64_t read_integer(const Json& value, const std::string& pointer, FieldErrors& errors,
+std::int64_t read_integer(const Json& value, const Place& place, FieldErrors& errors,
                           IntegerLimits limits = {});
 /// RFC 3339: "2026-11-21T06:30:00Z", any offset, up to nine decimals. Reason code: bad_time.
-Time read_time(const Json& value, const std::string& pointer, FieldErrors& errors);
-bool read_boolean(const Json& value, const std::string& pointer, FieldErrors& errors);
+Time read_time(const Json& value, const Place& place, FieldErrors& errors);
+bool read_boolean(const Json& value, const Place& place, FieldErrors& errors);
 /// Null with an error kept when it is no array or has too few or too many items.
-const Json* read_array(const Json& value, const std::string& pointer, FieldErrors& errors,
+const Json* read_array(const Json& value, const Place& place, FieldErrors& errors,
                        CountLimits limits = {});
 
 /// Reads the members of one object by name and remembers which were asked for. Further reason
@@ -143,9 +157,9 @@ private:
     template <class Visit>
     void visit_items(const Json* value, const char* name, CountLimits limits, Visit visit) {
         if (value == nullptr) return;
+        const Json* array = read_array(*value, {pointer_, name}, errors_, limits);
+        if (array == nullptr || array->empty()) return;
         const std::string at = child_pointer(pointer_, std::string_view(name));
-        const Json* array = read_array(*value, at, errors_, limits);
-        if (array == nullptr) return;
         for (std::size_t i = 0; i < array->size(); ++i) visit((*array)[i], child_pointer(at, i));
     }
     void wrong_type(const std::string& pointer, const char* expected);
@@ -154,7 +168,7 @@ private:
     const Json* value_;  // null: not an object, already reported
     std::string pointer_;
     FieldErrors& errors_;
-    std::set<std::string_view> known_;
+    std::vector<std::string_view> known_;  // asked for; a few, some of them twice
 };
 
 }  // namespace pulseline::json

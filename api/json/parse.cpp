@@ -69,15 +69,17 @@ public:
     bool end_object() override { return close(); }
     bool end_array() override { return close(); }
     bool key(string_t& value) override {
-        if (open_.back()->contains(value)) {
-            error_ = Error{Errc::kInvalid,
-                           {"json_duplicate_key", {{"key", shortened(value)}}},
-                           "The key \"" + shortened(value) +
-                               "\" stands twice in one object; remove one of them.",
-                           {}};
+        const auto [member, is_new] = open_.back()->emplace(std::move(value), nullptr);
+        if (!is_new) {
+            const std::string key = shortened(member.key());
+            error_ =
+                Error{Errc::kInvalid,
+                      {"json_duplicate_key", {{"key", key}}},
+                      "The key \"" + key + "\" stands twice in one object; remove one of them.",
+                      {}};
             return false;
         }
-        key_ = std::move(value);
+        member_ = &*member;
         return true;
     }
     bool parse_error(std::size_t position, const std::string&,
@@ -125,7 +127,8 @@ private:
             parent.push_back(std::move(value));
             return &parent.back();
         }
-        return &(parent[key_] = std::move(value));
+        *member_ = std::move(value);
+        return member_;
     }
     bool add(Json value) { return place(std::move(value)) != nullptr; }
     bool open(Json container) {
@@ -147,7 +150,7 @@ private:
     JsonLimits limits_;
     Json root_;
     std::vector<Json*> open_;
-    std::string key_;
+    Json* member_ = nullptr;  // of the innermost object, whose value comes next
     std::size_t nodes_ = 0;
     bool bad_number_ = false;
     std::optional<std::size_t> failed_at_;
@@ -163,7 +166,7 @@ Result<Json> parse_json(std::string_view text, JsonLimits limits) {
         return fail_at("json_syntax", text, nul + 1, "a NUL byte is not valid JSON.");
     }
     Builder builder(limits);
-    const bool accepted = Json::sax_parse(text.begin(), text.end(), &builder);
+    const bool accepted = Json::sax_parse(text.data(), text.data() + text.size(), &builder);
     return builder.take(accepted, text);
 }
 
