@@ -200,7 +200,9 @@ Error failure(const std::string& path, const soci::soci_error& error) {
     const auto* sqlite = dynamic_cast<const soci::sqlite3_soci_error*>(&error);
     // The lower byte is the kind; what is above tells where it happened.
     const int code = sqlite ? sqlite->result() & 0xff : SQLITE_ERROR;
-    const std::string what = path + ": " + error.what() + ". ";
+    // Without the statement and its values: they are orders and names, and the log is no place for
+    // them.
+    const std::string what = path + ": " + error.get_error_message() + ". ";
     if (code == SQLITE_FULL) return {Error::Kind::kFull, what + "Free space on its disk."};
     if (code == SQLITE_READONLY || code == SQLITE_PERM || code == SQLITE_CANTOPEN) {
         return {Error::Kind::kReadOnly, what + "Make the file and its folder writable again."};

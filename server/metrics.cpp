@@ -1,6 +1,7 @@
 #include "server/metrics.hpp"
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -160,6 +161,10 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
            fleet_rebuilds.load());
     single(out, "pulseline_read_only", "gauge",
            "1 while the database takes no writes and commands are refused.", read_only.load());
+    const auto heap = mallinfo2();
+    single(out, "pulseline_heap_bytes", "gauge",
+           "What the program has allocated; the process keeps more, in reserve.",
+           heap.uordblks + heap.hblkhd);
     single(out, "pulseline_log_lines_dropped_total", "counter",
            "Lines of the log that nobody read in time.", log::dropped());
     single(out, "pulseline_connections", "gauge", "Open connections.", connections.load());

@@ -281,6 +281,22 @@ TEST(FleetStore, RefusesAnOrderThatLacksItsStep) {
     EXPECT_EQ(loaded_after("UPDATE orders SET current_step = 2, state = 'Ended'"), "loaded");
 }
 
+TEST(FleetStore, AFailureTellsNothingOfWhatWasToBeStored) {
+    Database database(":memory:");
+    FleetStore store(database);
+    database.sql() << "PRAGMA max_page_count = 1";  // it is as large as it may become
+    Samples samples(1);
+    fleet::Records records;
+    for (int number = 1; number < 200; ++number) records.orders.push_back(samples.order(number, 0));
+    try {
+        store.commit(records);
+        FAIL() << "stored";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), Error::Kind::kFull);
+        EXPECT_EQ(std::string(error.what()).find("INSERT"), std::string::npos) << error.what();
+    }
+}
+
 TEST(FleetStore, FinalOrdersStaySevenDays) {
     Database database(":memory:");
     FleetStore store(database);

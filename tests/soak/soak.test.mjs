@@ -55,7 +55,7 @@ function load(system) {
 async function sample(system, client, began) {
   const metrics = (await client.request("GET", "/metrics")).body;
   const figure = (name) => Number(new RegExp(`^${name} (\\S+)$`, "m").exec(metrics)[1]);
-  return { hours: (Date.now() - began) / 3.6e6, rss_kb: rss_kb(system.server.pid), fds: descriptors(system.server.pid), db: sizeOf(system.database), wal: sizeOf(`${system.database}-wal`), commits: figure("pulseline_commits_total"), events: figure("pulseline_event_seq") };
+  return { hours: (Date.now() - began) / 3.6e6, rss_kb: rss_kb(system.server.pid), heap: figure("pulseline_heap_bytes"), fds: descriptors(system.server.pid), db: sizeOf(system.database), wal: sizeOf(`${system.database}-wal`), commits: figure("pulseline_commits_total"), events: figure("pulseline_event_seq") };
 }
 
 /** From the server's start to its orderly end. */
@@ -92,7 +92,8 @@ async function live(system, client, number) {
 
   const warm = samples.filter((s) => 3600 * s.hours >= kWarm_s);
   const { value, error } = slope(warm.map((s) => ({ x: s.hours, y: s.rss_kb / 1024 })), stalls);
-  return { samples, figures, orders, fds_before, fds_after, stalls, warm, slope_mb_per_h: value, error_mb_per_h: error, last: samples.at(-1) };
+  const heap = slope(warm.map((s) => ({ x: s.hours, y: s.heap / 2 ** 20 })), stalls);
+  return { samples, figures, orders, fds_before, fds_after, stalls, warm, slope_mb_per_h: value, error_mb_per_h: error, heap, last: samples.at(-1) };
 }
 
 const mb = (bytes) => (bytes / 2 ** 20).toFixed(1);
@@ -114,6 +115,7 @@ test(`${kLives} lives of ${Math.round(kLife_s)} s: memory, descriptors and the d
     const { last, warm } = life;
     t.diagnostic([`life ${number}: ${(60 * last.hours).toFixed(1)} min, ${life.orders} orders, ${last.commits} commits, ${last.events} events`,
       `RSS ${mb(1024 * warm[0].rss_kb)} to ${mb(1024 * last.rss_kb)} MB, slope ${life.slope_mb_per_h.toFixed(2)} +- ${life.error_mb_per_h.toFixed(2)} MB/h, ${life.stalls.length} standstills`,
+      `heap ${mb(warm[0].heap)} to ${mb(last.heap)} MB, slope ${life.heap.value.toFixed(2)} +- ${life.heap.error.toFixed(2)} MB/h`,
       `descriptors ${life.fds_before} -> ${last.fds} -> ${life.fds_after}`,
       `database ${mb(stored.bytes)} MB, model ${mb(life.model)} MB (${(100 * (stored.bytes / life.model - 1)).toFixed(0)} %), WAL at most ${mb(Math.max(...life.samples.map((s) => s.wal)))} MB`].join("; "));
   }

@@ -46,16 +46,22 @@ private:
     double most_ms_ = 0;
 };
 
-/// What a run of the load has seen.
-struct Totals {
-    Histogram to_dashboard;
+/// What programs that ask have seen.
+struct AskTotals {
     Histogram answers;
     Histogram accepted;
     std::map<int, int> statuses;
     std::map<int, std::string> refusals;  // the first of each status, for whoever reads the figures
+    std::uint64_t not_asked = 0;          // every connection waited
+    int cut = 0;
+};
+
+/// What vehicles and dashboards have seen.
+struct Totals {
+    Histogram to_dashboard;
     std::uint64_t states = 0, frames = 0, events = 0, events_lost = 0;
     std::set<std::string> vehicles_lost;
-    int vehicles_cut = 0, dashboards_cut = 0, requests_cut = 0;
+    int vehicles_cut = 0, dashboards_cut = 0;
 };
 
 }  // namespace pulseline::load

@@ -6,10 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstdio>
-#include <deque>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "tests/tools/load/askers.hpp"
 #include "tests/tools/load/dashboard.hpp"
 
 namespace pulseline::load {
@@ -34,17 +33,6 @@ struct Settings {
     double orders_per_s = 2;
     double seconds = 60;
 };
-
-/// A connection that stays open and asks one thing after the other.
-struct Asker {
-    std::unique_ptr<Peer> peer;
-    Clock::time_point due;
-    bool busy = false;
-    bool orders = false;
-    bool cancels = false;  // what it waits for now
-};
-
-constexpr std::size_t kOpenOrders = 500;  // more are cancelled, the oldest first
 
 std::string rfc3339_now() {
     const auto now = std::chrono::system_clock::now();
@@ -76,8 +64,11 @@ public:
         connect_all();
         const double warm_s = std::min(10.0, settings_.seconds / 4);
         const auto start = Clock::now();
-        const auto end = start + std::chrono::duration<double>(settings_.seconds);
-        std::uint64_t states_due = 0, requests_due = 0, orders_due = 0;
+        const auto end = start + seconds(settings_.seconds);
+        std::uint64_t states_due = 0;
+        Askers askers({settings_.port, settings_.token, ids(), settings_.requests_per_s,
+                       settings_.orders_per_s});
+        askers.begin(start, start + seconds(warm_s), end);
         while (Clock::now() < end) {
             const double now_s = std::chrono::duration<double>(Clock::now() - start).count();
             counts_ = now_s >= warm_s;
@@ -89,17 +80,22 @@ public:
                 vehicle.report(stamp);
                 ++totals_.states;
             }
-            for (; static_cast<double>(requests_due) < now_s * settings_.requests_per_s;
-                 ++requests_due)
-                ask(false, requests_due);
-            for (; static_cast<double>(orders_due) < now_s * settings_.orders_per_s; ++orders_due)
-                ask(true, orders_due);
             wait_and_read(1);
         }
-        return summary();
+        askers.join();
+        return summary(askers.totals());
     }
 
 private:
+    static Clock::duration seconds(double value) {
+        return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
+    }
+    std::vector<std::string> ids() const {
+        std::vector<std::string> all;
+        for (const auto& vehicle : vehicles_) all.push_back(vehicle->id);
+        return all;
+    }
+
     void connect_all() {
         for (auto& vehicle : vehicles_) {
             vehicle->connect(settings_.port);
@@ -127,9 +123,6 @@ private:
             return std::ranges::all_of(
                 dashboards_, [](const auto& d) { return d->peer().open() || d->peer().ended(); });
         });
-        for (int i = 0; i < 24; ++i) {
-            askers_.push_back({std::make_unique<Peer>(settings_.port), {}, false, i < 8, false});
-        }
     }
 
     template <class Condition>
@@ -142,62 +135,7 @@ private:
         }
     }
 
-    /// The next thing to ask; one that finds all askers still waiting is counted as not asked.
-    void ask(bool order, std::uint64_t index) {
-        Asker* free = free_asker(order);
-        if (!free) {
-            ++waits_;
-            return;
-        }
-        const Vehicle& vehicle = *vehicles_[index * 7919 % vehicles_.size()];
-        const std::array reads{"/api/v1/vehicles/" + vehicle.id, std::string("/api/v1/fleet"),
-                               "/api/v1/stations/" + std::to_string(1 + index % vehicles_.size()),
-                               std::string("/api/v1/job-orders?limit=20"),
-                               std::string("/api/v1/stop-records?limit=20")};
-        const std::string common =
-            "Host: 127.0.0.1\r\nAuthorization: Bearer " + settings_.token + "\r\n";
-        free->busy = true;
-        free->due = Clock::now();
-        if (order) {
-            const std::string body =
-                fmt::format(R"({{"vehicle":"{}","start":false,"steps":[{{"station":{}}}]}})",
-                            vehicle.id, 2 + 2 * (index * 7919 % vehicles_.size()));
-            free->peer->send_raw("POST /api/v1/job-orders HTTP/1.1\r\n" + common +
-                                 "Content-Type: application/json\r\nContent-Length: " +
-                                 std::to_string(body.size()) + "\r\n\r\n" + body);
-        } else {
-            free->peer->send_raw("GET " + reads[index % reads.size()] + " HTTP/1.1\r\n" + common +
-                                 "\r\n");
-        }
-    }
-
-    Asker* free_asker(bool order) {
-        const auto free = std::ranges::find_if(askers_, [&](const Asker& a) {
-            return !a.busy && a.orders == order && !a.peer->ended();
-        });
-        return free == askers_.end() ? nullptr : &*free;
-    }
-
-    /// A server takes no more than so many open orders, and nobody ends these.
-    void cancel_the_oldest() {
-        Asker* free = free_asker(true);
-        if (open_orders_.size() <= kOpenOrders || !free) return;
-        free->busy = free->cancels = true;
-        free->due = Clock::now();
-        free->peer->send_raw("POST /api/v1/job-orders/" + open_orders_.front() +
-                             "/cancel HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer " +
-                             settings_.token +
-                             "\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}");
-        open_orders_.pop_front();
-    }
-
-    void note_order(std::string_view body) {
-        const auto answer = nlohmann::json::parse(body, nullptr, false);
-        if (answer.is_object()) open_orders_.push_back(answer.value("id", ""));
-    }
-
     void wait_and_read(int timeout_ms) {
-        cancel_the_oldest();
         polled_.clear();
         const auto add = [&](Peer& peer) {
             if (!peer.ended())
@@ -208,7 +146,6 @@ private:
         for (auto& v : vehicles_)
             if (v->peer) add(*v->peer);
         for (auto& d : dashboards_) add(d->peer());
-        for (auto& a : askers_) add(*a.peer);
         ::poll(polled_.data(), polled_.size(), timeout_ms);
         std::size_t next = 0;
         const auto ready = [&](Peer& peer) {
@@ -228,49 +165,30 @@ private:
                            [](const Peer::Answer&) {});
             if (d->peer().ended()) ++totals_.dashboards_cut;
         }
-        for (auto& a : askers_) {
-            if (!ready(*a.peer)) continue;
-            a.peer->read([](std::string_view) {},
-                         [&](const Peer::Answer& answer) {
-                             a.busy = false;
-                             ++totals_.statuses[answer.status];
-                             if (answer.status >= 300) {
-                                 totals_.refusals.try_emplace(answer.status, answer.body);
-                             }
-                             const bool created = a.orders && !std::exchange(a.cancels, false);
-                             if (created && answer.status == 201) note_order(answer.body);
-                             const double ms = ms_since(a.due);
-                             if (counts_) (created ? totals_.accepted : totals_.answers).add(ms);
-                         });
-            if (!a.peer->ended()) continue;
-            // A connection has a thousand requests; then it is begun anew.
-            if (a.busy) ++totals_.requests_cut;
-            a = {std::make_unique<Peer>(settings_.port), {}, false, a.orders, false};
-        }
     }
 
-    nlohmann::json summary() const {
+    nlohmann::json summary(const AskTotals& asked) const {
         nlohmann::json statuses = nlohmann::json::object();
-        for (const auto& [status, n] : totals_.statuses) statuses[std::to_string(status)] = n;
+        for (const auto& [status, n] : asked.statuses) statuses[std::to_string(status)] = n;
         nlohmann::json refusals = nlohmann::json::object();
-        for (const auto& [status, body] : totals_.refusals) {
+        for (const auto& [status, body] : asked.refusals) {
             refusals[std::to_string(status)] = body;
         }
         return {{"states", totals_.states},
                 {"states_per_s", static_cast<double>(totals_.states) / settings_.seconds},
                 {"frames", totals_.frames},
                 {"state_to_dashboard", totals_.to_dashboard.summary()},
-                {"answers", totals_.answers.summary()},
-                {"accepted", totals_.accepted.summary()},
+                {"answers", asked.answers.summary()},
+                {"accepted", asked.accepted.summary()},
                 {"statuses", statuses},
                 {"refusals", refusals},
-                {"not_asked_in_time", waits_},
+                {"not_asked_in_time", asked.not_asked},
                 {"events", totals_.events},
                 {"events_lost", totals_.events_lost},
                 {"vehicles_lost", totals_.vehicles_lost.size()},
                 {"vehicles_cut", totals_.vehicles_cut},
                 {"dashboards_cut", totals_.dashboards_cut},
-                {"requests_cut", totals_.requests_cut}};
+                {"requests_cut", asked.cut}};
     }
 
     Settings settings_;
@@ -278,12 +196,9 @@ private:
     VehiclesById by_id_;
     EventReader reader_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
-    std::vector<Asker> askers_;
-    std::deque<std::string> open_orders_;
     std::vector<pollfd> polled_;
     Totals totals_;
     bool counts_ = false;
-    std::uint64_t waits_ = 0;
 };
 
 }  // namespace
