@@ -7,9 +7,8 @@
 
 namespace pulseline::load {
 
-Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches,
-                     EventReader& reader)
-    : peer_(std::make_unique<Peer>(port)), reader_(reader), watches_(watches) {
+Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches)
+    : peer_(std::make_unique<Peer>(port)), watches_(watches) {
     peer_->ask_upgrade("/api/v1/stream", "Authorization: Bearer " + token + "\r\n");
 }
 
@@ -18,7 +17,7 @@ void Dashboard::take(std::string_view text, const VehiclesById& vehicles, bool c
     ++totals.frames;
     if (text.starts_with(R"({"type":"poses")")) {
         if (watches_) take_poses(text, vehicles, counts, totals);
-    } else if (text.find(R"("type":"event")") != std::string_view::npos) {
+    } else {
         take_events(text, totals);
     }
 }
@@ -49,34 +48,36 @@ void Dashboard::take_poses(std::string_view text, const VehiclesById& vehicles, 
     }
 }
 
+/// Each {"event":{...,"seq":7,"type":"..."},"type":"event"} of a frame, alone or among its changes.
+/// Looked for instead of parsed: a dashboard that falls behind would fall behind further by it.
 void Dashboard::take_events(std::string_view text, Totals& totals) {
-    for (const auto& event : reader_.read(text)) {
-        if (last_seq_ != 0 && event.seq != last_seq_ + 1)
-            totals.events_lost += static_cast<std::uint64_t>(std::abs(event.seq - last_seq_ - 1));
-        last_seq_ = event.seq;
-        ++totals.events;
-        if (!event.lost.empty()) totals.vehicles_lost.insert(event.lost);
+    constexpr std::string_view kBegin = R"({"event":{)", kEnd = R"("type":"event"})";
+    for (auto at = text.find(kBegin); at != std::string_view::npos;) {
+        const auto end = text.find(kEnd, at);
+        if (end == std::string_view::npos) break;
+        const std::string_view event = text.substr(at, end + kEnd.size() - at);
+        take_event(event, totals);
+        at = text.find(kBegin, end);
     }
 }
 
-const std::vector<HeardEvent>& EventReader::read(std::string_view text) {
-    if (text == text_) return events_;
-    text_ = text;
-    events_.clear();
-    const auto frame = nlohmann::json::parse(text, nullptr, false);
-    if (!frame.is_object()) return events_;
-    const auto& changes = frame.contains("changes") ? frame["changes"] : nlohmann::json{frame};
-    for (const auto& change : changes) {
-        if (!change.contains("event")) continue;
-        const auto& event = change["event"];
-        HeardEvent heard{event["seq"].get<std::int64_t>(), ""};
-        if (event["type"] == "vehicle.link") {
-            const auto to = event["params"].value("to", "");
-            if (to == "lost" || to == "gone") heard.lost = event.value("vehicle", "");
-        }
-        events_.push_back(std::move(heard));
+void Dashboard::take_event(std::string_view text, Totals& totals) {
+    constexpr std::string_view kSeq = R"("seq":)";
+    const auto at = text.rfind(kSeq);
+    std::int64_t seq = 0;
+    if (at == std::string_view::npos ||
+        std::from_chars(text.data() + at + kSeq.size(), text.data() + text.size(), seq).ec !=
+            std::errc{}) {
+        return;
     }
-    return events_;
+    if (last_seq_ != 0 && seq != last_seq_ + 1)
+        totals.events_lost += static_cast<std::uint64_t>(std::abs(seq - last_seq_ - 1));
+    last_seq_ = seq;
+    ++totals.events;
+    if (text.find(R"("type":"vehicle.link")") == std::string_view::npos) return;
+    const auto event = nlohmann::json::parse(text, nullptr, false).value("event", nlohmann::json());
+    const auto to = event.value("params", nlohmann::json::object()).value("to", "");
+    if (to == "lost" || to == "gone") totals.vehicles_lost.insert(event.value("vehicle", ""));
 }
 
 }  // namespace pulseline::load

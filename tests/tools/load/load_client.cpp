@@ -116,7 +116,7 @@ private:
             const auto& tokens = settings_.dashboard_tokens;
             dashboards_.push_back(std::make_unique<Dashboard>(
                 settings_.port, tokens[static_cast<std::size_t>(i) % tokens.size()],
-                i < settings_.watchers, reader_));
+                i < settings_.watchers));
             wait_and_read(0);
         }
         wait_until_open([&] {
@@ -194,7 +194,6 @@ private:
     Settings settings_;
     std::vector<std::unique_ptr<Vehicle>> vehicles_;
     VehiclesById by_id_;
-    EventReader reader_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
     std::vector<pollfd> polled_;
     Totals totals_;
