@@ -45,11 +45,11 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     if (!run.connected || run.link != Link::kLive) {
         return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}});
     }
+    if (!run.reconciled) return because("vehicle_not_reported");
     if (run.record.needs_resume) {
         return because("needs_person", {{"cause", run.record.needs_resume_reason.code}});
     }
     if (run.record.paused) return because("vehicle_paused");
-    if (!run.reconciled) return because("vehicle_not_reported");
     if (!run.record.pose_known) return because("pose_unknown");
     if (!is_automatic(run)) {
         return because("not_automatic", {{"operating_mode", run.state.operating_mode}});

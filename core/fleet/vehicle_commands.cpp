@@ -16,6 +16,23 @@ tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
                 {{"vehicle", id.str()}});
 }
 
+/// Connected is not enough: only its first report says where it stands and what it does.
+Status is_heard(const VehicleRun& run, const std::string& field, const std::string& wanted) {
+    const std::string& id = run.record.id.str();
+    if (!run.connected) {
+        return fail(Errc::kConflict, "vehicle_silent",
+                    "Vehicle " + id + " is silent. " + wanted + " when it is heard again.", field,
+                    {{"vehicle", id}});
+    }
+    if (!run.reconciled) {
+        return fail(Errc::kConflict, "vehicle_not_reported",
+                    "Vehicle " + id + " has connected and not said yet where it stands. " + wanted +
+                        " when it has.",
+                    field, {{"vehicle", id}});
+    }
+    return {};
+}
+
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {
     static const char* const kCodes[] = {"server_restarted",   "vehicle_lost_order",
@@ -87,11 +104,8 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
     FleetState& fleet = input<&Fleet::init_position>(now, id, pose, actor);
     VehicleRun* run = fleet.find(id);
     if (!run) return no_such_vehicle(id);
-    if (!run->connected || !run->reconciled) {
-        return fail(
-            Errc::kConflict, "vehicle_silent",
-            "Vehicle " + id.str() + " is not connected. Its position can be set when it is.", {},
-            {{"vehicle", id.str()}});
+    if (Status heard = is_heard(*run, {}, "Its position can be set"); !heard) {
+        return fail(std::move(heard).error());
     }
     // In doubt its leg is kept after it has given it up, since the floor of it is.
     const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str() &&
@@ -157,11 +171,9 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
                         field, {{"vehicle", vehicles[i].str()}});
         }
         const bool allowed_back = run->connection_refused;
-        if (run->record.needs_resume && !allowed_back && (!run->connected || !run->reconciled)) {
-            return fail(Errc::kConflict, "vehicle_silent",
-                        "Vehicle " + vehicles[i].str() +
-                            " is silent. It can be allowed to move when it is heard again.",
-                        field, {{"vehicle", vehicles[i].str()}});
+        if (run->record.needs_resume && !allowed_back) {
+            Status heard = is_heard(*run, field, "It can be allowed to move");
+            if (!heard) return heard;
         }
     }
     for (const auto& id : vehicles) {

@@ -54,7 +54,7 @@ export class Client {
     }, { timeout_s, every_ms: 50 });
   }
   untilReady(id, timeout_s = 30) {
-    return this.untilVehicle(id, (v) => v.link === "live" && v.pose_known, "is live and knows its pose", timeout_s);
+    return this.untilVehicle(id, (v) => v.link === "live" && v.pose_known && v.reason?.code !== "vehicle_not_reported", "is live, has reported and knows its pose", timeout_s);
   }
 
   async stops(order) {

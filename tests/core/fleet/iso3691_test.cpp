@@ -207,6 +207,24 @@ TEST_F(Iso3691, ASilentVehicleIsNotResumed) {
     EXPECT_EQ(refused.error().reason.code, "vehicle_silent");
 }
 
+TEST_F(Iso3691, OneThatIsBackIsNotCalledSilentAndNotResumedBeforeItsReport) {
+    start();
+    cut(kV1);
+    world.run(15);
+    world.fleet->vehicle_connected(kV1, world.now);
+    const VehicleView back = view();
+    EXPECT_EQ(back.link, Link::kLive);
+    EXPECT_TRUE(back.needs_resume);
+    ASSERT_TRUE(back.reason);
+    EXPECT_EQ(back.reason->code, "vehicle_not_reported");
+    const auto refused = world.fleet->resume_fleet({kV1}, "op", world.now);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().reason.code, "vehicle_not_reported");
+    world.connected[kV1] = true;
+    world.run(2);
+    EXPECT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+}
+
 TEST_F(Iso3691, OneInSomebodysHandsIsNotResumed) {
     v1().state.operating_mode = "MANUAL";
     world.run(1);
