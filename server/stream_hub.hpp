@@ -104,7 +104,7 @@ private:
         Frame frame;  // made when first needed
     };
 
-    /// Takes what waits, in order, up to a snapshot; null when there is none.
+    /// Takes what waits, in order, up to a snapshot; a change is the first of it.
     Frame next_changes(StreamClient& client);
     Frame take_change(StreamClient& client);
     VehicleRow& row_of(const plant::VehicleId& id);

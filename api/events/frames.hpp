@@ -39,7 +39,8 @@ std::string job_order_frame(const plant::Plant& plant, const fleet::JobOrder& or
 std::string stop_record_frame(const fleet::StopRecord& stop);
 std::string fleet_frame(const plant::Plant& plant, const fleet::FleetView& fleet);
 std::string event_frame(const fleet::Event& event);
-/// Several of the five above in one, in order.
+/// Several changes in one, in order: each is what one of the functions above from vehicle_frame on
+/// gave.
 std::string changes_frame(const std::vector<std::string_view>& frames);
 
 /// One server-sent event: "id: 7\nevent: vehicle.lost\ndata: {...}\n\n".

@@ -34,7 +34,6 @@ export type Params = Schemas["Params"];
 export type Problem = Schemas["Problem"];
 export type FleetEvent = Schemas["Event"];
 export type StreamFrame = Schemas["StreamFrame"];
-export type StreamChange = Schemas["StreamChange"];
 export type StepPreview = Schemas["StepPreview"];
 export type Segment = Schemas["Segment"];
 export type Step = Schemas["Step"];
