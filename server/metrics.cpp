@@ -12,6 +12,9 @@
 namespace pulseline::server {
 namespace {
 
+/// To count a heap that is full of holes takes milliseconds, and whoever may look may ask often.
+constexpr auto kHeapEvery = std::chrono::seconds(1);
+
 void header(std::string& out, std::string_view name, std::string_view type, std::string_view help) {
     fmt::format_to(std::back_inserter(out), "# HELP {} {}\n# TYPE {} {}\n", name, help, name, type);
 }
@@ -98,6 +101,17 @@ void Metrics::snapshot(double duration_s, std::size_t bytes) {
     snapshot_bytes_ = bytes;
 }
 
+std::size_t Metrics::heap_bytes() const {
+    const std::lock_guard lock(mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    if (!heap_asked_ || now - *heap_asked_ >= kHeapEvery) {
+        const auto heap = mallinfo2();
+        heap_bytes_ = heap.uordblks + heap.hblkhd;
+        heap_asked_ = now;
+    }
+    return heap_bytes_;
+}
+
 std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
                           const std::map<std::string, int>& vehicles_by_link,
                           const QueueLengths& queues) const {
@@ -161,10 +175,8 @@ std::string Metrics::text(const std::map<std::string, int>& orders_by_state,
            fleet_rebuilds.load());
     single(out, "pulseline_read_only", "gauge",
            "1 while the database takes no writes and commands are refused.", read_only.load());
-    const auto heap = mallinfo2();
     single(out, "pulseline_heap_bytes", "gauge",
-           "What the program has allocated; the process keeps more, in reserve.",
-           heap.uordblks + heap.hblkhd);
+           "What the program has allocated; the process keeps more, in reserve.", heap_bytes());
     single(out, "pulseline_log_lines_dropped_total", "counter",
            "Lines of the log that nobody read in time.", log::dropped());
     single(out, "pulseline_connections", "gauge", "Open connections.", connections.load());

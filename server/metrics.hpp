@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -75,7 +76,11 @@ public:
                      const QueueLengths& queues) const;
 
 private:
+    std::size_t heap_bytes() const;
+
     mutable std::mutex mutex_;
+    mutable std::size_t heap_bytes_ = 0;
+    mutable std::optional<std::chrono::steady_clock::time_point> heap_asked_;
     std::map<std::pair<std::string, int>, std::uint64_t> requests_;
     std::map<std::string, Histogram, std::less<>> request_latency_;
     Histogram fleet_batch_;
