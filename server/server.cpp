@@ -18,7 +18,6 @@
 namespace pulseline::server {
 namespace {
 
-constexpr auto kPosePeriod = std::chrono::milliseconds(100);
 constexpr auto kStopGrace = std::chrono::milliseconds(1500);  // of sessions
 constexpr auto kLongestStop = std::chrono::seconds(8);        // of all, a disk that hangs included
 constexpr auto kKeepUses = std::chrono::seconds(30);
@@ -63,7 +62,7 @@ public:
     FleetRuntime::Ports runtime_ports();
     VehicleGateway::Ports gateway_ports();
     StreamHub::Ports hub_ports();
-    net::awaitable<void> offer_poses();
+    net::awaitable<void> beat();
     net::awaitable<void> keep_uses();
     net::awaitable<void> follow_clock();
     void tell_of_clock(bool differs, Duration ahead);
@@ -193,7 +192,7 @@ Status Server::Impl::start() {
                   keep_running("accept", *io_, pausing_,
                                [this] { return accept_loop(*context_, *acceptor_, tls_.get()); }),
                   log_end);
-    net::co_spawn(*io_, keep_running("poses", *io_, pausing_, [this] { return offer_poses(); }),
+    net::co_spawn(*io_, keep_running("dashboards", *io_, pausing_, [this] { return beat(); }),
                   log_end);
     net::co_spawn(*io_, keep_running("uses", *io_, pausing_, [this] { return keep_uses(); }),
                   log_end);
@@ -243,14 +242,14 @@ VehicleGateway::Ports Server::Impl::gateway_ports() {
             *access_,     metrics_,        images_, hub_->poses()};
 }
 
-net::awaitable<void> Server::Impl::offer_poses() {
+net::awaitable<void> Server::Impl::beat() {
     net::steady_timer timer(*io_);
     for (;;) {
-        timer.expires_after(kPosePeriod);
+        timer.expires_after(StreamHub::kBeatPeriod);
         error_code ec;
         co_await timer.async_wait(into(ec));
         runtime_->listening();
-        hub_->offer_poses();
+        hub_->beat();
     }
 }
 

@@ -46,7 +46,6 @@ void StreamHub::publish(const FleetRuntime::Published& batch) {
             if (client->vehicles[index]) continue;
             client->vehicles[index] = true;
             client->changes.emplace_back(index);
-            client->wake();
         }
     }
     for (const auto& station : out.stations) push_all(frame(events::station_frame(station)));
@@ -80,17 +79,26 @@ void StreamHub::note_order(const fleet::JobOrder& order) {
     }
 }
 
-void StreamHub::offer_poses() {
+void StreamHub::beat() {
+    beat_ = (beat_ + 1) % kBeats;
     for (auto* client : clients_) {
-        if (!client->subscribed || client->poses_seen == poses_.version()) continue;
-        if (client->poses_due) ++metrics_.poses_skipped;
-        client->poses_due = true;
-        client->wake();
+        if (client->beat != beat_ || !client->subscribed) continue;
+        if (client->poses_seen != poses_.version()) {
+            if (client->poses_due) ++metrics_.poses_skipped;
+            client->poses_due = true;
+        }
+        if (client->poses_due || !client->changes.empty()) let_write(*client);
     }
+}
+
+void StreamHub::let_write(StreamClient& client) {
+    client.due = client.changes.size();
+    client.wake();
 }
 
 void StreamHub::add(StreamClient& client) {
     clients_.insert(&client);
+    client.beat = added_++ % kBeats;
     ++metrics_.stream_clients;
 }
 
@@ -163,7 +171,7 @@ void StreamHub::written(const Unwritten& place, Frame frame) {
             const auto* waits = std::get_if<Unwritten>(&change);
             if (!waits || *waits != place) continue;
             if (!*place) client->refused = true;
-            client->wake();
+            let_write(*client);
         }
     }
     asking_ = false;
@@ -192,10 +200,13 @@ void StreamHub::push(StreamClient& client, const Frame& text) {
         client.subscribed = false;
         client.changes.clear();
         client.vehicles.clear();
-        client.frames = client.bytes = 0;
+        client.frames = client.bytes = client.due = 0;
         ++metrics_.slow_readers_closed;
+        client.wake();
+    } else if (2 * client.frames >= StreamClient::kMaxFrames ||
+               2 * client.bytes >= StreamClient::kMaxBytes) {
+        let_write(client);  // much at once makes nobody a slow reader
     }
-    client.wake();
 }
 
 void StreamHub::push_all(const Frame& text) {
@@ -203,19 +214,25 @@ void StreamHub::push_all(const Frame& text) {
 }
 
 Frame StreamHub::next(StreamClient& client) {
-    // In turns: a thousand vehicles that change one after the other must not keep the poses back.
-    const bool poses_first = client.poses_due && std::exchange(client.poses_next, false);
-    if (!client.changes.empty() && !poses_first) {
+    std::vector<Frame> parts;
+    std::size_t bytes = 0;
+    while (client.due > 0 && bytes < kJoinedBytes) {
         if (const auto* waits = std::get_if<Unwritten>(&client.changes.front())) {
+            if (!parts.empty()) break;
             if (!**waits) return nullptr;
             const Frame snapshot = **waits;
             client.changes.pop_front();
+            --client.due;
             return snapshot;
         }
-        client.poses_next = true;
-        return next_changes(client);
+        parts.push_back(take_change(client));
+        bytes += parts.back()->size();
     }
-    if (!client.poses_due) return nullptr;
+    if (client.poses_due) parts.push_back(take_poses(client));
+    return joined(std::move(parts));
+}
+
+Frame StreamHub::take_poses(StreamClient& client) {
     client.poses_due = false;
     const auto from = std::exchange(client.poses_seen, poses_.version());
     if (!last_poses_.frame || last_poses_.from != from || last_poses_.to != poses_.version()) {
@@ -226,27 +243,22 @@ Frame StreamHub::next(StreamClient& client) {
     return last_poses_.frame;
 }
 
-Frame StreamHub::next_changes(StreamClient& client) {
-    std::vector<Frame> parts;
-    std::size_t bytes = 0;
-    while (!client.changes.empty() && bytes < kJoinedBytes &&
-           !std::holds_alternative<Unwritten>(client.changes.front())) {
-        parts.push_back(take_change(client));
-        bytes += parts.back()->size();
-    }
+Frame StreamHub::joined(std::vector<Frame> parts) {
+    if (parts.empty()) return nullptr;
     if (parts.size() == 1) return parts.front();
-    if (last_changes_.parts != parts) {
+    if (last_joined_.parts != parts) {
         std::vector<std::string_view> texts;
         texts.reserve(parts.size());
         for (const auto& part : parts) texts.emplace_back(*part);
-        last_changes_ = {std::move(parts), frame(events::changes_frame(texts))};
+        last_joined_ = {std::move(parts), frame(events::changes_frame(texts))};
     }
-    return last_changes_.frame;
+    return last_joined_.frame;
 }
 
 Frame StreamHub::take_change(StreamClient& client) {
     const auto change = std::move(client.changes.front());
     client.changes.pop_front();
+    --client.due;
     if (const auto* text = std::get_if<Frame>(&change)) {
         --client.frames;
         client.bytes -= (*text)->size();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -35,16 +36,17 @@ struct StreamClient {
     static constexpr std::size_t kMaxBytes = 1 << 20;
 
     std::function<void()> wake;  // there is something to write
+    unsigned beat = 0;           // of StreamHub::kBeats
     bool subscribed = false;     // a snapshot is in the queue or written
     bool overflowed = false;     // fell behind: close with 1013
     bool refused = false;        // there is no snapshot for it now: close with 1013
     std::deque<std::variant<Frame, VehicleRowIndex, Unwritten>> changes;
+    std::size_t due = 0;         // of `changes`: were there when it had its turn
     std::vector<bool> vehicles;  // by row: in `changes`
     std::size_t frames = 0;      // in `changes`
     std::size_t bytes = 0;       // of those
     std::uint64_t poses_seen = 0;
     bool poses_due = false;
-    bool poses_next = false;  // a change was written last
 };
 
 /// Tells dashboards and event readers what was committed. Thread safety: none, the network thread
@@ -67,8 +69,13 @@ public:
     /// State at start: `stops` newest first.
     void start(std::vector<fleet::StopRecord> stops, std::int64_t last_event_seq);
     void publish(const FleetRuntime::Published& batch);
-    /// Lets every client know the poses put since the last call.
-    void offer_poses();
+    /// Dashboards write ten times a second what came meanwhile, not each change by itself: with two
+    /// hundred of them the writes are what costs. In four turns, one every kBeatPeriod, so that
+    /// nobody's request waits until all two hundred have written; those of a turn share frames.
+    static constexpr unsigned kBeats = 4;
+    static constexpr auto kBeatPeriod = std::chrono::milliseconds(100) / kBeats;
+    /// Lets those whose turn it is write: there are changes, or poses put since their last turn.
+    void beat();
     PoseTable& poses() { return poses_; }
 
     void add(StreamClient& client);
@@ -82,8 +89,7 @@ public:
     void resubscribe_all();
     /// Every stream looks again whether it may go on: somebody's rights may have changed.
     void wake_all();
-    /// Next frame to write; null when there is none. Changes that wait go together in one: with two
-    /// hundred dashboards the writes are what costs, not their bytes.
+    /// Next frame to write; null until the client's next turn. What waits goes together in one.
     Frame next(StreamClient& client);
 
     // Event readers: kept by sequence number, so that a reader joins without gap or double.
@@ -104,9 +110,10 @@ private:
         Frame frame;  // made when first needed
     };
 
-    /// Takes what waits, in order, up to a snapshot; a change is the first of it.
-    Frame next_changes(StreamClient& client);
+    static void let_write(StreamClient& client);
     Frame take_change(StreamClient& client);
+    Frame take_poses(StreamClient& client);
+    Frame joined(std::vector<Frame> parts);
     VehicleRow& row_of(const plant::VehicleId& id);
     void push(StreamClient& client, const Frame& frame);
     void push_all(const Frame& frame);
@@ -123,6 +130,8 @@ private:
     PoseTable poses_;
     Ports ports_;
     std::set<StreamClient*> clients_;
+    unsigned added_ = 0;               // clients, ever; they take the beats in turn
+    unsigned beat_ = 0;                // whose turn was last
     std::set<StreamClient*> wanting_;  // a snapshot
     bool asking_ = false;              // one is on its way to be written
     bool known_ = true;                // false: the rows here may be of a fleet that is no more
@@ -143,7 +152,7 @@ private:
     struct {
         std::vector<Frame> parts;
         Frame frame;
-    } last_changes_;  // and miss the same changes
+    } last_joined_;  // and miss the same changes
 };
 
 }  // namespace pulseline::server

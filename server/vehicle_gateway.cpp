@@ -1,6 +1,7 @@
 #include "server/vehicle_gateway.hpp"
 
 #include <algorithm>
+#include <functional>
 
 #include "api/http/problem.hpp"
 #include "api/vehicle/connection.hpp"
@@ -35,6 +36,13 @@ bool offers_subprotocol(const std::string& header) {
         at = comma + 1;
     }
     return false;
+}
+
+std::chrono::steady_clock::time_point next_beat(const plant::VehicleId& id,
+                                                std::chrono::steady_clock::time_point now,
+                                                Duration every) {
+    const auto since_start = std::chrono::duration_cast<Duration>(now.time_since_epoch());
+    return now + fleet::to_next_beat(since_start, every, std::hash<std::string>{}(id.str()));
 }
 
 struct Path {
@@ -141,7 +149,7 @@ void VehicleGateway::opened(const plant::VehicleId& id,
     row.socket = socket;
     row.malformed_in_a_row = 0;
     row.said_offline = false;
-    row.told_heard = now;
+    row.tell_heard_at = next_beat(id, now, kTellHeard);
     row.passed.reset();
     log::info("vehicle_connected", {{"vehicle", id.str()}});
     ports_.runtime.input(id,
@@ -168,8 +176,8 @@ void VehicleGateway::closed(const plant::VehicleId& id, const VehicleSocket* soc
 void VehicleGateway::heard(const plant::VehicleId& id, const VehicleSocket* socket) {
     Row* row = current(id, socket);
     const auto now = Steady::now();
-    if (!row || now - row->told_heard < kTellHeard) return;
-    row->told_heard = now;
+    if (!row || now < row->tell_heard_at) return;
+    row->tell_heard_at = next_beat(id, now, kTellHeard);
     ports_.runtime.input(id, [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_heard(id, at); });
 }
 
@@ -238,9 +246,9 @@ void VehicleGateway::pass_state(const plant::VehicleId& id, Row& row, fleet::Sta
         state.errors.push_back(*row.refused);
     }
     const auto now = Steady::now();
-    if (row.passed && !fleet::may_change_decision(*row.passed, state, now - row.passed_at)) return;
+    if (row.passed && now < row.pass_at && !fleet::may_change_decision(*row.passed, state)) return;
     row.passed = state;
-    row.passed_at = now;
+    row.pass_at = next_beat(id, now, fleet::seen_every(state));
     // A state says all there is to say: one that waits is overtaken by the next.
     bool waits = false;
     {

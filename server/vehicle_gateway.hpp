@@ -81,10 +81,10 @@ private:
     struct Row {
         std::shared_ptr<VehicleSocket> socket;
         std::deque<Steady::time_point> takeovers;
-        Steady::time_point told_heard{};
+        Steady::time_point tell_heard_at{};
         std::map<vda5050::Topic, std::string> retained;
         std::optional<fleet::StateMessage> passed;  // newest one that the fleet was given
-        Steady::time_point passed_at{};
+        Steady::time_point pass_at{};               // the next one, whatever it says
         std::shared_ptr<StateSlot> state = std::make_shared<StateSlot>();
         std::optional<fleet::Factsheet> factsheet;
         std::optional<fleet::VehicleError> refused;  // shown with the vehicle's own errors

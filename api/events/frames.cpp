@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <array>
+#include <cmath>
+#include <iterator>
+
 #include "api/http/common_json.hpp"
 #include "api/http/job_order_json.hpp"
 #include "api/http/plant_json.hpp"
@@ -15,6 +19,28 @@ using api::Json;
 
 std::string frame(const char* type, Json content) {
     return api::dump({{"type", type}, {type, std::move(content)}});
+}
+
+/// As fmt's "{:.5f}", without zeros at the end and a fifth of its time: whole numbers are quick.
+void append_rounded(std::string& text, double value, int decimals) {
+    constexpr std::array kTens{1.0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6};
+    constexpr double kWhole = 1e15;  // up to there a double holds whole numbers exactly
+    const double scaled = value * kTens.at(static_cast<std::size_t>(decimals));
+    if (!(std::abs(scaled) < kWhole)) {
+        fmt::format_to(std::back_inserter(text), "{:.{}f}", value, decimals);
+        return;
+    }
+    auto digits = std::llround(std::abs(scaled));
+    for (; decimals > 0 && digits % 10 == 0; --decimals) digits /= 10;
+    if (digits != 0 && value < 0) text += '-';
+    std::array<char, 20> buffer;
+    auto at = buffer.end();
+    for (int n = 0; digits > 0 || n <= decimals; ++n) {
+        if (n == decimals && n > 0) *--at = '.';
+        *--at = static_cast<char>('0' + digits % 10);
+        digits /= 10;
+    }
+    text.append(at, buffer.end());
 }
 
 }  // namespace
@@ -38,12 +64,16 @@ std::string snapshot_frame(const plant::Plant& plant, const api::CameraImages& i
 std::string poses_frame(Time at, const std::vector<PoseSample>& poses) {
     // Ten times a second for every vehicle: rounded to 0.01 mm and written without a tree.
     std::string text = fmt::format(R"({{"type":"poses","at":"{}","poses":[)", api::rfc3339(at));
-    const char* comma = "";
+    text.reserve(text.size() + 64 * poses.size());
     for (const PoseSample& sample : poses) {
-        text += fmt::format("{}[{},{:.5f},{:.5f},{:.6f},{:.4f},{:.2f}]", comma,
-                            api::dump(sample.vehicle.str()), sample.pose.x_m, sample.pose.y_m,
-                            sample.pose.heading_rad, sample.speed_mps, sample.age_s);
-        comma = ",";
+        text += &sample == poses.data() ? "[" : ",[";
+        text += api::dump(sample.vehicle.str());
+        append_rounded(text += ',', sample.pose.x_m, 5);
+        append_rounded(text += ',', sample.pose.y_m, 5);
+        append_rounded(text += ',', sample.pose.heading_rad, 6);
+        append_rounded(text += ',', sample.speed_mps, 4);
+        append_rounded(text += ',', sample.age_s, 2);
+        text += ']';
     }
     return text + "]}";
 }

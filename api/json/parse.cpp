@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "api/json/parse_quickly.hpp"
+
 namespace pulseline::json {
 namespace {
 
@@ -165,7 +167,8 @@ Result<Json> parse_json(std::string_view text, JsonLimits limits) {
     if (nul != std::string_view::npos) {
         return fail_at("json_syntax", text, nul + 1, "a NUL byte is not valid JSON.");
     }
-    Builder builder(limits);
+    if (auto value = parse_quickly(text, limits)) return *std::move(value);
+    Builder builder(limits);  // tells what is wrong and where
     const bool accepted = Json::sax_parse(text.data(), text.data() + text.size(), &builder);
     return builder.take(accepted, text);
 }

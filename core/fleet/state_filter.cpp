@@ -76,8 +76,17 @@ void quiet(const StateMessage& known, StateMessage& next) {
 
 }  // namespace
 
-bool may_change_decision(const StateMessage& known, const StateMessage& next, Duration since) {
-    if (since >= (next.driving ? kDrivingEvery : kStandingEvery)) return true;
+Duration seen_every(const StateMessage& state) {
+    return state.driving ? kDrivingEvery : kStandingEvery;
+}
+
+Duration to_next_beat(Duration now, Duration every, std::size_t number) {
+    const auto length = static_cast<std::size_t>(every.count());
+    const Duration own{static_cast<Duration::rep>(number % length)};
+    return every - (now + own) % every;
+}
+
+bool may_change_decision(const StateMessage& known, const StateMessage& next) {
     StateMessage quieted = next;
     quiet(known, quieted);
     journal::Writer a;

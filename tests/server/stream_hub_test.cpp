@@ -22,6 +22,7 @@ struct StreamHubTest : ::testing::Test {
     std::vector<std::function<void(Result<events::Snapshot>)>> asked;
     std::vector<std::pair<std::function<std::string()>, std::function<void(Frame)>>> writing;
     std::vector<StreamClient> clients{40};
+    int woken = 0;
 
     void SetUp() override {
         hub.connect({[this](auto done) { asked.push_back(std::move(done)); },
@@ -29,12 +30,23 @@ struct StreamHubTest : ::testing::Test {
                          writing.emplace_back(std::move(write), std::move(done));
                      }});
         for (auto& client : clients) {
-            client.wake = [] {};
+            client.wake = [this] { ++woken; };
             hub.add(client);
         }
     }
     void TearDown() override {
         for (auto& client : clients) hub.remove(client);
+    }
+    void give_everybody_a_turn() {
+        for (unsigned i = 0; i < StreamHub::kBeats; ++i) hub.beat();
+    }
+    /// The first has its snapshot and nothing else to write.
+    void show_the_first() {
+        hub.subscribe(clients[0]);
+        asked[0](events::Snapshot{});
+        write_next();
+        ASSERT_NE(hub.next(clients[0])->find("\"snapshot\""), std::string::npos);
+        woken = 0;
     }
     void write_next() {
         auto [write, done] = std::move(writing.back());
@@ -73,6 +85,56 @@ TEST_F(StreamHubTest, WhatChangesWhileItIsWrittenComesBehindIt) {
     EXPECT_EQ(hub.next(clients[0]), nullptr);
 }
 
+TEST_F(StreamHubTest, ChangesWaitForTheClientsTurnAndThoseAfterItForTheNext) {
+    show_the_first();
+    Published batch;
+    batch.fleet = fleet::FleetView{};
+
+    hub.publish(batch);
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+    EXPECT_EQ(woken, 0);
+    give_everybody_a_turn();
+    EXPECT_EQ(woken, 1);
+    hub.publish(batch);
+
+    EXPECT_TRUE(hub.next(clients[0]));
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+    give_everybody_a_turn();
+    EXPECT_TRUE(hub.next(clients[0]));
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
+    give_everybody_a_turn();
+    EXPECT_EQ(woken, 2);  // nothing to write
+}
+
+TEST_F(StreamHubTest, TheTurnsAreOfEqualSize) {
+    for (auto& client : clients) hub.subscribe(client);
+    asked[0](events::Snapshot{});
+    write_next();
+    for (auto& client : clients) EXPECT_TRUE(hub.next(client));
+    Published batch;
+    batch.fleet = fleet::FleetView{};
+    hub.publish(batch);
+
+    for (unsigned i = 0; i < StreamHub::kBeats; ++i) {
+        woken = 0;
+        hub.beat();
+        EXPECT_EQ(woken, 40 / static_cast<int>(StreamHub::kBeats));
+    }
+}
+
+TEST_F(StreamHubTest, MuchAtOnceIsWrittenAtOnce) {
+    show_the_first();
+    Published batch;
+    batch.fleet = fleet::FleetView{};
+
+    for (std::size_t i = 1; i < StreamClient::kMaxFrames / 2; ++i) hub.publish(batch);
+    EXPECT_EQ(woken, 0);
+    hub.publish(batch);
+
+    EXPECT_EQ(woken, 1);
+    EXPECT_TRUE(hub.next(clients[0]));
+}
+
 TEST_F(StreamHubTest, WhoComesMeanwhileSharesTheNextOne) {
     hub.subscribe(clients[0]);
     asked[0](events::Snapshot{});
@@ -100,9 +162,7 @@ Published changed(int vehicles) {
 }
 
 TEST_F(StreamHubTest, AThousandVehiclesThatWaitAreNoReasonToSendSomebodyAway) {
-    hub.subscribe(clients[0]);
-    asked[0](events::Snapshot{});
-    write_next();
+    show_the_first();
 
     for (int i = 0; i < 3; ++i) hub.publish(changed(2000));
     Published fleet;
@@ -124,6 +184,7 @@ TEST_F(StreamHubTest, ChangesThatWaitTogetherAreOneFrameThatDashboardsShare) {
     batch.fleet = fleet::FleetView{};
 
     hub.publish(batch);
+    give_everybody_a_turn();
 
     const Frame frame = hub.next(clients[0]);
     const auto json = nlohmann::json::parse(*frame);
@@ -137,22 +198,30 @@ TEST_F(StreamHubTest, ChangesThatWaitTogetherAreOneFrameThatDashboardsShare) {
 }
 
 TEST_F(StreamHubTest, PosesDoNotWaitUntilEveryChangeIsWritten) {
-    hub.subscribe(clients[0]);
-    asked[0](events::Snapshot{});
-    write_next();
-    EXPECT_NE(hub.next(clients[0])->find("\"snapshot\""), std::string::npos);
+    show_the_first();
     hub.publish(changed(1000));
     hub.poses().put(plant.vehicles[0].id, {1, 2, 0}, 0.5, clock.now());
-    hub.offer_poses();
+    give_everybody_a_turn();
 
-    std::string types;
-    for (int i = 0; i < 3; ++i) {
-        const Frame frame = hub.next(clients[0]);
-        ASSERT_TRUE(frame);
-        types += frame->find("\"poses\"") != std::string::npos ? 'p' : 'v';
+    const auto first = nlohmann::json::parse(*hub.next(clients[0]))["changes"];
+    EXPECT_LT(first.size(), 500u);
+    EXPECT_EQ(first.back()["type"], "poses");
+    std::size_t vehicles = first.size() - 1;
+    while (const Frame frame = hub.next(clients[0])) {
+        const auto json = nlohmann::json::parse(*frame);
+        for (const auto& change : json["changes"]) EXPECT_EQ(change["type"], "vehicle");
+        vehicles += json["changes"].size();
     }
+    EXPECT_EQ(vehicles, 1000u);
+}
 
-    EXPECT_EQ(types, "vpv");
+TEST_F(StreamHubTest, PosesAloneAreTheirOwnFrame) {
+    show_the_first();
+    hub.poses().put(plant.vehicles[0].id, {1, 2, 0}, 0.5, clock.now());
+    give_everybody_a_turn();
+
+    EXPECT_EQ(nlohmann::json::parse(*hub.next(clients[0]))["type"], "poses");
+    EXPECT_EQ(hub.next(clients[0]), nullptr);
 }
 
 TEST_F(StreamHubTest, WithoutASnapshotTheyAreSentAway) {

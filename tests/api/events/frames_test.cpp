@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <random>
+
 #include "tests/api/http/api_world.hpp"
 
 namespace pulseline::events {
@@ -105,6 +108,38 @@ TEST(Frames, PosesAreCompactRowsInOneFrame) {
     EXPECT_EQ(Json::parse(frame)["poses"],
               Json::parse(R"([["TP-\"1",1.0,-2.0,3.1,0.5,0.12],["TP-02",0.0,0.0,0.0,-1.0,10.0]])"));
     EXPECT_EQ(breach(poses_frame(time_from_ns(0), {})), "");
+}
+
+TEST(Frames, PosesAreRoundedToWhatAVehicleCanMean) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> exponent(-8, 17);
+    std::vector<PoseSample> samples;
+    for (const double x : {0.0, -0.0, -4e-6, 6e-6, -6e-6, 0.1, 9.999999, -123.45678, 1e9, -1e300}) {
+        samples.push_back({plant::VehicleId("V"), {x, -x, x}, x, x});
+    }
+    for (int i = 0; i < 2000; ++i) {
+        const double x = std::pow(10, exponent(random)) * (i % 2 == 0 ? 1 : -1);
+        samples.push_back({plant::VehicleId("V"), {x, -x, x}, x, x});
+    }
+    const std::string frame = poses_frame(time_from_ns(0), samples);
+    EXPECT_EQ(breach(frame), "");
+    const auto rows = Json::parse(frame)["poses"];
+    ASSERT_EQ(rows.size(), samples.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double x = samples[i].pose.x_m;
+        const auto near = [&](double shown, double value, double step) {
+            EXPECT_LE(std::abs(shown - value), 0.5001 * step + 1e-15 * std::abs(value)) << value;
+        };
+        near(rows[i][1], x, 1e-5);
+        near(rows[i][2], -x, 1e-5);
+        near(rows[i][3], x, 1e-6);
+        near(rows[i][4], x, 1e-4);
+        near(rows[i][5], x, 1e-2);
+    }
+    EXPECT_NE(frame.find(R"(["V",0,0,0,0,0])"), std::string::npos);
+    EXPECT_NE(frame.find(R"(["V",-123.45678,123.45678,-123.45678,-123.4568,-123.46])"),
+              std::string::npos);
+    EXPECT_EQ(frame.find("-0,"), std::string::npos);
 }
 
 TEST(Frames, ServerSentEventKeepsToItsLines) {

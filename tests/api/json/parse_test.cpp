@@ -5,6 +5,8 @@
 #include <random>
 #include <string>
 
+#include "api/json/parse_quickly.hpp"
+
 namespace pulseline::json {
 namespace {
 
@@ -25,6 +27,32 @@ TEST(ParseJson, BuildsTheSameValueAsThePlainParser) {
         R"({"a":[1,-2,3.5e-3,true,false,null,"\u00e4\n"],"b":{"c":{}},"d":18446744073709551615})";
 
     EXPECT_EQ(parse_json(text).value(), Json::parse(text));
+}
+
+// What the quick parser takes, the slow one takes too, to the last bit; what it leaves is explained
+// or taken by the slow one.
+TEST(ParseJson, TheQuickParserReadsNumbersAsThePlainOne) {
+    for (const char* text :
+         {"0", "-0", "-0.0", "1e-400", "5e-324", "-2.2250738585072011e-308",
+          "1.7976931348623157e308", "9007199254740993", "9223372036854775807",
+          "9223372036854775808", "18446744073709551615", "-9223372036854775808", "0.1",
+          "123456789012345678.5", "1e0", "1E+2", "7.1234567890123456789012345678901234567890"}) {
+        const auto quickly = parse_quickly(text, {});
+        ASSERT_TRUE(quickly) << text;
+        EXPECT_EQ(*quickly, Json::parse(text)) << text;
+        EXPECT_EQ(quickly->dump(), Json::parse(text).dump()) << text;
+    }
+    for (const char* text : {"1e400", "-1e999", "18446744073709551616", "-9223372036854775809"}) {
+        EXPECT_FALSE(parse_quickly(text, {})) << text;
+    }
+}
+
+TEST(ParseJson, WhatIsTooLongForTheQuickParserIsReadAllTheSame) {
+    std::string text(70'002, 'a');
+    text.front() = text.back() = '"';
+    EXPECT_FALSE(parse_quickly(text, {}));
+    EXPECT_EQ(parse_json(text).value(), text.substr(1, 70'000));
+    EXPECT_TRUE(parse_quickly("[1]", {}));
 }
 
 TEST(ParseJson, ScalarsAreDocumentsToo) {
@@ -138,7 +166,10 @@ TEST(ParseJson, MutationsOfValidDocumentsAreAnswered) {
         const auto again = parse_json(printed, {8, 40});
         ASSERT_TRUE(again) << text;
         EXPECT_EQ(*again, *parsed) << text;
-        EXPECT_TRUE(Json::accept(text)) << text;
+        ASSERT_TRUE(Json::accept(text)) << text;
+        const auto quickly = parse_quickly(text, {8, 40});
+        ASSERT_TRUE(quickly) << text;
+        EXPECT_EQ(quickly->dump(), Json::parse(text).dump()) << text;
     }
     EXPECT_GT(accepted, 1000);
 }

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
+#include <string>
 
 namespace pulseline::fleet {
 namespace {
-
-constexpr Duration kSoon = std::chrono::milliseconds(100);
 
 StateMessage standing() {
     StateMessage state;
@@ -34,10 +34,10 @@ StateMessage driving() {
 
 using Change = std::function<void(StateMessage&)>;
 
-bool passes(const StateMessage& known, const Change& change, Duration since = kSoon) {
+bool passes(const StateMessage& known, const Change& change) {
     StateMessage next = known;
     change(next);
-    return may_change_decision(known, next, since);
+    return may_change_decision(known, next);
 }
 
 TEST(StateFilter, TheSameReportAgainTellsNothing) {
@@ -108,14 +108,15 @@ TEST(StateFilter, AStandingVehicleThatWasMovedIsSeenAtOnceADrivingOneTwiceASecon
 
     EXPECT_TRUE(passes(standing(), moved));
     EXPECT_FALSE(passes(driving(), moved));
-    EXPECT_TRUE(passes(driving(), moved, kDrivingEvery));
+    EXPECT_EQ(seen_every(standing()), kStandingEvery);
+    EXPECT_EQ(seen_every(driving()), kDrivingEvery);
 }
 
 TEST(StateFilter, SmallStepsAddUpBecauseTheLastOnePassedIsComparedWith) {
     const StateMessage known = standing();
     StateMessage next = known;
     int steps = 0;
-    while (!may_change_decision(known, next, kSoon)) {
+    while (!may_change_decision(known, next)) {
         next.pose->x_m += 0.0005;
         ASSERT_LT(++steps, 10);
     }
@@ -129,11 +130,21 @@ TEST(StateFilter, ALostVehiclesCamerasCountToTheLastDigit) {
     EXPECT_TRUE(passes(lost, [](StateMessage& s) { s.cameras[0].code.x_m += 1e-6; }));
 }
 
-TEST(StateFilter, NothingIsKeptBackForLong) {
-    const Change none = [](StateMessage&) {};
-
-    EXPECT_FALSE(passes(standing(), none, kStandingEvery - Duration(1)));
-    EXPECT_TRUE(passes(standing(), none, kStandingEvery));
+TEST(StateFilter, NothingIsKeptBackForLongAndWhatConnectedTogetherIsNotSeenTogether) {
+    const Duration start = std::chrono::hours(12345);
+    std::map<Duration, int> due;  // by tenths of the time between two beats
+    for (std::size_t vehicle = 0; vehicle < 1000; ++vehicle) {
+        const std::size_t number = std::hash<std::string>{}("V" + std::to_string(vehicle));
+        const Duration first = to_next_beat(start, kStandingEvery, number);
+        ASSERT_GT(first, Duration(0));
+        ASSERT_LE(first, kStandingEvery);
+        ++due[first / (kStandingEvery / 10) * (kStandingEvery / 10)];
+        // On its beat the next one is a whole time away; a little after it, a little less.
+        EXPECT_EQ(to_next_beat(start + first, kStandingEvery, number), kStandingEvery);
+        EXPECT_EQ(to_next_beat(start + first + Duration(7), kStandingEvery, number),
+                  kStandingEvery - Duration(7));
+    }
+    for (const auto& [when, vehicles] : due) EXPECT_LT(vehicles, 150);
 }
 
 }  // namespace

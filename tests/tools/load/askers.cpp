@@ -16,7 +16,8 @@ constexpr std::size_t kOpenOrders = 500;  // more are cancelled, the oldest firs
 
 }  // namespace
 
-Askers::Askers(Settings settings) : settings_(std::move(settings)) {
+Askers::Askers(Settings settings, const MachineWatch& machine)
+    : settings_(std::move(settings)), machine_(machine) {
     for (int i = 0; i < kAskers; ++i) {
         askers_.push_back(
             {std::make_unique<Peer>(settings_.port), {}, false, i < kThatOrder, false});
@@ -137,7 +138,8 @@ void Askers::take(Asker& asker, const Peer::Answer& answer) {
         if (order.is_object()) open_orders_.push_back(order.value("id", ""));
     }
     if (asker.due < counts_from_) return;
-    (created ? totals_.accepted : totals_.answers).add(ms_since(asker.due));
+    (created ? totals_.accepted : totals_.answers)
+        .add(ms_since(asker.due), machine_.stood_still_since(asker.due));
 }
 
 }  // namespace pulseline::load

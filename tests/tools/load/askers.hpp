@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/tools/load/figures.hpp"
+#include "tests/tools/load/machine_watch.hpp"
 #include "tests/tools/load/peer.hpp"
 
 namespace pulseline::load {
@@ -28,7 +29,7 @@ public:
         double requests_per_s = 20;
         double orders_per_s = 2;
     };
-    explicit Askers(Settings settings);
+    Askers(Settings settings, const MachineWatch& machine);
     ~Askers();
 
     /// Asks from `start` to `end`; what was asked before `counts_from` is no figure.
@@ -55,6 +56,7 @@ private:
     void take(Asker& asker, const Peer::Answer& answer);
 
     Settings settings_;
+    const MachineWatch& machine_;
     std::vector<Asker> askers_;
     std::deque<std::string> open_orders_;
     AskTotals totals_;

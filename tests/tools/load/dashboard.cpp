@@ -7,19 +7,20 @@
 
 namespace pulseline::load {
 
-Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches)
-    : peer_(std::make_unique<Peer>(port)), watches_(watches) {
+Dashboard::Dashboard(std::uint16_t port, const std::string& token, bool watches,
+                     const MachineWatch& machine)
+    : peer_(std::make_unique<Peer>(port)), watches_(watches), machine_(machine) {
     peer_->ask_upgrade("/api/v1/stream", "Authorization: Bearer " + token + "\r\n");
 }
 
 void Dashboard::take(std::string_view text, const VehiclesById& vehicles, bool counts,
                      Totals& totals) {
     ++totals.frames;
-    if (text.starts_with(R"({"type":"poses")")) {
-        if (watches_) take_poses(text, vehicles, counts, totals);
-    } else {
-        take_events(text, totals);
+    const auto poses = text.rfind(R"("type":"poses")");
+    if (poses != std::string_view::npos && watches_) {
+        take_poses(text.substr(poses), vehicles, counts, totals);
     }
+    if (poses != 1) take_events(text.substr(0, poses), totals);
 }
 
 /// [["V1",x_m,y_m,heading_rad,speed_mps,age_s],...], read by hand: it is most of what comes.
@@ -40,7 +41,8 @@ void Dashboard::take_poses(std::string_view text, const VehiclesById& vehicles, 
                                Vehicle::kCounts;
             auto& last = seen_[found->second];
             if (count != last && count != 0 && counts) {
-                totals.to_dashboard.add(ms_since(found->second->sent_at[count]));
+                const auto sent_at = found->second->sent_at[count];
+                totals.to_dashboard.add(ms_since(sent_at), machine_.stood_still_since(sent_at));
             }
             last = count;
         }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "tests/tools/load/figures.hpp"
+#include "tests/tools/load/machine_watch.hpp"
 #include "tests/tools/load/peer.hpp"
 #include "tests/tools/load/vehicle.hpp"
 
@@ -18,7 +19,8 @@ using VehiclesById = std::map<std::string, Vehicle*, std::less<>>;
 /// One that shows the stream. `watches`: it reads the poses in it, the others only take theirs.
 class Dashboard {
 public:
-    Dashboard(std::uint16_t port, const std::string& token, bool watches);
+    Dashboard(std::uint16_t port, const std::string& token, bool watches,
+              const MachineWatch& machine);
     /// `counts`: whether the figures of poses are wanted yet.
     void take(std::string_view text, const VehiclesById& vehicles, bool counts, Totals& totals);
     Peer& peer() { return *peer_; }
@@ -31,6 +33,7 @@ private:
 
     std::unique_ptr<Peer> peer_;
     bool watches_;
+    const MachineWatch& machine_;
     std::map<const Vehicle*, std::size_t> seen_;  // count of the newest state shown
     std::int64_t last_seq_ = 0;
 };

@@ -46,10 +46,25 @@ private:
     double most_ms_ = 0;
 };
 
+/// All times, and those during which the machine did not stand still.
+struct Times {
+    Histogram all;
+    Histogram machine_there;
+    void add(double ms, bool stood_still) {
+        all.add(ms);
+        if (!stood_still) machine_there.add(ms);
+    }
+    nlohmann::json summary() const {
+        auto both = all.summary();
+        both["machine_there"] = machine_there.summary();
+        return both;
+    }
+};
+
 /// What programs that ask have seen.
 struct AskTotals {
-    Histogram answers;
-    Histogram accepted;
+    Times answers;
+    Times accepted;
     std::map<int, int> statuses;
     std::map<int, std::string> refusals;  // the first of each status, for whoever reads the figures
     std::uint64_t not_asked = 0;          // every connection waited
@@ -58,7 +73,7 @@ struct AskTotals {
 
 /// What vehicles and dashboards have seen.
 struct Totals {
-    Histogram to_dashboard;
+    Times to_dashboard;
     std::uint64_t states = 0, frames = 0, events = 0, events_lost = 0;
     std::set<std::string> vehicles_lost;
     int vehicles_cut = 0, dashboards_cut = 0;

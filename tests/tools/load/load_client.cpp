@@ -2,10 +2,12 @@
 // them, and programs that ask over REST. Prints one line of JSON: how long a report takes to a
 // dashboard, how long answers take, what was lost.
 #include <fmt/format.h>
-#include <poll.h>
+#include <sys/epoll.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <fstream>
@@ -67,7 +69,8 @@ public:
         const auto end = start + seconds(settings_.seconds);
         std::uint64_t states_due = 0;
         Askers askers({settings_.port, settings_.token, ids(), settings_.requests_per_s,
-                       settings_.orders_per_s});
+                       settings_.orders_per_s},
+                      machine_);
         askers.begin(start, start + seconds(warm_s), end);
         while (Clock::now() < end) {
             const double now_s = std::chrono::duration<double>(Clock::now() - start).count();
@@ -86,6 +89,8 @@ public:
         return summary(askers.totals());
     }
 
+    ~Load() { ::close(epoll_); }
+
 private:
     static Clock::duration seconds(double value) {
         return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(value));
@@ -97,8 +102,9 @@ private:
     }
 
     void connect_all() {
-        for (auto& vehicle : vehicles_) {
-            vehicle->connect(settings_.port);
+        for (std::size_t i = 0; i < vehicles_.size(); ++i) {
+            vehicles_[i]->connect(settings_.port);
+            watch(*vehicles_[i]->peer, i);
             wait_and_read(0);
         }
         wait_until_open([&] {
@@ -116,7 +122,8 @@ private:
             const auto& tokens = settings_.dashboard_tokens;
             dashboards_.push_back(std::make_unique<Dashboard>(
                 settings_.port, tokens[static_cast<std::size_t>(i) % tokens.size()],
-                i < settings_.watchers));
+                i < settings_.watchers, machine_));
+            watch(dashboards_.back()->peer(), vehicles_.size() + static_cast<std::size_t>(i));
             wait_and_read(0);
         }
         wait_until_open([&] {
@@ -135,36 +142,41 @@ private:
         }
     }
 
+    /// `number`: of vehicles_, or behind them of dashboards_. Told of each change once: to ask the
+    /// kernel for all of 1,200 connections a thousand times a second cost more than the rest.
+    void watch(Peer& peer, std::size_t number) {
+        epoll_event wanted{};
+        wanted.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET;
+        wanted.data.u64 = number;
+        if (::epoll_ctl(epoll_, EPOLL_CTL_ADD, peer.socket(), &wanted) != 0)
+            throw std::runtime_error("epoll_ctl failed");
+    }
+
     void wait_and_read(int timeout_ms) {
-        polled_.clear();
-        const auto add = [&](Peer& peer) {
-            if (!peer.ended())
-                polled_.push_back({peer.socket(),
-                                   static_cast<short>(POLLIN | (peer.writes_wait() ? POLLOUT : 0)),
-                                   0});
-        };
-        for (auto& v : vehicles_)
-            if (v->peer) add(*v->peer);
-        for (auto& d : dashboards_) add(d->peer());
-        ::poll(polled_.data(), polled_.size(), timeout_ms);
-        std::size_t next = 0;
-        const auto ready = [&](Peer& peer) {
-            if (next >= polled_.size() || polled_[next].fd != peer.socket()) return false;
-            const short events = polled_[next++].revents;
-            if (events & POLLOUT) peer.flush();
-            return (events & (POLLIN | POLLHUP | POLLERR)) != 0;
-        };
-        for (auto& v : vehicles_) {
-            if (!v->peer || !ready(*v->peer)) continue;
-            v->peer->read([](std::string_view) {}, [](const Peer::Answer&) {});
-            if (v->peer->ended()) ++totals_.vehicles_cut;
+        std::array<epoll_event, 256> ready{};
+        const int n = ::epoll_wait(epoll_, ready.data(), ready.size(), timeout_ms);
+        for (int i = 0; i < n; ++i) {
+            const auto number = ready[static_cast<std::size_t>(i)].data.u64;
+            if (number < vehicles_.size()) {
+                read(*vehicles_[number]);
+            } else {
+                read(*dashboards_[number - vehicles_.size()]);
+            }
         }
-        for (auto& d : dashboards_) {
-            if (!ready(d->peer())) continue;
-            d->peer().read([&](std::string_view text) { d->take(text, by_id_, counts_, totals_); },
-                           [](const Peer::Answer&) {});
-            if (d->peer().ended()) ++totals_.dashboards_cut;
-        }
+    }
+    void read(Vehicle& vehicle) {
+        if (vehicle.peer->ended()) return;
+        vehicle.peer->flush();
+        vehicle.peer->read([](std::string_view) {}, [](const Peer::Answer&) {});
+        if (vehicle.peer->ended()) ++totals_.vehicles_cut;
+    }
+    void read(Dashboard& dashboard) {
+        Peer& peer = dashboard.peer();
+        if (peer.ended()) return;
+        peer.flush();
+        peer.read([&](std::string_view text) { dashboard.take(text, by_id_, counts_, totals_); },
+                  [](const Peer::Answer&) {});
+        if (peer.ended()) ++totals_.dashboards_cut;
     }
 
     nlohmann::json summary(const AskTotals& asked) const {
@@ -177,6 +189,7 @@ private:
         return {{"states", totals_.states},
                 {"states_per_s", static_cast<double>(totals_.states) / settings_.seconds},
                 {"frames", totals_.frames},
+                {"machine_stood_still", machine_.summary()},
                 {"state_to_dashboard", totals_.to_dashboard.summary()},
                 {"answers", asked.answers.summary()},
                 {"accepted", asked.accepted.summary()},
@@ -192,10 +205,11 @@ private:
     }
 
     Settings settings_;
+    MachineWatch machine_;
     std::vector<std::unique_ptr<Vehicle>> vehicles_;
     VehiclesById by_id_;
     std::vector<std::unique_ptr<Dashboard>> dashboards_;
-    std::vector<pollfd> polled_;
+    int epoll_ = ::epoll_create1(EPOLL_CLOEXEC);
     Totals totals_;
     bool counts_ = false;
 };

@@ -6,8 +6,8 @@ export const kSilenceMs = 2500;
 const kRetryMinMs = 500;
 const kRetryMaxMs = 10_000;
 
-const kChangeTypes = new Set(["vehicle", "station", "job_order", "stop_record", "fleet", "event"]);
-const kFrameTypes = new Set(["snapshot", "poses", "changes", ...kChangeTypes]);
+const kChangeTypes = new Set(["poses", "vehicle", "station", "job_order", "stop_record", "fleet", "event"]);
+const kFrameTypes = new Set(["snapshot", "changes", ...kChangeTypes]);
 
 /** Wait before try number `attempt` (0-based): exponential with full jitter, never outside 0.5 to 10 s. */
 export function retryDelayMs(attempt: number, random: number): number {

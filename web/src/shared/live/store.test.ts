@@ -132,6 +132,19 @@ describe("LiveStore", () => {
     expect([calls, poses]).toEqual([0, 1]);
     expect(store.poses.get("A")).toEqual({ x_m: 1, y_m: 2, heading_rad: 0.5, speed_mps: 0.3, heardAt: 800 });
   });
+  it("takes poses that came among changes", () => {
+    const { store, flush } = held();
+    store.apply({
+      type: "changes",
+      changes: [
+        { type: "vehicle", vehicle: vehicle("A") },
+        { type: "poses", at: "", poses: [["A", 1, 2, 0.5, 0.3, 0.2]] },
+      ],
+    });
+    flush();
+    expect(store.poses.get("A")?.x_m).toBe(1);
+    expect(store.state.vehicles.has("A")).toBe(true);
+  });
   it("survives any pose row", () => {
     fc.assert(
       fc.property(fc.array(fc.array(fc.anything())), (rows) => {

@@ -148,6 +148,9 @@ export class LiveStore {
       this.takePoses(frame.poses);
       return;
     }
+    if (frame.type === "changes") {
+      for (const change of frame.changes) if (change.type === "poses") this.takePoses(change.poses);
+    }
     if (frame.type === "snapshot") this.takeSnapshotPoses(frame.vehicles, Date.parse(frame.server_time));
     this.pending = reduce(this.pending, frame, this.wall());
     this.request();
