@@ -16,8 +16,9 @@ import { hall, rss_kb } from "./hall.mjs";
 
 const full = process.env.PULSELINE_LOAD === "full";
 const kLoad = full ? { vehicles: 1000, dashboards: 200, requests: 200, orders: 20, seconds: 600 } : { vehicles: 300, dashboards: 20, requests: 50, orders: 5, seconds: 40 };
-// On two cores that the load itself shares; the figures to hold are the full ones.
-const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024, health_p99_ms: 100, vehicle_p99_ms: 250 };
+// On two cores that the load itself shares; the figures to hold are the full ones. An order that ended is kept for a week: 72,000 in an
+// hour are a benchmark's and not a plant's, and what they take is no growth.
+const kBounds = { to_dashboard_p99_ms: 300, accepted_p99_ms: full ? 25 : 50, rss_kb: 256 * 1024, ended_order_kb: 1.5, health_p99_ms: 100, vehicle_p99_ms: 250 };
 
 /** Systems made while it runs have their files in memory, where there is room. */
 async function inMemory(make) {
@@ -80,7 +81,8 @@ test("a shift's load: reports reach dashboards in time and nobody is taken for l
       assert.ok(found.states_per_s > kLoad.vehicles * 10 * 0.9, `${found.states_per_s} states a second`);
       assert.ok(found.state_to_dashboard.n > 1000, "dashboards show what vehicles report");
       assert.ok(found.rss_kb.most <= kBounds.rss_kb, `memory ${JSON.stringify(found.rss_kb)}`);
-      if (full) assert.ok(found.rss_kb.end <= 1.05 * found.rss_kb.warm, `memory grows: ${JSON.stringify(found.rss_kb)}`);
+      const ended = 0.75 * (found.statuses["201"] ?? 0); // since the server was warm
+      if (full) assert.ok(found.rss_kb.end <= 1.05 * found.rss_kb.warm + kBounds.ended_order_kb * ended, `memory grows: ${JSON.stringify(found.rss_kb)}`);
       return notHeld([
         ["requests that found every connection waiting", found.not_asked_in_time, 0.01 * kLoad.seconds * (kLoad.requests + kLoad.orders)],
         ["p99 of state to dashboard, ms", there(found.state_to_dashboard).p99_ms, kBounds.to_dashboard_p99_ms],
