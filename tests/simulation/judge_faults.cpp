@@ -83,10 +83,14 @@ void World::found(VehicleIndex v) {
     const VehicleClass& c = class_of(v);
     // It may have driven a part of a move; what it reported before is not news any more.
     body.reports.clear();
-    const bool between = body.in_move_s > 0 && !body.base.empty() && !body.base.front().stop;
-    body.stray_from = body.from_place;
-    body.stray_to = between ? body.base.front().place : body.from_place;
-    const PlaceIndex place = between ? traffic::kNoPlace : body.from_place;
+    const bool on_its_way = body.in_move_s > 0 && !body.base.empty() && !body.base.front().stop;
+    // Found again before it came to a place, it stands between the same two still.
+    const bool from_a_place = body.from == c.points[body.from_place];
+    if (from_a_place) {
+        body.stray_from = body.from_place;
+        body.stray_to = on_its_way ? body.base.front().place : body.from_place;
+    }
+    const PlaceIndex place = on_its_way || !from_a_place ? traffic::kNoPlace : body.from_place;
     body.base.clear();
     body.in_move_s = 0;
     body.from = body.at;

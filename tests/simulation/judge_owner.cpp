@@ -82,7 +82,13 @@ std::vector<traffic::Sequence> World::ways_back(VehicleIndex v) const {
 
 void World::admit(VehicleIndex v) {
     Body& body = bodies_[v];
-    const auto admission = traffic_.admit(v, task_of(v), now());
+    traffic::Task task = task_of(v);
+    const auto admission = traffic_.admit(v, task, now());
+    if (!admission && !task.sequences.empty() && !task.visits.empty()) {
+        // It stands in everybody's way: to a place first, its order another time.
+        task.visits.clear();
+        if (traffic_.admit(v, std::move(task), now())) ++outcome_.events["only out of the way"];
+    }
     settle();
     if (admission) {
         body.retry_s = 0;

@@ -17,6 +17,7 @@ using traffic::TileSet;
 struct Point {
     double x_m = 0;
     double y_m = 0;
+    friend bool operator==(const Point&, const Point&) = default;
 };
 
 struct VehicleClass {
