@@ -46,7 +46,7 @@ private:
     double most_ms_ = 0;
 };
 
-/// All times, and those during which the machine did not stand still.
+/// All times, which are what is held, and beside them those during which the machine was there.
 struct Times {
     Histogram all;
     Histogram machine_there;
