@@ -181,8 +181,8 @@ public:
     /// the way to a resting place with the visits postponed), then those that lose most time, alone
     /// and in pairs with the one they wait for. Accepted only when acyclic, sooner, and the oldest
     /// task's finish does not move back. When a vehicle without a plan stands in the way and cannot
-    /// leave, all that are blocked give up their horizons; those without a graph then need
-    /// sequences again.
+    /// leave, all that are blocked give up their horizons; those without a graph, and those whose
+    /// base ends at no place, then need sequences again.
     Improvement improve(Time now, int steps);
 
     /// Vehicles whose horizon changed since the last call, by whatever call: send it to them.

@@ -110,13 +110,14 @@ void World::assign() {
             if (now_s_ >= body.retry_s) admit(v);
             continue;
         }
-        if (body.order) continue;
         const auto& plan = traffic_.plan(v);
         const bool between = plan.place_after(plan.released) == traffic::kNoPlace;
         if (between && plan.last() == plan.passed) {
-            body.retry_s = now_s_;  // stands in somebody's way, order or not
+            // Its way from between two places was given up: only its owner knows another.
+            body.retry_s = now_s_;
             continue;
         }
+        if (body.order) continue;
         // Some orders come while the vehicle is still on its way to rest.
         if (plan.last() > plan.passed && !chance(0.02)) continue;
         for (std::size_t i = 0; i < orders_.size(); ++i) {
