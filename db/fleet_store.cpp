@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/crash_point.hpp"
+#include "core/fleet/order_book.hpp"
 #include "db/fleet_rows.hpp"
 #include "db/names.hpp"
 #include "db/order_reader.hpp"
@@ -60,10 +61,13 @@ constexpr const char* kTimeOfEvent = "SELECT at_ns FROM events WHERE seq = ";
 constexpr std::int64_t kEventsDroppedAtOnce = 64;  // with one commit
 constexpr const char* kDropKeys = "DELETE FROM idempotency_keys WHERE at_ns < :before";
 
-// Open orders and those of the last days, each part by an index of its own.
-constexpr const char* kKeptOrders =
+// Open orders and those of the last days that the fleet would not forget at once, each part by an
+// index of its own.
+const std::string kKeptOrders =
     "SELECT id FROM orders WHERE state IN ('NotAllowedToStart', 'AllowedToStart', 'Running', "
-    "'Interrupted') UNION SELECT id FROM orders WHERE ended_ns > 0 AND ended_ns >= :since";
+    "'Interrupted') UNION SELECT id FROM (SELECT id FROM orders WHERE ended_ns > 0 AND ended_ns >= "
+    ":since ORDER BY ended_ns DESC LIMIT " +
+    std::to_string(fleet::OrderBook::kMostEnded) + ")";
 
 std::int64_t scalar(soci::session& sql, const std::string& query) {
     std::int64_t value = 0;

@@ -188,11 +188,14 @@ void Fleet::tick(Time now) {
     settle_dependencies(fleet);
     run_schedules(fleet, now);
     dispatch(fleet, now);
-    fleet.orders.forget_ended_before(now - kKeepFinal);
+    fleet.orders.tidy(now - kKeepFinal);
     if (now - fleet.keys_swept >= kSweepKeys) {
         fleet.keys_swept = now;
-        std::erase_if(fleet.idempotency,
-                      [&](const auto& entry) { return now - entry.second.at > kKeepFinal; });
+        // The answer is the order, so a key is worth nothing without it.
+        std::erase_if(fleet.idempotency, [&](const auto& entry) {
+            const auto& [client_and_key, answer] = entry;
+            return now - answer.at > kKeepFinal || !fleet.orders.knows(answer.order);
+        });
     }
 }
 

@@ -1,10 +1,7 @@
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
-std::optional<JobOrder> Fleet::order(JobOrderId id) const {
-    const JobOrder* order = state_->find(id);
-    return order ? std::optional<JobOrder>(*order) : std::nullopt;
-}
+std::optional<JobOrder> Fleet::order(JobOrderId id) const { return state_->orders.look_up(id); }
 
 std::vector<JobOrder> Fleet::orders() const {
     constexpr std::size_t kRecent = 100;  // the store has the rest

@@ -4,6 +4,7 @@
 #include <functional>
 #include <utility>
 
+#include "core/fleet/journal/fields.hpp"
 #include "core/fleet/views.hpp"
 
 namespace pulseline::fleet {
@@ -14,6 +15,7 @@ JobOrder& OrderBook::add(JobOrder order) {
     if (!kept.client_order_id.empty()) of_client_[kept.client_order_id] = id;
     if (is_final(kept.state)) {
         ended_.push_back(id);
+        loose_.push_back(id);
     } else {
         open_.insert(id);
         join_sequence(kept);
@@ -24,16 +26,36 @@ JobOrder& OrderBook::add(JobOrder order) {
 
 JobOrder* OrderBook::find(JobOrderId id) {
     const auto it = orders_.find(id);
-    return it == orders_.end() ? nullptr : &it->second;
+    if (it != orders_.end()) return &it->second;
+    const auto packed = packed_.find(id);
+    if (packed == packed_.end()) return nullptr;
+    JobOrder& order = orders_.insert_or_assign(id, packed->second.order()).first->second;
+    packed_.erase(packed);
+    loose_.push_back(id);
+    return &order;
 }
 
 const JobOrder* OrderBook::find(JobOrderId id) const {
-    return const_cast<OrderBook*>(this)->find(id);
+    const auto it = orders_.find(id);
+    return it == orders_.end() ? nullptr : &it->second;
 }
 
-const JobOrder* OrderBook::with_client_id(const std::string& client_order_id) const {
+std::optional<JobOrder> OrderBook::look_up(JobOrderId id) const {
+    if (const JobOrder* order = find(id)) return *order;
+    const auto packed = packed_.find(id);
+    return packed == packed_.end() ? std::nullopt : std::optional(packed->second.order());
+}
+
+JobOrder OrderBook::Packed::order() const {
+    JobOrder order;
+    journal::Reader reader(bytes);
+    reader.get(order);
+    return order;
+}
+
+std::optional<JobOrderId> OrderBook::with_client_id(const std::string& client_order_id) const {
     const auto it = of_client_.find(client_order_id);
-    return it == of_client_.end() ? nullptr : find(it->second);
+    return it == of_client_.end() ? std::nullopt : std::optional(it->second);
 }
 
 JobOrder* OrderBook::of(const plant::VehicleId& vehicle) {
@@ -115,21 +137,43 @@ std::vector<JobOrderId> OrderBook::take_bound() { return std::exchange(bound_, {
 void OrderBook::close(const JobOrder& order) {
     if (open_.erase(order.id) == 0) return;
     ended_.push_back(order.id);
+    loose_.push_back(order.id);
     leave_sequence(order);
     const auto it = of_vehicle_.find(order.assigned_vehicle);
     if (it != of_vehicle_.end() && it->second == order.id) of_vehicle_.erase(it);
 }
 
-void OrderBook::forget_ended_before(Time time) {
-    while (!ended_.empty()) {
-        const auto it = orders_.find(ended_.front());
-        if (it != orders_.end()) {
-            if (it->second.ended >= time) return;
-            const auto client = of_client_.find(it->second.client_order_id);
-            if (client != of_client_.end() && client->second == it->first) of_client_.erase(client);
-            orders_.erase(it);
-        }
-        ended_.pop_front();
+/// True: one fewer is known.
+bool OrderBook::forget_oldest(Time ended_before) {
+    if (ended_.empty()) return false;
+    const JobOrderId id = ended_.front();
+    const auto loose = orders_.find(id);
+    const auto packed = packed_.find(id);
+    const bool known = loose != orders_.end() || packed != packed_.end();
+    if (known && ended_.size() <= kMostEnded) {
+        const Time ended = loose != orders_.end() ? loose->second.ended : packed->second.ended;
+        if (ended >= ended_before) return false;
+    }
+    if (const auto order = look_up(id)) {
+        const auto client = of_client_.find(order->client_order_id);
+        if (client != of_client_.end() && client->second == id) of_client_.erase(client);
+    }
+    orders_.erase(id);
+    packed_.erase(id);
+    ended_.pop_front();
+    return true;
+}
+
+void OrderBook::tidy(Time forget_ended_before) {
+    while (forget_oldest(forget_ended_before)) {
+    }
+    for (; loose_.size() > kMostLoose; loose_.pop_front()) {
+        const auto it = orders_.find(loose_.front());
+        if (it == orders_.end()) continue;
+        journal::Writer writer;
+        writer.put(it->second);
+        packed_.insert_or_assign(it->first, Packed{it->second.ended, writer.take()});
+        orders_.erase(it);
     }
 }
 
@@ -143,8 +187,8 @@ std::vector<JobOrder> OrderBook::newest_first(std::size_t finished) const {
     std::vector<JobOrder> orders;
     orders.reserve(ids.size());
     for (const auto& id : ids) {
-        const JobOrder* order = find(id);
-        if (order && !order->removed) orders.push_back(*order);
+        auto order = look_up(id);
+        if (order && !order->removed) orders.push_back(std::move(*order));
     }
     return orders;
 }

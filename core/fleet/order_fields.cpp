@@ -87,9 +87,10 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
                 missing->field, {{"action", missing->action->type}, {"announced", announced}});
 }
 
-const JobOrder* named(const FleetState& fleet, const std::string& name) {
-    if (const auto id = JobOrderId::parse(name)) return fleet.find(*id);
-    return fleet.orders.with_client_id(name);
+std::optional<JobOrder> named(const FleetState& fleet, const std::string& name) {
+    auto id = JobOrderId::parse(name);
+    if (!id) id = fleet.orders.with_client_id(name);
+    return id ? fleet.orders.look_up(*id) : std::nullopt;
 }
 
 }  // namespace
@@ -164,7 +165,7 @@ Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const Ne
     std::vector<Dependency> after;
     for (std::size_t i = 0; i < order.after.size(); ++i) {
         const std::string field = "/after/" + std::to_string(i);
-        const JobOrder* other = named(fleet, order.after[i]);
+        const auto other = named(fleet, order.after[i]);
         if (!other) {
             return fail(Errc::kUnreachable, "unknown_job_order",
                         "There is no job order " + order.after[i] +

@@ -235,8 +235,7 @@ Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const st
         return fail(Errc::kInvalid, "idempotency_key_reused",
                     "This Idempotency-Key was used with another body. Use a new key.");
     }
-    const JobOrder* order = fleet.find(it->second.order);
-    return order ? std::optional<JobOrder>(*order) : std::nullopt;
+    return fleet.orders.look_up(it->second.order);
 }
 
 void keep_answer(FleetState& fleet, const IdempotencyRecord& record) {
@@ -252,11 +251,11 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     if (!earlier) return fail(earlier.error());
     if (*earlier && !mutated(Mutation::kRepeatMakesAnother)) return Created{**earlier, true};
     if (!request.client_order_id.empty()) {
-        if (const auto* known = fleet.orders.with_client_id(request.client_order_id)) {
+        if (const auto known = fleet.orders.with_client_id(request.client_order_id)) {
             return fail(Errc::kConflict, "duplicate_client_order_id",
                         "Order " + request.client_order_id +
                             " exists already. Use another client_order_id.",
-                        "/client_order_id", {{"order", known->id.str()}});
+                        "/client_order_id", {{"order", known->str()}});
         }
     }
     if (fleet.orders.open().size() >= kMostOpenOrders) {

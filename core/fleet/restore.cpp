@@ -102,8 +102,14 @@ void take_vehicles_of_plant(FleetState& fleet) {
 void restore(FleetState& fleet, StoredFleet stored, Time now) {
     fleet.order_number = stored.last_order_number;
     take_vehicles_of_plant(fleet);
-    for (auto& order : stored.orders) fleet.orders.add(std::move(order));
-    for (auto& key : stored.idempotency) fleet.idempotency[{key.client, key.key}] = std::move(key);
+    for (auto& order : stored.orders) {
+        fleet.orders.add(std::move(order));
+        fleet.orders.tidy(Time{});
+    }
+    for (auto& key : stored.idempotency) {
+        if (fleet.orders.knows(key.order))
+            fleet.idempotency[{key.client, key.key}] = std::move(key);
+    }
     for (auto& record : stored.vehicles) {
         VehicleRun* run = fleet.find(record.id);
         if (!run) continue;

@@ -70,10 +70,10 @@ void skip(FleetState& fleet, Schedule& schedule, Reason why, Time now) {
 }
 
 void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
-    const JobOrder* before = fleet.find(schedule.newest_order);
-    if (before && !is_final(before->state)) {
-        skip(fleet, schedule,
-             {"previous_order_open", {{"order", "JO-" + std::to_string(before->number)}}}, now);
+    if (fleet.orders.open().contains(schedule.newest_order)) {
+        const auto number = fleet.find(schedule.newest_order)->number;
+        skip(fleet, schedule, {"previous_order_open", {{"order", "JO-" + std::to_string(number)}}},
+             now);
         return;
     }
     NewOrder order = schedule.order;

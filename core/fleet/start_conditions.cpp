@@ -13,10 +13,10 @@ std::string name_of(std::int64_t number) { return "JO-" + std::to_string(number)
 
 std::optional<JobState> outcome_of(const FleetState& fleet, const Dependency& dependency) {
     if (dependency.outcome) return dependency.outcome;
-    const JobOrder* order = fleet.find(dependency.order);
+    if (fleet.orders.open().contains(dependency.order)) return std::nullopt;
+    const auto order = fleet.orders.look_up(dependency.order);
     // Unknown: it was settled before the fleet forgot it, or its rows are gone. Never start on it.
-    if (!order) return JobState::kAborted;
-    return is_final(order->state) ? std::optional(order->state) : std::nullopt;
+    return order ? order->state : JobState::kAborted;
 }
 
 std::optional<Reason> waits_for_dependency(const FleetState& fleet, const JobOrder& order) {

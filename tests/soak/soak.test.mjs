@@ -18,7 +18,7 @@ const kLife_s = kFull ? (3600 * hours) / kLives : 30;
 // A third of what tests/load holds a server to.
 const kLoad = { vehicles: 300, dashboards: 60, requests: 60 };
 const kDrivers = 6;
-// The fleet keeps ended orders for a week, some kilobytes each: a plant's rate of them, 180 an hour, not a benchmark's.
+// The fleet keeps the names of ended orders for a week: a plant's rate of them, 180 an hour, not a benchmark's.
 const kOrderEvery_s = kFull ? 120 : 5;
 const kSampleEvery_ms = kFull ? 5000 : 1000;
 const kWarm_s = kFull ? Math.min(1200, kLife_s / 2) : kLife_s / 3; // queues, caches and the heap's reserves find their size

@@ -4,6 +4,7 @@
 #include <functional>
 #include <sstream>
 
+#include "core/fleet/order_book.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 /// The 11 methods over the real fleet: every state x method pair of the table, each of the 13
@@ -333,6 +334,43 @@ TEST(JobMethods, AStopAskedBeforeARestartStillEndsTheOrder) {
     world.run(5);
 
     EXPECT_EQ(world.stored(id).state, JobState::kEnded);
+}
+
+TEST(JobMethods, AnOrderThatThousandsFollowedAnswersAsOnTheFirstDay) {
+    World world;
+    world.connect_all();
+    NewOrder order = to_station(3);
+    order.start = false;
+    order.client_order_id = "mes-1";
+    order.idempotency_client = "mes";
+    order.idempotency_key = "k1";
+    const auto ends = [&world](const NewOrder& made) {
+        const JobOrderId id = world.order(made)->order.id;
+        EXPECT_TRUE(world.fleet->cancel_order(id, std::nullopt, "op", world.now));
+        return id;
+    };
+    const JobOrderId first = ends(order);
+    NewOrder other = to_station(2);
+    other.start = false;
+    for (std::size_t i = 0; i < OrderBook::kMostLoose; ++i) ends(other);
+    world.run(0.2);
+
+    const auto again = world.fleet->create(order, world.now);
+    ASSERT_TRUE(again);
+    EXPECT_TRUE(again->repeated);
+    EXPECT_EQ(again->order.id, first);
+    EXPECT_EQ(again->order.steps.size(), 1u);
+
+    order.idempotency_key.clear();
+    EXPECT_EQ(world.order(order).error().reason.code, "duplicate_client_order_id");
+    other.after = {"mes-1"};
+    EXPECT_EQ(world.order(other).error().reason.code, "dependency_aborted");
+    EXPECT_EQ(world.fleet->order(first)->state, JobState::kAborted);
+    EXPECT_FALSE(world.fleet->cancel_order(first, std::nullopt, "op", world.now));
+
+    ASSERT_TRUE(call(world, first, JobMethod::kClear));
+    EXPECT_TRUE(world.stored(first).removed);
+    EXPECT_EQ(world.fleet->orders().size(), 100u);
 }
 
 TEST(JobMethods, TheSameKeyGivesTheSameAnswerAndActsOnce) {
