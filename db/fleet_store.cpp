@@ -1,6 +1,7 @@
 #include "db/fleet_store.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "core/base/crash_point.hpp"
 #include "core/fleet/order_book.hpp"
@@ -129,6 +130,20 @@ std::vector<fleet::JobOrder> load_orders(soci::session& sql, std::int64_t since_
     }
     std::ranges::sort(orders, {}, &fleet::JobOrder::number);
     return orders;
+}
+
+/// The fleet relies on it when it looks up the step that a vehicle drives for.
+void check_legs(const fleet::StoredFleet& stored) {
+    std::map<fleet::JobOrderId, std::size_t> steps;
+    for (const auto& order : stored.orders) steps[order.id] = order.steps.size();
+    for (const auto& vehicle : stored.vehicles) {
+        const auto order = steps.find(vehicle.leg_data.order);
+        if (!vehicle.has_leg || order == steps.end()) continue;
+        if (static_cast<std::size_t>(vehicle.leg_data.step) < order->second) continue;
+        throw Error(Error::Kind::kBadValue, "The database names a step that the order " +
+                                                order->first.str() +
+                                                " does not have; restore a backup.");
+    }
 }
 
 }  // namespace
@@ -310,6 +325,7 @@ fleet::StoredFleet FleetStore::load() {
             sql, std::string("SELECT ") + VehicleRow::kColumns + " FROM vehicles_state ORDER BY id",
             std::tuple<>(), vehicle.fields());
         for (vehicles.start(); vehicles.fetch();) stored.vehicles.push_back(vehicle.get());
+        check_legs(stored);
 
         KeyRow key;
         Statement keys(sql,

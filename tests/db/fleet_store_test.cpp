@@ -281,6 +281,17 @@ TEST(FleetStore, RefusesAnOrderThatLacksItsStep) {
     EXPECT_EQ(loaded_after("UPDATE orders SET current_step = 2, state = 'Ended'"), "loaded");
 }
 
+TEST(FleetStore, RefusesADriveForAStepThatItsOrderLacks) {
+    const auto drives_for = [](int step) {
+        return loaded_after(
+            "UPDATE vehicles_state SET leg_data = json_set(leg_data, '$.order', (SELECT id FROM "
+            "orders), '$.step', " +
+            std::to_string(step) + ")");
+    };
+    EXPECT_EQ(drives_for(1), "loaded");
+    EXPECT_NE(drives_for(2).find("names a step that the order"), std::string::npos);
+}
+
 TEST(FleetStore, AFailureTellsNothingOfWhatWasToBeStored) {
     Database database(":memory:");
     FleetStore store(database);

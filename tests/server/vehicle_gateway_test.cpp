@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <thread>
 
+#include "core/fleet/state_filter.hpp"
 #include "server/log.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
@@ -60,6 +62,33 @@ TEST(VehicleGateway, ShowsWhatTheVehicleReports) {
     EXPECT_NE(pose->find("\"V1\""), std::string::npos);
     const auto answer = request(server.port(), "GET", "/api/v1/vehicles/V1", server.viewer_token());
     EXPECT_NE(answer.body.find("\"link\":\"live\""), std::string::npos) << answer.body;
+}
+
+TEST(VehicleGateway, ShowsWhatNobodyDecidesByWhenItsTurnComes) {
+    TestServer server;
+    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
+    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
+    vehicle.send(state_frame(1));
+    ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+    const auto shown = [&] {
+        return request(server.port(), "GET", "/api/v1/vehicles/V1", server.viewer_token()).body;
+    };
+    ASSERT_NE(shown().find("\"battery_percent\":80"), std::string::npos) << shown();
+
+    // A tenth of a percent is noise: no report of it passes but the one whose turn it is.
+    auto frame = state_frame(2);
+    frame.replace(frame.find("Charge\":80"), 10, "Charge\":80.1");
+    const auto begin = std::chrono::steady_clock::now();
+    const auto seen_by = begin + fleet::kStandingEvery + std::chrono::seconds(1);
+    bool seen = false;
+    while (!seen && std::chrono::steady_clock::now() < seen_by) {
+        vehicle.send(frame);
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(100));  // as often as a vehicle reports
+        seen = shown().find("\"battery_percent\":80.1") != std::string::npos;
+    }
+
+    EXPECT_TRUE(seen) << shown();
 }
 
 TEST(VehicleGateway, NewestConnectionReplacesTheOlder) {
