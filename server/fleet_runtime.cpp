@@ -22,8 +22,8 @@ constexpr Duration kLongestQuarantine = std::chrono::seconds(60);
 bool FleetRuntime::Commit::nothing() const {
     const auto& out = batch.outputs;
     return out.records.empty() && out.messages.empty() && out.vehicles.empty() &&
-           out.stations.empty() && !batch.fleet && commands.empty() && stops.empty() &&
-           reads.empty() && !snapshot;
+           out.stations.empty() && out.plans_wanted.empty() && !batch.fleet && commands.empty() &&
+           stops.empty() && reads.empty() && !snapshot;
 }
 
 FleetRuntime::FleetRuntime(Ports ports, std::uint64_t id_seed)

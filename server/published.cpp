@@ -47,6 +47,7 @@ void append(Published& to, Published from) {
     append(to.outputs.messages, from.outputs.messages);
     append(to.outputs.vehicles, from.outputs.vehicles);
     append(to.outputs.stations, from.outputs.stations);
+    append(to.outputs.plans_wanted, from.outputs.plans_wanted);
     to.outputs.fleet_changed |= from.outputs.fleet_changed;
     if (from.fleet) to.fleet = std::move(from.fleet);
 }

@@ -62,6 +62,7 @@ public:
     FleetRuntime::Ports runtime_ports();
     VehicleGateway::Ports gateway_ports();
     StreamHub::Ports hub_ports();
+    void plan_legs(const std::vector<fleet::LegPlanQuestion>& questions);
     net::awaitable<void> beat();
     net::awaitable<void> keep_uses();
     net::awaitable<void> follow_clock();
@@ -92,7 +93,9 @@ public:
     SignInGate gate_;
     // The threads beside the fleet's, each with a queue of its own that is dropped at the end.
     std::vector<std::unique_ptr<Lane>> lanes_;
-    Lane* encoders_ = nullptr;  // one of them
+    Lane* encoders_ = nullptr;         // one of them
+    Lane* leg_plans_ = nullptr;        // another
+    fleet::LegPlanAnswerer answerer_;  // of that one
     std::optional<Context> context_;
     bool stopping_ = false;
     int pausing_ = 0;  // loops that have thrown and do not run now
@@ -156,6 +159,8 @@ Status Server::Impl::start() {
     Lane& planners = lane(limits.planners_waiting, limits.planners_waiting, kNiceOfHeavy);
     Lane& encoders = lane(limits.encoders_waiting, limits.encoders_waiting, 0);
     encoders_ = &encoders;
+    // Vehicles wait for it: not behind the previews of those who only ask.
+    leg_plans_ = &lane(limits.planners_waiting, limits.planners_waiting, 0);
     for (const auto& name : access_->signed_in(clock_->now())) gate_.remember(name, clock_->now());
     context_.emplace(Context{options_,
                              parts_.plant,
@@ -210,6 +215,7 @@ FleetRuntime::Ports Server::Impl::runtime_ports() {
             [this](FleetRuntime::Published batch) {
                 guarded("send", [&] { gateway_->send(batch.outputs.messages); });
                 guarded("show", [&] { hub_->publish(batch); });
+                guarded("plan", [&] { plan_legs(batch.outputs.plans_wanted); });
             },
             [this] {
                 gateway_->introduce_all();
@@ -235,6 +241,22 @@ StreamHub::Ports Server::Impl::hub_ports() {
                 });
                 if (taken != Lane::Taken::kYes) give(nullptr);
             }};
+}
+
+/// A question that finds the lane full is asked again by the fleet.
+void Server::Impl::plan_legs(const std::vector<fleet::LegPlanQuestion>& questions) {
+    for (const auto& question : questions) {
+        leg_plans_->take(question.vehicle.str(), [this, question](bool run) {
+            if (!run) return;
+            guarded("plan", [&] {
+                runtime_->input(question.vehicle, [id = question.vehicle, number = question.number,
+                                                   answer = answerer_.answer(question)](
+                                                      fleet::Fleet& fleet, Time now) {
+                    fleet.leg_planned(id, number, answer, now);
+                });
+            });
+        });
+    }
 }
 
 VehicleGateway::Ports Server::Impl::gateway_ports() {

@@ -1,5 +1,7 @@
 #include "api/http/job_order_handlers.hpp"
 
+#include <algorithm>
+
 #include "api/http/etag.hpp"
 #include "api/http/job_order_json.hpp"
 #include "api/http/page.hpp"
@@ -79,6 +81,23 @@ FleetAnswer change_job_order(FleetContext& context, const Request& request, Chan
     return {job_order_response(202, context.plant, *changed)};
 }
 
+Result<Response> control(FleetContext& context, const Request& request,
+                         const fleet::ControlRequest& wanted) {
+    const auto id = fleet::JobOrderId::parse(request.param("id"));
+    const auto present = id ? context.fleet.order(*id) : std::nullopt;
+    if (!present) return problem(unknown_job_order(request.param("id")), request);
+    // A repeated request carries the revision of its first time.
+    const auto earlier = context.fleet.earlier_answer(wanted.idempotency_client,
+                                                      wanted.idempotency_key, wanted.body_sha256);
+    if (!earlier) return fail(earlier.error());
+    if (!*earlier && !if_match_allows(request, etag_of(present->revision))) {
+        return stale(request, present->revision);
+    }
+    const auto changed = context.fleet.control_order(*id, wanted, context.now);
+    if (!changed) return fail(changed.error());
+    return job_order_response(202, context.plant, changed->order);
+}
+
 }  // namespace
 
 Response created_answer(const FleetContext& context, const Request& request,
@@ -110,42 +129,63 @@ FleetAnswer create_job_order(FleetContext& context, const Request& request) {
                             }};
                 }};
     }
-    return create_planned(context, request, *order);
+    const auto create = [&request](FleetContext& with,
+                                   const fleet::NewOrder& wanted) -> Result<Response> {
+        const auto created = with.fleet.create(wanted, with.now);
+        if (!created) return fail(created.error());
+        return created_answer(with, request, created);
+    };
+    const auto refuse = [&request](const FleetContext& with, const Error& error) {
+        return created_answer(with, request, fail(error));
+    };
+    return planned_ahead(context, *order, "", create, refuse);
 }
 
-FleetAnswer create_planned(FleetContext& context, const Request& request,
-                           const fleet::NewOrder& order) {
-    const auto create = [&request, order](FleetContext& with) -> FleetAnswer {
-        return {created_answer(with, request, with.fleet.create(order, with.now))};
-    };
-    if (order.steps.size() <= kPlannedByTheFleet) return create(context);
+FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,
+                          const std::string& field, const Act& act, const Refuse& refuse) {
+    if (order.steps.size() <= kPlannedByTheFleet) {
+        auto done = act(context, order);
+        if (done) return {std::move(*done)};
+        if (done.error().code != Errc::kNeedsPlan) return {refuse(context, done.error())};
+    }
     FleetAnswer answer;
-    answer.plan = [create,
+    answer.plan = [order, field, act, refuse,
                    task = context.fleet.preview_task(order, context.now)](const PlanContext& with) {
-        with.orders.plan_ahead(task);
+        const Status plan = with.orders.plan_ahead(task);
         FleetAnswer planned;
-        planned.again = create;
+        planned.again = [order, field, act, refuse, plan](FleetContext& then) -> FleetAnswer {
+            fleet::NewOrder known = order;
+            known.planned_beside = plan.has_value();
+            auto done = act(then, known);
+            if (done) return {std::move(*done)};
+            // All but free manoeuvres the fleet judges itself, by what it knows now.
+            if (done.error().code != Errc::kNeedsPlan || plan) return {refuse(then, done.error())};
+            Error error = plan.error();
+            error.field = field + error.field;
+            return {refuse(then, error)};
+        };
         return planned;
     };
     return answer;
 }
 
 FleetAnswer control_job_order(FleetContext& context, const Request& request) {
-    auto control = read_job_control(request);
-    if (!control) return {problem(400, control.error(), request)};
-    const auto id = fleet::JobOrderId::parse(request.param("id"));
-    const auto present = id ? context.fleet.order(*id) : std::nullopt;
-    if (!present) return {problem(unknown_job_order(request.param("id")), request)};
-    // A repeated request carries the revision of its first time.
-    const auto earlier = context.fleet.earlier_answer(
-        control->idempotency_client, control->idempotency_key, control->body_sha256);
-    if (!earlier) return {problem(earlier.error(), request)};
-    if (!*earlier && !if_match_allows(request, etag_of(present->revision))) {
-        return {stale(request, present->revision)};
+    const auto wanted = read_job_control(request);
+    if (!wanted) return {problem(400, wanted.error(), request)};
+    const auto refuse = [&request](const FleetContext&, const Error& error) {
+        return problem(error, request);
+    };
+    if (!wanted->update) {
+        auto done = control(context, request, *wanted);
+        return {done ? std::move(*done) : refuse(context, done.error())};
     }
-    const auto changed = context.fleet.control_order(*id, *control, context.now);
-    if (!changed) return {problem(changed.error(), request)};
-    return {job_order_response(202, context.plant, changed->order)};
+    const auto update = [&request, wanted = *wanted](FleetContext& with,
+                                                     const fleet::NewOrder& order) {
+        fleet::ControlRequest changed = wanted;
+        changed.update = order;
+        return control(with, request, changed);
+    };
+    return planned_ahead(context, *wanted->update, "/order", update, refuse);
 }
 
 FleetAnswer pause_job_order(FleetContext& context, const Request& request) {

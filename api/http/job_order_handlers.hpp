@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "api/http/contexts.hpp"
 
 namespace pulseline::api {
@@ -8,9 +11,13 @@ namespace pulseline::api {
 Response created_answer(const FleetContext& context, const Request& request,
                         const Result<fleet::Created>& created);
 
-/// Creates the order; one of many steps is planned beforehand, beside the fleet.
-FleetAnswer create_planned(FleetContext& context, const Request& request,
-                           const fleet::NewOrder& order);
+/// What is done with an order, and the answer when it is refused.
+using Act = std::function<Result<Response>(FleetContext&, const fleet::NewOrder&)>;
+using Refuse = std::function<Response(const FleetContext&, const Error&)>;
+/// Acts; when the order takes long to plan, after that was done beside the fleet. `field`: where
+/// the order stands in the body.
+FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,
+                          const std::string& field, const Act& act, const Refuse& refuse);
 
 FleetAnswer create_job_order(FleetContext& context, const Request& request);
 FleetAnswer control_job_order(FleetContext& context, const Request& request);

@@ -52,6 +52,7 @@ int http_status(const Error& error) {
         case Errc::kTimeout:
             return 504;
         case Errc::kUnavailable:
+        case Errc::kNeedsPlan:
             return 503;
         case Errc::kForbidden:
             return 403;

@@ -1,6 +1,7 @@
 #include "api/http/schedule_handlers.hpp"
 
 #include "api/http/etag.hpp"
+#include "api/http/job_order_handlers.hpp"
 #include "api/http/problem.hpp"
 #include "api/http/requests.hpp"
 #include "api/http/schedule_json.hpp"
@@ -59,11 +60,20 @@ FleetAnswer list_schedules(FleetContext& context, const Request&) {
 FleetAnswer create_schedule(FleetContext& context, const Request& request) {
     const auto wanted = read_new_schedule(request);
     if (!wanted) return {problem(400, wanted.error(), request)};
-    const auto made = context.fleet.create_schedule(*wanted, context.now);
-    if (!made) return {problem(made.error(), request)};
-    Response response = schedule_response(201, *made);
-    response.headers.emplace_back("Location", "/api/v1/job-order-schedules/" + made->id.str());
-    return {std::move(response)};
+    const auto create = [wanted = *wanted](FleetContext& with,
+                                           const fleet::NewOrder& order) -> Result<Response> {
+        fleet::NewSchedule schedule = wanted;
+        schedule.order = order;
+        const auto made = with.fleet.create_schedule(schedule, with.now);
+        if (!made) return fail(made.error());
+        Response response = schedule_response(201, *made);
+        response.headers.emplace_back("Location", "/api/v1/job-order-schedules/" + made->id.str());
+        return response;
+    };
+    const auto refuse = [&request](const FleetContext&, const Error& error) {
+        return problem(error, request);
+    };
+    return planned_ahead(context, wanted->order, "/order", create, refuse);
 }
 
 FleetAnswer get_schedule(FleetContext& context, const Request& request) {

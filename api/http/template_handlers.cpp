@@ -53,12 +53,17 @@ FleetAnswer create_job_order_of_template(FleetContext& context, const Request& r
     if (auto asker = read_asker_of_instance(request, instance->order); !asker) {
         return {problem(400, asker.error(), request)};
     }
-    auto created = context.fleet.create(instance->order, context.now);
-    if (!created) {
-        return {created_answer(context, request,
-                               fail(in_terms_of_parameters(created.error(), *instance)))};
-    }
-    return {created_answer(context, request, created)};
+    const auto create = [&request](FleetContext& with,
+                                   const fleet::NewOrder& order) -> Result<Response> {
+        const auto created = with.fleet.create(order, with.now);
+        if (!created) return fail(created.error());
+        return created_answer(with, request, created);
+    };
+    const auto refuse = [&request, instance = *instance](const FleetContext& with,
+                                                         const Error& error) {
+        return created_answer(with, request, fail(in_terms_of_parameters(error, instance)));
+    };
+    return planned_ahead(context, instance->order, "", create, refuse);
 }
 
 }  // namespace pulseline::api

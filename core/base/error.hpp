@@ -16,6 +16,7 @@ enum class Errc {
     kTimeout,
     kUnavailable,  // the store or a vehicle cannot answer now
     kForbidden,
+    kNeedsPlan,  // only a plan made beside the fleet can tell
 };
 
 /// One named value that explains an error, a wait or an event. Screens translate `reason` codes and

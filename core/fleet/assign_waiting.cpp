@@ -38,6 +38,7 @@ bool is_free(const FleetState& fleet, const VehicleRun& run) {
 NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
     NewOrder request;
     request.vehicle = run.record.id;
+    request.planned_beside = true;
     for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
         const Step& step = order.steps[i];
         if (const auto* station = plant::find_station(fleet.plant, step.station)) {
@@ -59,10 +60,12 @@ double way_s(FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
     const double table_s =
         fleet.floor.traffic.travel_s(run.floor.vehicle, static_cast<traffic::PlaceIndex>(*place));
     if (any_way && std::isfinite(table_s)) return table_s;
-    const auto plan =
-        fleet.planner.plan_leg(leg_request(fleet, run, run.record.pose, first.station, first.mode));
-    if (plan) return plan->duration_s;
     const auto* station = plant::find_station(fleet.plant, first.station);
+    const auto plan =
+        plan_here(fleet, leg_request(fleet, run, run.record.pose, first.station, first.mode));
+    if (plan) return plan->duration_s;
+    if (station && plan.error().code == Errc::kNeedsPlan)
+        return least_drive_s(run, run.record.pose, *station);
     return station && nearly_there(run, run.record.pose, *station) ? 0 : kNever;
 }
 

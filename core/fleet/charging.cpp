@@ -66,15 +66,16 @@ std::vector<VehicleRun*> low_ones(FleetState& fleet, Time now) {
     return low;
 }
 
-Result<Leg> leg_to_charger(FleetState& fleet, const VehicleRun& run, const plant::Station& charger,
-                           LegId id) {
+Result<Leg> leg_to_charger(FleetState& fleet, VehicleRun& run, const plant::Station& charger,
+                           LegId id, Time now) {
     if (run.record.at_station == charger.id) {
         Leg leg = build_adjust_leg(fleet, run, charger, run.record.pose, id);
         leg.nodes.front().actions.clear();
         return leg;
     }
-    const auto plan = fleet.planner.plan_leg(
-        leg_request(fleet, run, run.record.pose, charger.id, plant::MotionMode::kAuto));
+    const auto plan = plan_or_ask(
+        fleet, run, leg_request(fleet, run, run.record.pose, charger.id, plant::MotionMode::kAuto),
+        now);
     if (!plan) return fail(plan.error());
     return build_leg(fleet, run, *plan, charger, run.record.pose, id);
 }
@@ -82,7 +83,7 @@ Result<Leg> leg_to_charger(FleetState& fleet, const VehicleRun& run, const plant
 std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Station& charger,
                             Time now) {
     const LegId id(fleet.ids.next(now));
-    auto leg = leg_to_charger(fleet, run, charger, id);
+    auto leg = leg_to_charger(fleet, run, charger, id, now);
     if (!leg) return leg.error().reason;
     leg->charges = true;
     leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);

@@ -227,6 +227,12 @@ Outputs Fleet::take_outputs(Time now) {
         const auto* station = plant::find_station(fleet.plant, id);
         if (station) out.stations.push_back(station_view(fleet, *station));
     }
+    for (const auto& id : std::exchange(fleet.plans_wanted, {})) {
+        const auto& awaited = fleet.find(id)->awaited_plan;
+        if (!awaited || awaited->answer) continue;
+        out.plans_wanted.push_back(
+            {awaited->question, id, awaited->request, closed_floors(), fleet.tables});
+    }
     return out;
 }
 

@@ -12,6 +12,7 @@
 #include "core/base/result.hpp"
 #include "core/fleet/job_control.hpp"
 #include "core/fleet/job_order.hpp"
+#include "core/fleet/leg_plans.hpp"
 #include "core/fleet/new_order.hpp"
 #include "core/fleet/ports.hpp"
 #include "core/fleet/standing_orders.hpp"
@@ -45,14 +46,14 @@ struct Outputs {
     std::vector<VehicleMessage> messages;
     std::vector<VehicleView> vehicles;  // changed ones
     std::vector<StationView> stations;  // changed ones
+    std::vector<LegPlanQuestion> plans_wanted;
     bool fleet_changed = false;
 };
 
 struct OrderPreviewTask;  // order_preview.hpp
 struct MotionQuestion;    // motion_preview.hpp
 struct MotionTask;
-struct PlantTables;  // plant_tables.hpp
-struct FleetState;   // state.hpp, for the phases of core/fleet only
+struct FleetState;  // state.hpp, for the phases of core/fleet only
 namespace journal {
 class Recorder;
 }
@@ -165,6 +166,10 @@ public:
     /// changes: the core goes by the time that comes with its inputs.
     void clock_differs(Duration ahead, Time now);
     void clock_agrees(Time now);
+
+    /// The answer to a question of Outputs::plans_wanted.
+    void leg_planned(const plant::VehicleId& id, std::int64_t question, const LegPlanAnswer& answer,
+                     Time now);
 
     /// Silence limits, resends, dispatch. Call at least every 100 ms.
     void tick(Time now);

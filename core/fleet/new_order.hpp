@@ -30,6 +30,7 @@ struct NewOrder {
     std::vector<std::string> after;  // ids, or client order ids, of orders that have to end first
     std::string sequence;            // empty: none
     std::vector<NewStep> steps;
+    bool planned_beside = false;  // its free manoeuvres are known to be possible (leg_plans.hpp)
     std::string from_template;
     ScheduleId from_schedule;
     std::string actor;  // who asks

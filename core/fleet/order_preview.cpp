@@ -40,7 +40,7 @@ VehicleRun known_of(const VehicleRun& run) {
 Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
     Preview preview;
     preview.vehicle = order.vehicle;
-    auto plan = plan_order(fleet, order, now);
+    auto plan = plan_order(fleet, order, now, FreeLegs::kPlanned);
     preview.accepted = plan.has_value();
     if (!plan) preview.problem = plan.error();
     if (plan) preview.vehicle = plan->vehicle;
@@ -124,9 +124,10 @@ Preview OrderPreviewer::preview(const OrderPreviewTask& task) {
     return preview_of(*fleet_, task.order, task.asked);
 }
 
-void OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
+Status OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
     know(*task.state);
-    static_cast<void>(plan_order(*fleet_, task.order, task.asked));
+    const auto plan = plan_order(*fleet_, task.order, task.asked, FreeLegs::kPlanned);
+    return plan ? Status() : fail(plan.error());
 }
 
 }  // namespace pulseline::fleet

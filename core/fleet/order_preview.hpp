@@ -28,8 +28,10 @@ public:
     OrderPreviewer& operator=(OrderPreviewer&&) noexcept;
 
     Preview preview(const OrderPreviewTask& task);
-    /// Plans what Fleet::create would, so that the fleet finds it planned (planning::LegMemo).
-    void plan_ahead(const OrderPreviewTask& task);
+    /// Plans what Fleet::create would, so that the fleet finds it planned (planning::LegMemo), and
+    /// the free manoeuvres, which it does not. Errors: of a creation, and why one of those cannot
+    /// be driven.
+    Status plan_ahead(const OrderPreviewTask& task);
 
 private:
     void know(const PreviewState& known);

@@ -57,7 +57,7 @@ std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run,
 }
 
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run,
-                            std::optional<Pose2> pose) {
+                            std::optional<Pose2> pose, FreeLegs free) {
     OrderPlan plan;
     plan.vehicle = run.record.id;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
@@ -72,9 +72,17 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
         }
         plan.starts.push_back(pose.value_or(Pose2{}));
         plan.plans.emplace_back();
+        plan.durations_s.push_back(0);
         if (pose && !nearly_there(run, *pose, *station)) {
-            auto leg = fleet.planner.plan_leg(
-                leg_request(fleet, run, *pose, station->id, order.steps[i].mode));
+            const auto request = leg_request(fleet, run, *pose, station->id, order.steps[i].mode);
+            auto leg = free == FreeLegs::kPlanned ? fleet.planner.plan_leg(request)
+                                                  : plan_here(fleet, request);
+            const bool beside = !leg && leg.error().code == Errc::kNeedsPlan;
+            if (beside && order.planned_beside) {
+                plan.durations_s.back() = least_drive_s(run, *pose, *station);
+                pose = station->pose;
+                continue;
+            }
             if (!leg) {
                 Error error = leg.error();
                 if (error.field.empty()) {
@@ -84,6 +92,7 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
                 }
                 return fail(std::move(error));
             }
+            plan.durations_s.back() = leg->duration_s;
             plan.plans.back() = std::move(*leg);
         }
         pose = station->pose;
@@ -159,7 +168,7 @@ void fill(const FleetState& fleet, JobOrder& order, const NewOrder& request,
         made.mode = request.steps[i].mode;
         made.before = request.steps[i].before;
         made.after = request.steps[i].after;
-        if (plan.plans[i]) made.planned_s = plan.plans[i]->duration_s;
+        made.planned_s = plan.durations_s[i];
         order.steps.push_back(std::move(made));
     }
 }
@@ -174,7 +183,12 @@ bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station
                         std::abs(off.heading_rad) < kNearlyThere_rad);
 }
 
-Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now) {
+double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Station& to) {
+    return geometry::distance(from.position(), to.pose.position()) / run.type->max_speed_mps;
+}
+
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
+                             FreeLegs free) {
     if (auto steps = check_steps(fleet, order); !steps) return fail(steps.error());
     if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
         return fail(vehicles.error());
@@ -198,20 +212,20 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
                 "/vehicle",
                 {{"vehicle", order.vehicle.str()}, {"level", to_string(run->record.integration)}});
         }
-        return plan_with(fleet, order, *run, future_pose(fleet, *run, last_stations(fleet)));
+        return plan_with(fleet, order, *run, future_pose(fleet, *run, last_stations(fleet)), free);
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
     std::optional<OrderPlan> best;
     double best_s = 0;
     std::optional<Error> why_not;
     for (const auto& [run, pose] : nearest_of_each_type(fleet, order, now)) {
-        auto plan = plan_with(fleet, order, *run, pose);
+        auto plan = plan_with(fleet, order, *run, pose, free);
         if (!plan) {
             if (!why_not) why_not = plan.error();
             continue;
         }
         double time_s = 0;
-        for (const auto& leg : plan->plans) time_s += leg ? leg->duration_s : 0;
+        for (const double leg_s : plan->durations_s) time_s += leg_s;
         if (!best || time_s < best_s) {
             best = std::move(*plan);
             best_s = time_s;

@@ -169,7 +169,7 @@ bool leave_to_rest(FleetState& fleet, VehicleRun& run, double first_m,
     for (const auto* station : rests) {
         const auto request =
             leg_request(fleet, run, run.record.pose, station->id, plant::MotionMode::kAuto);
-        const auto plan = first_m == 0 ? fleet.planner.plan_leg(request)
+        const auto plan = first_m == 0 ? fleet.planner.plan_primitive_leg(request)
                                        : fleet.planner.plan_leg_after(first_m, request);
         if (!plan) continue;
         Leg leg =

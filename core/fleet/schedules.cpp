@@ -80,6 +80,7 @@ void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
     order.actor = "schedule:" + schedule.name;
     order.from_schedule = schedule.id;
     order.due = at + schedule.recurrence.window;
+    order.planned_beside = true;  // as it was when the schedule was made
     const auto created = create_order(fleet, order, now);
     if (!created) {
         skip(fleet, schedule, created.error().reason, now);
@@ -154,11 +155,13 @@ void run_schedules(FleetState& fleet, Time now) {
 Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
     FleetState& fleet = input<&Fleet::create_schedule>(now, wanted);
     auto& schedules = fleet.standing.schedules;
+    NewOrder order = wanted.order;
+    order.planned_beside = false;  // is not part of what it says
     for (const auto& [id, known] : schedules) {
         if (known.name != wanted.name) continue;
         Recurrence same = wanted.recurrence;
         if (same.from == Time{}) same.from = known.recurrence.from;  // it meant "from now on"
-        if (known.recurrence == same && known.order == wanted.order) return known;
+        if (known.recurrence == same && known.order == order) return known;
         return fail(Errc::kConflict, "duplicate_schedule",
                     "There is another schedule " + wanted.name +
                         ". Use another name, or delete that one first.",
@@ -184,7 +187,7 @@ Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
                     "/until");
     }
     made.id = ScheduleId(fleet.ids.next(now));
-    made.order = wanted.order;
+    made.order = std::move(order);
     made.created_by = wanted.actor;
     made.created = now;
     const Schedule& kept = schedules[made.id] = made;

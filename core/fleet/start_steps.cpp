@@ -7,28 +7,30 @@ namespace {
 // So long an order may try in vain before younger ones for the same floor wait for it.
 constexpr Duration kElder = std::chrono::seconds(60);
 
-Result<planning::LegPlan> plan_step(FleetState& fleet, VehicleRun& run, const Step& step) {
+Result<planning::LegPlan> plan_step(FleetState& fleet, VehicleRun& run, const Step& step,
+                                    Time now) {
     // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
     auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
     if (!run.newest_plan || run.newest_plan->request != request) {
-        auto plan = fleet.planner.plan_leg(request);
+        auto plan = plan_or_ask(fleet, run, request, now);
         if (!plan) return plan;
         run.newest_plan = PlannedLeg{std::move(request), std::move(*plan)};
     }
     return run.newest_plan->plan;
 }
 
-Result<Leg> leg_to(FleetState& fleet, VehicleRun& run, const Step& step, LegId id) {
-    const auto plan = plan_step(fleet, run, step);
+Result<Leg> leg_to(FleetState& fleet, VehicleRun& run, const Step& step, LegId id, Time now) {
+    const auto plan = plan_step(fleet, run, step, now);
     if (!plan) return fail(plan.error());
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
     return build_leg(fleet, run, *plan, *station, run.record.pose, id);
 }
 
 /// A station that closed floor cuts off: what would have to be reopened, not just the first of it.
-void name_what_cuts_off(FleetState& fleet, VehicleRun& run, const Step& step, Reason& reason) {
+void name_what_cuts_off(FleetState& fleet, VehicleRun& run, const Step& step, Reason& reason,
+                        Time now) {
     if (reason.code != "floor_closed") return;
-    const auto plan = plan_step(fleet, run, step);
+    const auto plan = plan_step(fleet, run, step, now);
     if (plan) name_closures(fleet, plan->closures, reason);
 }
 
@@ -128,7 +130,10 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     const bool corrects = !actions && nearly_there(run, run.record.pose, *station);
     auto leg = actions    ? Result<Leg>(std::move(*actions))
                : corrects ? Result<Leg>(build_adjust_leg(fleet, run, *station, run.record.pose, id))
-                          : leg_to(fleet, run, step, id);
+                          : leg_to(fleet, run, step, id, now);
+    if (!leg && leg.error().code == Errc::kNeedsPlan) {
+        return set_order_reason(fleet, order, leg.error().reason, now);
+    }
     if (!leg) {
         set_order_state(fleet, order, JobState::kInterrupted, leg.error().reason, {}, now);
         return;
@@ -137,12 +142,13 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     leg->step = static_cast<int>(order.current_step);
     leg->attempt = step.attempts + 1;
     if (auto reason = try_leg(fleet, run, std::move(*leg), now)) {
-        name_what_cuts_off(fleet, run, step, *reason);
+        name_what_cuts_off(fleet, run, step, *reason, now);
         set_order_reason(fleet, order, *reason, now);
         return;
     }
     if (corrects) hold_for_correction(fleet, run, station->pose, now);
     run.newest_plan.reset();  // it was for the tries
+    run.awaited_plan.reset();
     step.leg = id;
     if (!run.leg().actions_only) step.state = StepState::kDriving;
     order.reason = {};

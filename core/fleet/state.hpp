@@ -10,6 +10,7 @@
 
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor.hpp"
+#include "core/fleet/leg_plans.hpp"
 #include "core/fleet/order_book.hpp"
 #include "core/fleet/plant_tables.hpp"
 #include "core/planning/leg_planner.hpp"
@@ -99,6 +100,7 @@ struct VehicleRun {
         std::vector<geometry::Polygon> horizon;
     };
     mutable Areas areas;
+    std::optional<AwaitedPlan> awaited_plan;  // of its next leg
     // Worked out again when they are not there.
     std::optional<PlannedLeg> newest_plan;
     mutable std::vector<SweptSegment> swept;
@@ -136,6 +138,7 @@ struct FleetState {
     Time keys_swept;  // when old idempotency keys were last forgotten
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
+    std::int64_t questions = 0;  // number of the newest LegPlanQuestion
     StandingOrders standing;
     std::int64_t stored_seq = 0;  // newest event of the store at start
     std::optional<StoreFault> store_fault;
@@ -147,6 +150,7 @@ struct FleetState {
     std::set<JobOrderId> stored_orders;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
     std::set<plant::StationId> changed_stations;
+    std::set<plant::VehicleId> plans_wanted;
 
     VehicleRun* find(const plant::VehicleId& id) {
         const auto it = vehicles.find(id);
@@ -290,10 +294,17 @@ void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why
 /// The vehicle that would serve the order and the plan of each step from where it will stand.
 struct OrderPlan {
     plant::VehicleId vehicle;
-    std::vector<Pose2> starts;                            // one per step
-    std::vector<std::optional<planning::LegPlan>> plans;  // absent: start unknown or in place
+    std::vector<Pose2> starts;  // one per step
+    /// Absent: the start is unknown or in place, or the leg is estimated.
+    std::vector<std::optional<planning::LegPlan>> plans;
+    std::vector<double> durations_s;  // 0: start unknown or in place
 };
-Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now);
+/// Free manoeuvres take too long to be planned on the fleet's own thread (leg_plans.hpp).
+enum class FreeLegs { kEstimated, kPlanned };
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
+                             FreeLegs free = FreeLegs::kEstimated);
+/// As the crow flies, at top speed.
+double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Station& to);
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
 bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station);
 Result<Created> create_order(FleetState& fleet, const NewOrder& order, Time now);

@@ -22,16 +22,18 @@ public:
     /// All closed floor in words; one text serves all legs that were planned with it.
     using Closures = std::shared_ptr<const std::string>;
 
-    std::optional<Result<LegPlan>> find(const LegRequest& request, const Closures& closures) {
+    std::optional<Result<LegPlan>> find(const LegRequest& request, bool with_free,
+                                        const Closures& closures) {
         const std::lock_guard lock(mutex_);
-        const auto found = plans_.find(Key(request, closures));
+        const auto found = plans_.find(Key(request, with_free, closures));
         if (found == plans_.end() || !(found->second.request == request)) return std::nullopt;
         return found->second.plan;
     }
-    void keep(const LegRequest& request, const Closures& closures, const Result<LegPlan>& plan) {
+    void keep(const LegRequest& request, bool with_free, const Closures& closures,
+              const Result<LegPlan>& plan) {
         const std::lock_guard lock(mutex_);
         const auto [kept, is_new] =
-            plans_.insert_or_assign(Key(request, closures), Kept{request, plan});
+            plans_.insert_or_assign(Key(request, with_free, closures), Kept{request, plan});
         if (!is_new) return;
         oldest_.push_back(kept->first);
         if (oldest_.size() <= kMost) return;
@@ -43,14 +45,14 @@ private:
     static constexpr std::size_t kMost = 4096;  // some kilobytes each
 
     struct Key {
-        Key(const LegRequest& request, Closures closed)
+        Key(const LegRequest& request, bool with_free, Closures closed)
             : leg(request.type->id.str(), request.loaded, request.from_station.str(),
-                  request.target.str(), static_cast<int>(request.mode)),
+                  request.target.str(), static_cast<int>(request.mode), with_free),
               closures(std::move(closed)) {}
         bool operator<(const Key& other) const {
             return leg != other.leg ? leg < other.leg : *closures < *other.closures;
         }
-        std::tuple<std::string, bool, std::string, std::string, int> leg;
+        std::tuple<std::string, bool, std::string, std::string, int, bool> leg;
         Closures closures;
     };
     struct Kept {

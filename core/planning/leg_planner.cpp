@@ -192,8 +192,9 @@ struct LegPlanner::Tables {
         return options;
     }
 
-    Result<LegPlan> plan(const LegRequest& request) {
+    Result<LegPlan> plan(const LegRequest& request, bool with_free) {
         auto modes = modes_of(*request.type);
+        if (!with_free) std::erase(modes, MotionMode::kFree);
         if (request.mode != MotionMode::kAuto) {
             std::erase_if(modes, [&](MotionMode mode) { return mode != request.mode; });
         }
@@ -258,6 +259,12 @@ private:
     bool changed_;
 };
 
+bool may_need_free_manoeuvre(const LegRequest& request) {
+    if (request.mode != MotionMode::kFree && request.mode != MotionMode::kAuto) return false;
+    const auto& modes = request.type->motion_modes;
+    return std::ranges::find(modes, MotionMode::kFree) != modes.end();
+}
+
 LegPlanner::LegPlanner(const plant::Plant& plant) : tables_(std::make_unique<Tables>(plant)) {}
 LegPlanner::LegPlanner(std::unique_ptr<Tables> tables) : tables_(std::move(tables)) {}
 LegPlanner LegPlanner::again() const { return LegPlanner(std::make_unique<Tables>(*tables_)); }
@@ -284,17 +291,30 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
     return options;
 }
 
-Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
+Result<LegPlan> LegPlanner::plan_known(const LegRequest& request, bool with_free) const {
     assert(request.type);
     const auto* from = plant::find_station(tables_->plant, request.from_station);
     // A type that is not the plant's own may be another one the next time it has this address.
     const bool own = plant::find_vehicle_type(tables_->plant, request.type->id) == request.type;
     if (!own || !from || !(from->pose == request.start) || request.target_pose)
-        return tables_->plan(request);
-    if (auto known = tables_->memo->find(request, tables_->closed)) return std::move(*known);
-    auto plan = tables_->plan(request);
-    tables_->memo->keep(request, tables_->closed, plan);
+        return tables_->plan(request, with_free);
+    if (auto known = tables_->memo->find(request, with_free, tables_->closed))
+        return std::move(*known);
+    auto plan = tables_->plan(request, with_free);
+    tables_->memo->keep(request, with_free, tables_->closed, plan);
     return plan;
+}
+
+Result<LegPlan> LegPlanner::plan_primitive_leg(const LegRequest& request) const {
+    return plan_known(request, false);
+}
+
+Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
+    if (request.mode != MotionMode::kFree) {
+        auto plan = plan_known(request, false);
+        if (plan || !may_need_free_manoeuvre(request)) return plan;
+    }
+    return plan_known(request, true);
 }
 
 Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) const {
@@ -315,7 +335,7 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
     if (!first) return first;
     request.start = first->segments.back().end;
     request.from_station = {};
-    return plan_leg(request).map(
+    return plan_primitive_leg(request).map(
         [&](const LegPlan& rest) { return joined(*request.type, *first, rest); });
 }
 

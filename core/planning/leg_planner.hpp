@@ -72,6 +72,9 @@ struct LegAlternative {
     Reason main_reason = Reason::kLength;
 };
 
+/// Whether a free manoeuvre may do for the request what nothing else does.
+bool may_need_free_manoeuvre(const LegRequest& request);
+
 /// Plans legs in one plant. What depends on the plant alone (obstacles, lanes that a vehicle type
 /// fits through) is worked out once, in the constructor; exact costs to a station's node when a leg
 /// first leads there. REQUIRES: the plant outlives the planner unchanged.
@@ -101,9 +104,11 @@ public:
     /// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
     /// reason of the most promising mode).
     Result<LegPlan> plan_leg(const LegRequest& request) const;
+    /// The same without free manoeuvres, which alone take more than a few milliseconds.
+    Result<LegPlan> plan_primitive_leg(const LegRequest& request) const;
 
-    /// As plan_leg, but `first_m` straight ahead (negative: back) before anything else: for a
-    /// vehicle that cannot turn where it stands.
+    /// As plan_primitive_leg, but `first_m` straight ahead (negative: back) before anything else:
+    /// for a vehicle that cannot turn where it stands.
     Result<LegPlan> plan_leg_after(double first_m, LegRequest request) const;
 
     /// Up to `count` other ways along the roadmap, by cost, sufficiently different from `plan`
@@ -120,6 +125,7 @@ public:
     MotionGraph motion_graph(const plant::VehicleType& type, bool loaded) const;
 
 private:
+    Result<LegPlan> plan_known(const LegRequest& request, bool with_free) const;
     struct Tables;
     class GoingRound;
     explicit LegPlanner(std::unique_ptr<Tables> tables);

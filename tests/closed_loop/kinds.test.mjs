@@ -37,6 +37,13 @@ for (const [id, { kind, stations }] of Object.entries(VEHICLES)) {
   });
 }
 
+test("MV-01 drives a free manoeuvre, planned beside the fleet, to a measured stop", async () => {
+  const order = await client.order("MV-01", [{ station: 13, motion_mode: "free" }]);
+  assert.equal((await client.untilEnded(order.id, 150)).state, "Ended");
+  const inside = (await client.stops(order.id)).filter((stop) => stop.inside);
+  assert.deepEqual(inside.map((stop) => [stop.number, stop.mode]), [[13, "free"]]);
+});
+
 test("OM-03 drives combined and oblique moves to measured stops", async () => {
   // Across and half round on the way; back across, and half round at the end.
   const modes = { 26: "combined", 30: "oblique" };

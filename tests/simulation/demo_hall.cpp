@@ -111,8 +111,13 @@ private:
 
     void settle() {
         for (fleet::Outputs out = fleet_->take_outputs(now());
-             !out.records.empty() || !out.messages.empty(); out = fleet_->take_outputs(now())) {
+             !out.records.empty() || !out.messages.empty() || !out.plans_wanted.empty();
+             out = fleet_->take_outputs(now())) {
             store_.commit(out.records);
+            for (const auto& question : out.plans_wanted) {
+                fleet_->leg_planned(question.vehicle, question.number, answerer_.answer(question),
+                                    now());
+            }
             for (const auto& order : out.records.orders) open_.insert(order.id);
             for (const auto& event : out.records.events) note(event);
             for (const auto& message : out.messages) vehicles_.at(message.vehicle).receive(message);
@@ -315,6 +320,7 @@ private:
     std::mt19937_64 random_;
     const Options& options_;
     fleet::testing::MemoryStore store_;
+    fleet::LegPlanAnswerer answerer_;
     std::unique_ptr<fleet::Fleet> fleet_;
     std::map<plant::VehicleId, Vehicle> vehicles_;
     std::map<plant::VehicleId, double> next_state_s_;

@@ -5,6 +5,7 @@
 
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/journal/codec.hpp"
+#include "core/fleet/leg_plans.hpp"
 
 /// Every plain struct of the fleet, described once for writing, reading and comparing. A
 /// description binds all members by place: one that is added does not compile until it stands here.
@@ -46,7 +47,27 @@ PULSELINE_FIELDS(Pose2, x_m, y_m, heading_rad)
 
 namespace kinematics {
 PULSELINE_FIELDS(Segment, kind, start, end, turn_rad, length_m, direction_rad, centre, duration_s)
+PULSELINE_FIELDS(ExpectedDeviation, position_m, heading_rad)
 }  // namespace kinematics
+
+namespace planning {
+// The type is the vehicle's own: snapshot.cpp puts it back.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, LegRequest>
+void fields(V& visit, S& it) {
+    auto& [type, loaded, hall, start, from_station, target, target_pose, mode] = it;
+    visit(loaded, hall, start, from_station, target, target_pose, mode);
+}
+// What is filled in for people only is left out.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, LegPlan>
+void fields(V& visit, S& it) {
+    auto& [mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
+           closures, clearance_m, nearest, wheels, swept_area_m2, swept] = it;
+    visit(mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
+          closures);
+}
+}  // namespace planning
 
 namespace plant {
 PULSELINE_FIELDS(Corridor, left_m, right_m)
@@ -104,10 +125,13 @@ PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, l
                  leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
                  last_stop_station, last_stop_inside)
 
+// --- leg_plans.hpp
+PULSELINE_FIELDS(LegPlanAnswer, plan, why_not)
+
 // --- new_order.hpp, closures.hpp, standing_orders.hpp, fleet.hpp
 PULSELINE_FIELDS(NewStep, station_number, mode, before, after)
 PULSELINE_FIELDS(NewOrder, client_order_id, vehicle, vehicle_type, priority, start, earliest_start,
-                 due, after, sequence, steps, from_template, from_schedule, actor,
+                 due, after, sequence, steps, planned_beside, from_template, from_schedule, actor,
                  idempotency_client, idempotency_key, body_sha256)
 PULSELINE_FIELDS(Closure, id, name, hall, outline, edges, created_by, created)
 PULSELINE_FIELDS(NewClosure, name, hall, outline, edges)
@@ -140,7 +164,14 @@ void fields(V& visit, S& it) {
     visit(orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates);
 }
 PULSELINE_FIELDS(VehicleMessage, vehicle, order, instant_actions)
-PULSELINE_FIELDS(Outputs, records, messages, vehicles, stations, fleet_changed)
+// Closed floor and tables are those of the state it was asked in.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, LegPlanQuestion>
+void fields(V& visit, S& it) {
+    auto& [number, vehicle, request, closures, tables] = it;
+    visit(number, vehicle, request);
+}
+PULSELINE_FIELDS(Outputs, records, messages, vehicles, stations, plans_wanted, fleet_changed)
 
 }  // namespace fleet
 }  // namespace pulseline

@@ -43,6 +43,7 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "commands_expired",
     "clock_differs",
     "clock_agrees",
+    "leg_planned",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

@@ -17,6 +17,7 @@ void read_vehicles(Reader& in, FleetState& fleet) {
     for (auto& [id, run] : fleet.vehicles) {
         const std::size_t of_class = run.floor.of_class;
         in.get(run);
+        if (run.awaited_plan) run.awaited_plan->request.type = run.type;
         if (run.record.id != id) return in.refuse("other vehicles than the plant's");
         if (run.floor.of_class != of_class) return in.refuse("other classes than the plant's");
     }

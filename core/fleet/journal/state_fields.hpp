@@ -73,6 +73,8 @@ PULSELINE_FIELDS(VehicleRun::Seen, pose, at, moving, speed_mps)
 PULSELINE_FIELDS(VehicleRun::Statement, where, at)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
+PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
+
 // Vehicle and type are the plant's; the areas are only drawn. Areas, plan and swept floor are
 // worked out when asked for and not there, and come out the same.
 template <class V, class S>
@@ -82,11 +84,11 @@ void fields(V& visit, S& it) {
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
            leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
-           areas, newest_plan, swept] = it;
+           areas, awaited_plan, newest_plan, swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
           gave_up, cancelling, floor, seen, seen_before, stated, leg_started, foreign_since,
-          actions, errors_from, errors_told, charge_wait, charge_retry);
+          actions, errors_from, errors_told, charge_wait, charge_retry, awaited_plan);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.
@@ -103,10 +105,11 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
     auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
-           keys_swept, event_seq, order_number, standing, stored_seq, store_fault, clock_difference,
-           out, stored_vehicles, stored_orders, changed_vehicles, changed_stations] = it;
+           keys_swept, event_seq, order_number, questions, standing, stored_seq, store_fault,
+           clock_difference, out, stored_vehicles, stored_orders, changed_vehicles,
+           changed_stations, plans_wanted] = it;
     visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
-          standing, stored_seq, store_fault, clock_difference);
+          questions, standing, stored_seq, store_fault, clock_difference);
 }
 
 }  // namespace fleet

@@ -315,8 +315,16 @@ void World::announce(std::vector<std::string> actions) {
 void World::settle() {
     for (int round = 0; round < 10; ++round) {
         Outputs out = fleet->take_outputs(now);
-        if (out.records.empty() && out.messages.empty()) return;
+        if (out.records.empty() && out.messages.empty() && out.plans_wanted.empty()) return;
         store.commit(out.records);
+        for (auto& question : out.plans_wanted) {
+            if (plans_at_once) {
+                const auto answer = answerer.answer(question);
+                fleet->leg_planned(question.vehicle, question.number, answer, now);
+            } else {
+                questions.push_back(std::move(question));
+            }
+        }
         for (const auto& message : out.messages) {
             if (connected[message.vehicle]) vehicles.at(message.vehicle).receive(message);
         }
@@ -357,6 +365,7 @@ Result<Created> World::order(const std::string& vehicle, std::vector<int> statio
 
 Result<Created> World::order(NewOrder request) {
     if (request.actor.empty()) request.actor = "tester";
+    request.planned_beside = true;
     auto created = fleet->create(request, now);
     settle();
     return created;

@@ -97,6 +97,9 @@ public:
     std::map<plant::VehicleId, FakeVehicle> vehicles;
     std::map<plant::VehicleId, bool> connected;
     bool vehicles_move = true;
+    bool plans_at_once = true;  // else what the fleet asks gathers in `questions`
+    std::vector<LegPlanQuestion> questions;
+    LegPlanAnswerer answerer;
     int ticks = 0;
     std::uint64_t seed = 1;
 };

@@ -69,6 +69,11 @@ std::string every_call(Recorder& recorder) {
     fleet.commands_expired({v1}, {id}, kNow);
     fleet.clock_differs(Duration(-7), kNow);
     fleet.clock_agrees(kNow);
+    planning::LegPlan plan;
+    plan.segments.resize(2);
+    plan.route = {plant::NodeId("n1")};
+    plan.closures = {"wet"};
+    fleet.leg_planned(v1, 3, {plan, {"no_free_way", {{"enclosed", true}}}}, kNow);
     fleet.tick(kNow + Duration(5));
     static_cast<void>(fleet.take_outputs(kNow + Duration(6)));
     return recorder.take();

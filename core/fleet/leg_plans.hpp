@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "core/base/time.hpp"
+#include "core/planning/leg_planner.hpp"
+#include "core/plant/plant.hpp"
+
+/// Legs that take longer to plan than others may wait for the fleet: free manoeuvres, some tens of
+/// milliseconds each and half a second where there is hardly room. The fleet asks for such a plan
+/// (Outputs::plans_wanted), the order waits (plan_under_way), and Fleet::leg_planned brings the
+/// answer. It is an input, so a journal made again gives the same.
+namespace pulseline::fleet {
+
+struct FleetState;
+struct PlantTables;
+struct VehicleRun;
+
+struct LegPlanAnswer {
+    std::optional<planning::LegPlan> plan;
+    Reason why_not;  // set when there is no plan
+};
+
+/// What a vehicle's next leg waits for, or has got.
+struct AwaitedPlan {
+    std::int64_t question = 0;
+    planning::LegRequest request;
+    Time asked;
+    std::optional<LegPlanAnswer> answer;
+};
+
+/// A question with all that the fleet knows about it, to be answered on another thread.
+struct LegPlanQuestion {
+    std::int64_t number = 0;
+    plant::VehicleId vehicle;
+    planning::LegRequest request;
+    std::vector<planning::ClosedFloor> closures;
+    std::shared_ptr<const PlantTables> tables;
+};
+
+/// Answers such questions, and keeps its planner for the next one.
+/// Thread safety: none. REQUIRES: the plant outlives it.
+class LegPlanAnswerer {
+public:
+    LegPlanAnswer answer(const LegPlanQuestion& question);
+
+private:
+    std::shared_ptr<const PlantTables> tables_;
+    std::optional<planning::LegPlanner> planner_;  // made of those
+};
+
+/// Plans a leg as far as the fleet does that itself. Errors: those of LegPlanner; kNeedsPlan
+/// (plan_under_way) for one that only a free manoeuvre may do.
+Result<planning::LegPlan> plan_here(const FleetState& fleet, const planning::LegRequest& request);
+/// The plan of a vehicle's next leg; what is not planned here is asked for, once more when it takes
+/// long. Errors: as before; why there is no way, once that has been told.
+Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
+                                      const planning::LegRequest& request, Time now);
+
+}  // namespace pulseline::fleet
