@@ -93,5 +93,25 @@ TEST(FreeOrders, AScheduleOfOneThatCannotBeDrivenIsRefused) {
     EXPECT_EQ(scheduled("hourly", 2).status, 201) << "the same once more gives the stored one";
 }
 
+TEST(FreeOrders, OneMadeOfATemplateIsPlannedFirstToo) {
+    ApiWorld api(walled_in());
+    const std::string templates = "/api/v1/job-order-templates";
+    ASSERT_EQ(api.post(templates, R"({"name":"free","parameters":[{"name":"station",
+                  "type":"integer"}],"order":{"vehicle":"V1","steps":[{"station":"${station}",
+                  "motion_mode":"free"}]}})")
+                  .status,
+              201);
+    const auto made = [&](int station) {
+        return api.post(templates + "/free/job-orders",
+                        R"({"parameters":{"station":)" + std::to_string(station) + "}}");
+    };
+
+    const Answer refused = made(3);
+    EXPECT_EQ(refused.status, 422) << refused.body;
+    EXPECT_EQ(refused.code(), "no_free_way");
+    EXPECT_TRUE(api.world.fleet->orders().empty());
+    EXPECT_EQ(made(2).status, 201);
+}
+
 }  // namespace
 }  // namespace pulseline::api::testing
