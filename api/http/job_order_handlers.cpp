@@ -1,7 +1,5 @@
 #include "api/http/job_order_handlers.hpp"
 
-#include <algorithm>
-
 #include "api/http/etag.hpp"
 #include "api/http/job_order_json.hpp"
 #include "api/http/page.hpp"
@@ -98,8 +96,7 @@ Result<Response> control(FleetContext& context, const Request& request,
     return job_order_response(202, context.plant, changed->order);
 }
 
-}  // namespace
-
+/// 201 with the order and where it is, or why there is none.
 Response created_answer(const FleetContext& context, const Request& request,
                         const Result<fleet::Created>& created) {
     if (!created) {
@@ -112,6 +109,8 @@ Response created_answer(const FleetContext& context, const Request& request,
     response.headers.emplace_back("Location", "/api/v1/job-orders/" + created->order.id.str());
     return response;
 }
+
+}  // namespace
 
 FleetAnswer create_job_order(FleetContext& context, const Request& request) {
     const auto dry_run = read_dry_run(request);
@@ -129,16 +128,21 @@ FleetAnswer create_job_order(FleetContext& context, const Request& request) {
                             }};
                 }};
     }
+    return create_planned(context, request, *order, [](const Error& error) { return error; });
+}
+
+FleetAnswer create_planned(FleetContext& context, const Request& request,
+                           const fleet::NewOrder& order, const InTheirTerms& told) {
     const auto create = [&request](FleetContext& with,
                                    const fleet::NewOrder& wanted) -> Result<Response> {
         const auto created = with.fleet.create(wanted, with.now);
         if (!created) return fail(created.error());
         return created_answer(with, request, created);
     };
-    const auto refuse = [&request](const FleetContext& with, const Error& error) {
-        return created_answer(with, request, fail(error));
+    const auto refuse = [&request, told](const FleetContext& with, const Error& error) {
+        return created_answer(with, request, fail(told(error)));
     };
-    return planned_ahead(context, *order, "", create, refuse);
+    return planned_ahead(context, order, "", create, refuse);
 }
 
 FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,

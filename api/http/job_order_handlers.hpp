@@ -7,10 +7,6 @@
 
 namespace pulseline::api {
 
-/// 201 with the order and where it is, or why there is none.
-Response created_answer(const FleetContext& context, const Request& request,
-                        const Result<fleet::Created>& created);
-
 /// What is done with an order, and the answer when it is refused.
 using Act = std::function<Result<Response>(FleetContext&, const fleet::NewOrder&)>;
 using Refuse = std::function<Response(const FleetContext&, const Error&)>;
@@ -18,6 +14,12 @@ using Refuse = std::function<Response(const FleetContext&, const Error&)>;
 /// the order stands in the body.
 FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,
                           const std::string& field, const Act& act, const Refuse& refuse);
+
+/// An error as whoever asked can understand it.
+using InTheirTerms = std::function<Error(const Error&)>;
+/// Creates the order; 201 with it and where it is, or why there is none.
+FleetAnswer create_planned(FleetContext& context, const Request& request,
+                           const fleet::NewOrder& order, const InTheirTerms& told);
 
 FleetAnswer create_job_order(FleetContext& context, const Request& request);
 FleetAnswer control_job_order(FleetContext& context, const Request& request);

@@ -53,17 +53,10 @@ FleetAnswer create_job_order_of_template(FleetContext& context, const Request& r
     if (auto asker = read_asker_of_instance(request, instance->order); !asker) {
         return {problem(400, asker.error(), request)};
     }
-    const auto create = [&request](FleetContext& with,
-                                   const fleet::NewOrder& order) -> Result<Response> {
-        const auto created = with.fleet.create(order, with.now);
-        if (!created) return fail(created.error());
-        return created_answer(with, request, created);
-    };
-    const auto refuse = [&request, instance = *instance](const FleetContext& with,
-                                                         const Error& error) {
-        return created_answer(with, request, fail(in_terms_of_parameters(error, instance)));
-    };
-    return planned_ahead(context, instance->order, "", create, refuse);
+    return create_planned(context, request, instance->order,
+                          [instance = *instance](const Error& error) {
+                              return in_terms_of_parameters(error, instance);
+                          });
 }
 
 }  // namespace pulseline::api

@@ -66,16 +66,15 @@ std::vector<VehicleRun*> low_ones(FleetState& fleet, Time now) {
     return low;
 }
 
-Result<Leg> leg_to_charger(FleetState& fleet, VehicleRun& run, const plant::Station& charger,
-                           LegId id, Time now) {
+Result<Leg> leg_to_charger(FleetState& fleet, const VehicleRun& run, const plant::Station& charger,
+                           LegId id) {
     if (run.record.at_station == charger.id) {
         Leg leg = build_adjust_leg(fleet, run, charger, run.record.pose, id);
         leg.nodes.front().actions.clear();
         return leg;
     }
-    const auto plan = plan_or_ask(
-        fleet, run, leg_request(fleet, run, run.record.pose, charger.id, plant::MotionMode::kAuto),
-        now);
+    const auto plan = fleet.planner.plan_primitive_leg(
+        leg_request(fleet, run, run.record.pose, charger.id, plant::MotionMode::kAuto));
     if (!plan) return fail(plan.error());
     return build_leg(fleet, run, *plan, charger, run.record.pose, id);
 }
@@ -83,7 +82,7 @@ Result<Leg> leg_to_charger(FleetState& fleet, VehicleRun& run, const plant::Stat
 std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Station& charger,
                             Time now) {
     const LegId id(fleet.ids.next(now));
-    auto leg = leg_to_charger(fleet, run, charger, id, now);
+    auto leg = leg_to_charger(fleet, run, charger, id);
     if (!leg) return leg.error().reason;
     leg->charges = true;
     leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);

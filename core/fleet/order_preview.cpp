@@ -40,7 +40,7 @@ VehicleRun known_of(const VehicleRun& run) {
 Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
     Preview preview;
     preview.vehicle = order.vehicle;
-    auto plan = plan_order(fleet, order, now, FreeLegs::kPlanned);
+    auto plan = plan_order(fleet, order, now, FreeManoeuvres::kPlanned);
     preview.accepted = plan.has_value();
     if (!plan) preview.problem = plan.error();
     if (plan) preview.vehicle = plan->vehicle;
@@ -126,7 +126,7 @@ Preview OrderPreviewer::preview(const OrderPreviewTask& task) {
 
 Status OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
     know(*task.state);
-    const auto plan = plan_order(*fleet_, task.order, task.asked, FreeLegs::kPlanned);
+    const auto plan = plan_order(*fleet_, task.order, task.asked, FreeManoeuvres::kPlanned);
     return plan ? Status() : fail(plan.error());
 }
 

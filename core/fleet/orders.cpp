@@ -57,7 +57,7 @@ std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run,
 }
 
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run,
-                            std::optional<Pose2> pose, FreeLegs free) {
+                            std::optional<Pose2> pose, FreeManoeuvres free) {
     OrderPlan plan;
     plan.vehicle = run.record.id;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
@@ -75,8 +75,8 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
         plan.durations_s.push_back(0);
         if (pose && !nearly_there(run, *pose, *station)) {
             const auto request = leg_request(fleet, run, *pose, station->id, order.steps[i].mode);
-            auto leg = free == FreeLegs::kPlanned ? fleet.planner.plan_leg(request)
-                                                  : plan_here(fleet, request);
+            auto leg = free == FreeManoeuvres::kPlanned ? fleet.planner.plan_leg(request)
+                                                        : plan_here(fleet, request);
             const bool beside = !leg && leg.error().code == Errc::kNeedsPlan;
             if (beside && order.planned_beside) {
                 plan.durations_s.back() = least_drive_s(run, *pose, *station);
@@ -188,7 +188,7 @@ double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Stat
 }
 
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
-                             FreeLegs free) {
+                             FreeManoeuvres free) {
     if (auto steps = check_steps(fleet, order); !steps) return fail(steps.error());
     if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
         return fail(vehicles.error());
@@ -221,7 +221,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     for (const auto& [run, pose] : nearest_of_each_type(fleet, order, now)) {
         auto plan = plan_with(fleet, order, *run, pose, free);
         if (!plan) {
-            if (!why_not) why_not = plan.error();
+            // One that only a plan beside the fleet can judge is not refused for another's reason.
+            if (!why_not || plan.error().code == Errc::kNeedsPlan) why_not = plan.error();
             continue;
         }
         double time_s = 0;

@@ -300,9 +300,9 @@ struct OrderPlan {
     std::vector<double> durations_s;  // 0: start unknown or in place
 };
 /// Free manoeuvres take too long to be planned on the fleet's own thread (leg_plans.hpp).
-enum class FreeLegs { kEstimated, kPlanned };
+enum class FreeManoeuvres { kEstimated, kPlanned };
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
-                             FreeLegs free = FreeLegs::kEstimated);
+                             FreeManoeuvres free = FreeManoeuvres::kEstimated);
 /// As the crow flies, at top speed.
 double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Station& to);
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.

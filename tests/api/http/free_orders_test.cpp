@@ -59,6 +59,24 @@ TEST(FreeOrders, OneThatCanBeDrivenIsAndARepeatedRequestGetsItsAnswer) {
     EXPECT_EQ(again.json()["id"], first.json()["id"]);
 }
 
+TEST(FreeOrders, OneForAnyVehicleIsNotRefusedForWhatOneOfThemCannotDo) {
+    plant::Plant plant = walled_in();
+    plant::VehicleType lanes_only = plant.vehicle_types.front();
+    lanes_only.id = plant::VehicleTypeId("lanes-only");
+    std::erase(lanes_only.motion_modes, plant::MotionMode::kFree);
+    plant.vehicle_types.push_back(lanes_only);
+    plant.vehicles.front().type = lanes_only.id;
+    ApiWorld api(plant);
+
+    const Answer made = api.post(kOrders, R"({"steps":[{"station":2,"motion_mode":"free"}]})");
+    ASSERT_EQ(made.status, 201) << made.body;
+    api.world.run(120);
+
+    const auto order = api.world.fleet->orders().front();
+    EXPECT_EQ(order.state, fleet::JobState::kEnded) << order.reason.code;
+    EXPECT_EQ(order.assigned_vehicle, plant::VehicleId("V2"));
+}
+
 TEST(FreeOrders, AnUpdateThatCannotBeDrivenChangesNothing) {
     ApiWorld api(walled_in());
     const Answer made = api.post(

@@ -156,6 +156,35 @@ TEST(JobOrders, ADryRunAndAnOrderOfManyStepsArePlannedOffTheFleetsThread) {
     EXPECT_EQ(answer(1, false).response.status, 201);
 }
 
+TEST(JobOrders, ManyStepsOfATemplateAScheduleAndAnUpdateArePlannedOffTheFleetsThreadToo) {
+    ApiWorld api;
+    Json order = {{"vehicle", "V1"}, {"steps", Json::array()}};
+    for (int i = 0; i < 100; ++i) order["steps"].push_back({{"station", 2 + i % 2}});
+    ASSERT_EQ(api.post("/api/v1/job-order-templates", Json{{"name", "t"}, {"order", order}}.dump())
+                  .status,
+              201);
+    const Answer waiting =
+        api.post(kOrders, R"({"vehicle":"V1","start":false,"steps":[{"station":2}]})");
+    const std::string control = waiting.header("Location") + "/job-control";
+    const auto is_planned_beside = [&](const std::string& target, const Json& body) {
+        FleetContext context{*api.world.fleet, api.world.plant, api.images, api.world.now};
+        Request request;
+        request.method = "POST";
+        request.identity = api.identity;
+        request.headers = {{"content-type", "application/json"}};
+        EXPECT_TRUE(parse_target(target, request));
+        request.body = body.dump();
+        const Match found = match(request);
+        return bool(std::get<FleetHandler>(found.route->handler)(context, request).plan);
+    };
+
+    EXPECT_TRUE(is_planned_beside("/api/v1/job-order-templates/t/job-orders", Json::object()));
+    EXPECT_TRUE(is_planned_beside("/api/v1/job-order-schedules",
+                                  {{"name", "s"}, {"every_s", 3600}, {"order", order}}));
+    EXPECT_TRUE(is_planned_beside(control, {{"method", "Update"}, {"order", order}}));
+    EXPECT_FALSE(is_planned_beside(control, {{"method", "Start"}}));
+}
+
 TEST(JobOrders, ChangesHonourIfMatch) {
     ApiWorld api;
     const Answer created = api.post(kOrders, kToTwo);
