@@ -1,6 +1,7 @@
 #include "server/cli/serve_command.hpp"
 
 #include <fmt/core.h>
+#include <malloc.h>
 
 #include <chrono>
 #include <memory>
@@ -18,6 +19,10 @@ namespace pulseline::server::cli {
 namespace {
 
 constexpr std::size_t kDescriptorsBesides = 256;  // the database, the log, threads
+/// The C library gives each thread a heap of its own. What one thread takes and another gives back
+/// leaves holes there that nobody fills: the process grew by megabytes an hour though it held no
+/// more. Two heaps cost no measurable time (tests/load), one does.
+constexpr int kHeaps = 2;
 
 int failed(const Error& error) {
     fmt::print(stderr, "pulseline: {}\n", error.what);
@@ -51,6 +56,7 @@ Result<plant::Plant> load_plant(Storage& storage, const Options& options) {
 
 int serve(const Options& options) {
     const auto begin = std::chrono::steady_clock::now();
+    mallopt(M_ARENA_MAX, kHeaps);  // before the first thread
     log::start(options.log_json);
     if (options.database.empty()) {
         fmt::print(stderr, "pulseline: name the database file with --db\n");

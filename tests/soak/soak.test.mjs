@@ -22,6 +22,8 @@ const kDrivers = 6;
 const kOrderEvery_s = kFull ? 120 : 5;
 const kSampleEvery_ms = kFull ? 5000 : 1000;
 const kWarm_s = kFull ? Math.min(1200, kLife_s / 2) : kLife_s / 3; // queues, caches and the heap's reserves find their size
+// What is kept up to a number has it before anything is measured: the newest 4,096 events and 1,000 ended orders.
+const kKept = { events: kFull ? 4096 : 200, at_once: 4 };
 const kBounds = { slope_mb_per_h: 1, error_mb_per_h: 2, rss_kb: 256 * 1024, grown_kb: 24 * 1024, wal_bytes: 32 * 1024 * 1024, model: kFull ? 0.2 : 0.3 };
 
 const pause = (ms) => new Promise((done) => setTimeout(done, ms));
@@ -39,6 +41,17 @@ async function drive(client, vehicle, [one, other], life) {
     while (life.on && Date.now() - begin < 1000 * kOrderEvery_s) await pause(100); // the rate of orders
   }
   return ended;
+}
+
+/** Orders that are given and cancelled, until so many events were written. */
+async function fill(client, vehicle, station, life, before) {
+  const one = async (lane) => {
+    for (let n = 0; (await client.get("/api/v1/fleet")).last_event_seq - before < kKept.events; ++n) {
+      const order = await client.post("/api/v1/job-orders", { vehicle, steps: [{ station }], start: false }, { "Idempotency-Key": `${life.name}-fill-${lane}-${n}` });
+      await client.post(`/api/v1/job-orders/${order.id}/cancel`, {});
+    }
+  };
+  await Promise.all(Array.from({ length: kKept.at_once }, (_, lane) => one(lane)));
 }
 
 /** Vehicles, dashboards and programs beside the agent's vehicles; resolves to the load client's figures. */
@@ -70,8 +83,10 @@ async function live(system, client, number) {
   const fds_before = descriptors(system.server.pid);
   const { last_event_seq } = await client.get("/api/v1/fleet");
 
-  const began = Date.now(), samples = [], life = { on: true, name: `life${number}` };
+  const life = { on: true, name: `life${number}` };
   const stations = (id) => { const n = Number(id.slice(1)); return [2 * n - 1, 2 * n]; };
+  await fill(client, system.drivers[0], stations(system.drivers[0])[0], life, last_event_seq);
+  const began = Date.now(), samples = [];
   const driving = Promise.all(system.drivers.map((id) => drive(client, id, stations(id), life)));
   driving.catch(() => {}); // told below
   const loaded = load(system);
