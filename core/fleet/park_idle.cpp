@@ -112,7 +112,9 @@ void tell_leaving(FleetState& fleet, VehicleRun& run, Time now) {
     JobOrderId order;
     if (const VehicleRun* other = leaves_for(fleet, run)) {
         params.push_back({"other", other->record.id.str()});
-        if (const JobOrder* its = fleet.orders.of(other->record.id)) order = its->id;
+        const JobOrder* its = fleet.orders.of(other->record.id);
+        // One whose order waits may itself be on its way aside.
+        order = other->has_leg() ? other->leg().order : its ? its->id : JobOrderId();
     }
     add_event(fleet, now, "vehicle.makes_way", order, run.leg().id, run.record.id, {},
               std::move(params));

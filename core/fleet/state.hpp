@@ -118,7 +118,8 @@ struct FleetState {
           planner(tables->planner.again()),
           ids(id_seed),
           started(now),
-          floor(tables->classes) {}
+          floor(tables->classes),
+          questions(static_cast<std::int64_t>(id_seed % (1U << 31)) << 32) {}
 
     const plant::Plant& plant;
     std::shared_ptr<const PlantTables> tables;
@@ -138,7 +139,9 @@ struct FleetState {
     Time keys_swept;  // when old idempotency keys were last forgotten
     std::int64_t event_seq = 0;
     std::int64_t order_number = 0;
-    std::int64_t questions = 0;  // number of the newest LegPlanQuestion
+    // Number of the newest LegPlanQuestion; another fleet's answers, with floor that is closed
+    // here, may still be on their way.
+    std::int64_t questions;
     StandingOrders standing;
     std::int64_t stored_seq = 0;  // newest event of the store at start
     std::optional<StoreFault> store_fault;

@@ -99,6 +99,7 @@ void World::crash(const char* how) {
         }
     }
     stalled_until_s_ = now_s_ + pick(0, 15);
+    plans_.clear();
     start_server();
 }
 

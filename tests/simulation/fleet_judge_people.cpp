@@ -39,7 +39,9 @@ void World::order_some() {
         const int number =
             numbers[static_cast<std::size_t>(pick(0, static_cast<int>(numbers.size()) - 1))];
         const bool twice = !order.steps.empty() && order.steps.back().station_number == number;
-        if (!twice) order.steps.push_back({number, plant::MotionMode::kAuto});
+        const auto mode =
+            free_ && !platform && chance(0.1) ? plant::MotionMode::kFree : plant::MotionMode::kAuto;
+        if (!twice) order.steps.push_back({number, mode});
     }
     order.priority = pick(0, 2);
     order.actor = "client";
@@ -53,7 +55,14 @@ void World::order_some() {
 /// An answer counts when it came out of the server, which is after the commit; without one the
 /// client asks again with the same key, and at times it does so anyway.
 void World::ask(Asked& asked) {
-    const auto created = fleet_->create(asked.order, now());
+    auto created = fleet_->create(asked.order, now());
+    if (!created && created.error().code == Errc::kNeedsPlan) {
+        // As the API does it: planned beside the fleet, then asked again.
+        auto order = asked.order;
+        order.planned_beside =
+            previewer_.plan_ahead(fleet_->preview_task(order, now())).has_value();
+        created = fleet_->create(order, now());
+    }
     const auto servers = servers_;
     settle();
     if (!created) {

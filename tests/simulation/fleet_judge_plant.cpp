@@ -42,7 +42,7 @@ plant::VehicleType type_of(const char* id, double length_m, double width_m, doub
 
 class Builder {
 public:
-    explicit Builder(std::mt19937_64& random) : random_(random) {
+    Builder(std::mt19937_64& random, bool free) : random_(random) {
         rows_ = pick(random, 1, 3);
         columns_ = pick(random, 3, rows_ == 1 ? 7 : 6);
         plant_.id = "judge";
@@ -56,6 +56,10 @@ public:
         plant_.halls.push_back(hall);
         plant_.vehicle_types = {type_of("cart", 1.2, 0.8, 1.2), type_of("carrier", 3.0, 1.2, 1.0),
                                 type_of("platform", 10.5, 2.5, 0.8)};
+        for (auto& type : plant_.vehicle_types) {
+            if (free && type.id.str() != "platform")
+                type.motion_modes.push_back(plant::MotionMode::kFree);
+        }
     }
 
     Plant build() {
@@ -203,6 +207,6 @@ int pick(std::mt19937_64& random, int low, int high) {
     return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-Plant random_plant(std::mt19937_64& random) { return Builder(random).build(); }
+Plant random_plant(std::mt19937_64& random, bool free) { return Builder(random, free).build(); }
 
 }  // namespace pulseline::fleet_judge

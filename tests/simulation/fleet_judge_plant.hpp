@@ -9,7 +9,8 @@
 /// of 10.5 m that keeps to its row.
 namespace pulseline::fleet_judge {
 
-plant::Plant random_plant(std::mt19937_64& random);
+/// `free`: the small vehicles may leave the lanes.
+plant::Plant random_plant(std::mt19937_64& random, bool free);
 
 int pick(std::mt19937_64& random, int low, int high);
 

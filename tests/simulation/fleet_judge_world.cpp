@@ -11,8 +11,9 @@ namespace {
 constexpr double kTick_s = 0.2;
 constexpr double kStall_s = 1;  // of the server: its runtime takes as much for one
 constexpr double kStateEvery_s = 1;
-constexpr double kDrain_s = 3600;  // at most, after the faults have stopped
-constexpr int kRounds = 4;         // of commits in one tick
+constexpr double kDrain_s = 3600;        // at most, after the faults have stopped
+constexpr int kRounds = 4;               // of commits in one tick
+constexpr std::uint64_t kFreeEvery = 4;  // so many seeds have vehicles that may leave the lanes
 
 }  // namespace
 
@@ -21,7 +22,8 @@ Outcome judge_seed(std::uint64_t seed, const Options& options) {
 }
 
 World::World(std::uint64_t seed, const Options& options) : random_(seed), options_(options) {
-    plant_ = random_plant(random_);
+    free_ = seed % kFreeEvery == 0;
+    plant_ = random_plant(random_, free_);
     for (const auto& vehicle : plant_.vehicles) {
         vehicles_.emplace(std::piecewise_construct, std::forward_as_tuple(vehicle.id),
                           std::forward_as_tuple(plant_, vehicle, random_()));
@@ -84,6 +86,7 @@ void World::step(double dt_s) {
     if (now_s_ >= stalled_until_s_ && !unstored_) {
         decided_s_ = now_s_;
         carry_messages();
+        if (!unstored_) answer_plans();
         if (!unstored_) fleet_->tick(now());
         if (std::exchange(long_command_, false) && !unstored_) {
             ++outcome_.faults["long command"];
@@ -189,7 +192,7 @@ fleet::Outputs World::take_outputs() {
 void World::settle() {
     for (int round = 0; round < kRounds && !unstored_; ++round) {
         fleet::Outputs out = take_outputs();
-        if (out.records.empty() && out.messages.empty()) break;
+        if (out.records.empty() && out.messages.empty() && out.plans_wanted.empty()) break;
         if (!commit(out)) return;
         send(out);
     }
@@ -251,7 +254,31 @@ void World::retry_store() {
     send(out);
 }
 
+/// What another thread of the server has worked out, for this fleet or for one that is no more.
+void World::answer_plans() {
+    for (std::size_t i = 0; i < plans_.size() && !unstored_;) {
+        if (plans_[i].at_s > now_s_) {
+            ++i;
+            continue;
+        }
+        const auto question = std::move(plans_[i].content);
+        plans_.erase(plans_.begin() + static_cast<std::ptrdiff_t>(i));
+        const auto answer = answerer_.answer(question);
+        ++outcome_.faults[answer.plan ? "way planned beside the fleet" : "no free way"];
+        fleet_->leg_planned(question.vehicle, question.number, answer, now());
+    }
+}
+
 void World::send(const fleet::Outputs& out) {
+    for (const auto& question : out.plans_wanted) {
+        if (disturbed_ && chance(0.05)) {
+            ++outcome_.faults["question after a way lost"];
+            continue;
+        }
+        // Tens of milliseconds, or after all that others asked.
+        const double late_s = disturbed_ && chance(0.1) ? pick(1, 15) : 0.2 * pick(0, 2);
+        plans_.push_back({now_s_ + late_s, question});
+    }
     for (const auto& message : out.messages) {
         check_sent(message);
         Line& line = lines_[message.vehicle];

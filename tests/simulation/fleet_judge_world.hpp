@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/leg_plans.hpp"
+#include "core/fleet/order_preview.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 #include "tests/simulation/fleet_judge_journal.hpp"
 #include "tests/simulation/fleet_judge_vehicle.hpp"
@@ -106,6 +108,7 @@ private:
     void carry_messages();
     void settle();
     bool commit(fleet::Outputs& out);
+    void answer_plans();
     void send(const fleet::Outputs& out);
     fleet::Outputs take_outputs();
     void start_server();
@@ -173,6 +176,10 @@ private:
     std::map<plant::VehicleId, Vehicle> vehicles_;
     std::map<plant::VehicleId, Line> lines_;
     std::map<plant::VehicleId, Watch> watch_;
+    bool free_ = false;  // vehicles may leave the lanes: such ways are planned beside the fleet
+    fleet::LegPlanAnswerer answerer_;
+    fleet::OrderPreviewer previewer_;
+    std::vector<Mail<fleet::LegPlanQuestion>> plans_;
     std::deque<Asked> asked_;
     std::vector<Closed> closed_;
     Time base_ = time_from_ns(1'800'000'000'000'000'000);

@@ -112,5 +112,22 @@ TEST(LegPlans, AQuestionAndAnAnswerOutliveTheFleetsRebuilding) {
     EXPECT_TRUE(world.store.vehicles[kV1].has_leg);
 }
 
+TEST(LegPlans, AnAnswerThatTheFleetBeforeAskedForCountsNoMore) {
+    Asked asked;
+    World& world = asked.world;
+    const auto old = world.questions;
+    ASSERT_EQ(old.size(), 1u);
+    world.crash_server();  // what was not stored is gone, and with it perhaps floor that was closed
+    world.run(0.5);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(0.5);
+    ASSERT_EQ(world.questions.size(), 2u);
+
+    asked.answer(old.front());
+    EXPECT_FALSE(world.store.vehicles[kV1].has_leg);
+    asked.answer(world.questions.back());
+    EXPECT_TRUE(world.store.vehicles[kV1].has_leg);
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing
