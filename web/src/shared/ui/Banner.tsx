@@ -26,7 +26,7 @@ export function Banner({ priority, what, todo, age, actions, word }: BannerProps
       </div>
       <div className="txt">
         <span>{what}</span>
-        {todo !== undefined && <span className="lab gt-sm">{todo}</span>}
+        {todo !== undefined && <span className="lab">{todo}</span>}
       </div>
       {age !== undefined && <span className="age">{age}</span>}
       {actions !== undefined && <div className="acts">{actions}</div>}
