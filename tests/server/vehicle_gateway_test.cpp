@@ -30,6 +30,20 @@ std::string state_frame(int header_id, const std::string& extra = "") {
            extra + "}}";
 }
 
+/// A vehicle that has reported, and a dashboard that has seen it.
+struct Reported {
+    Reported()
+        : vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token())),
+          dashboard(server.port(), "/api/v1/stream", server.viewer_token()) {
+        vehicle.send(state_frame(1));
+        seen = dashboard.read_until("\"type\":\"poses\"").has_value();
+    }
+    TestServer server;
+    WsClient vehicle;
+    WsClient dashboard;
+    bool seen = false;
+};
+
 TEST(VehicleGateway, LetsOnlyTheBoundTokenIn) {
     TestServer server;
     const auto own = server.vehicle_token();
@@ -65,13 +79,12 @@ TEST(VehicleGateway, ShowsWhatTheVehicleReports) {
 }
 
 TEST(VehicleGateway, ShowsWhatNobodyDecidesByWhenItsTurnComes) {
-    TestServer server;
-    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
-    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
-    vehicle.send(state_frame(1));
-    ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+    Reported given;
+    ASSERT_TRUE(given.seen);
     const auto shown = [&] {
-        return request(server.port(), "GET", "/api/v1/vehicles/V1", server.viewer_token()).body;
+        return request(given.server.port(), "GET", "/api/v1/vehicles/V1",
+                       given.server.viewer_token())
+            .body;
     };
     ASSERT_NE(shown().find("\"battery_percent\":80"), std::string::npos) << shown();
 
@@ -82,7 +95,7 @@ TEST(VehicleGateway, ShowsWhatNobodyDecidesByWhenItsTurnComes) {
     const auto seen_by = begin + fleet::kStandingEvery + std::chrono::seconds(1);
     bool seen = false;
     while (!seen && std::chrono::steady_clock::now() < seen_by) {
-        vehicle.send(frame);
+        given.vehicle.send(frame);
         std::this_thread::sleep_for(
             std::chrono::milliseconds(100));  // as often as a vehicle reports
         seen = shown().find("\"battery_percent\":80.1") != std::string::npos;
@@ -125,17 +138,14 @@ TEST(VehicleGateway, RefusesBothAfterThreeTakeovers) {
 }
 
 TEST(VehicleGateway, ReportsAMalformedMessageAndKeepsTheSocket) {
-    TestServer server;
-    WsClient vehicle(server.port(), kPath, vehicle_headers(server.vehicle_token()));
-    WsClient dashboard(server.port(), "/api/v1/stream", server.viewer_token());
-    vehicle.send(state_frame(1));
-    ASSERT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+    Reported given;
+    ASSERT_TRUE(given.seen);
 
-    vehicle.send(R"({"topic":"state","payload":{"headerId":"one"}})");
+    given.vehicle.send(R"({"topic":"state","payload":{"headerId":"one"}})");
 
-    EXPECT_TRUE(dashboard.read_until("vehicle.message_malformed"));
-    vehicle.send(state_frame(2));
-    EXPECT_TRUE(dashboard.read_until("\"type\":\"poses\""));
+    EXPECT_TRUE(given.dashboard.read_until("vehicle.message_malformed"));
+    given.vehicle.send(state_frame(2));
+    EXPECT_TRUE(given.dashboard.read_until("\"type\":\"poses\""));
 }
 
 TEST(VehicleGateway, ClosesAfterTwentyMalformedMessagesInARow) {
