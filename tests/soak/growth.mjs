@@ -34,15 +34,12 @@ const kRow_bytes = { events: 12, journal: 12, orders: 130, job_order_steps: 60, 
 // Pages of a tree that grows at its end are nearly full; ids that sort by time grow there.
 const kFilled = 0.92;
 
-/** Bytes of the file, from what its tables hold now, the most that journal and snapshots ever held (a file never shrinks)
- * and the file it began as. */
-export function modelOf(fresh, sizes, most) {
-  let grown = 0;
+/** Bytes of the file's pages in use, from what its tables hold now and the file it began as. */
+export function modelOf(fresh, sizes) {
+  let grown = sizes.tables.snapshots.bytes - fresh.tables.snapshots.bytes;
   for (const [table, more] of Object.entries(kRow_bytes)) {
-    const held = table === "journal" ? most.journal : sizes.tables[table], before = fresh.tables[table];
+    const held = sizes.tables[table], before = fresh.tables[table];
     grown += held.bytes - before.bytes + more * (held.rows - before.rows);
   }
-  // A third snapshot is written before the oldest of two is dropped.
-  grown += 1.5 * most.snapshots.bytes - fresh.tables.snapshots.bytes;
   return fresh.bytes - fresh.free_bytes + grown / kFilled;
 }
