@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <exception>
+#include <opencv2/core/utility.hpp>
 
 #include "server/cli/access_commands.hpp"
 #include "server/cli/calibrate_command.hpp"
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     // A file over the size limit is a write that fails, not a death.
     std::signal(SIGXFSZ, SIG_IGN);
+    // Images are too small to share, and the server's other threads need the other cores.
+    cv::setNumThreads(1);
     if (sodium_init() < 0) {
         fmt::print(stderr, "pulseline: libsodium cannot start\n");
         return cli::kFailed;

@@ -7,7 +7,6 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <opencv2/core/utility.hpp>
 
 #include "api/vision/camera_file.hpp"
 #include "api/vision/image_bytes.hpp"
@@ -92,7 +91,6 @@ void locate_in(const std::string& name, const cv::Mat& image, const plant::Camer
 }  // namespace
 
 int locate(const LocateInput& input, std::ostream& out) {
-    cv::setNumThreads(1);  // images are too small to share; waking threads costs more
     const auto camera = vision::read_camera_file(input.camera_file);
     if (!camera) {
         print_refused(input.camera_file, camera.error(), input.json, out);

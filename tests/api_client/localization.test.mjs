@@ -1,5 +1,6 @@
 // Images over REST: what is found in them, and who may send how much.
 import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
 import { request } from "node:http";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
@@ -16,6 +17,14 @@ after(() => system?.stop());
 const WIDTH = 1280, HEIGHT = 1024;
 const grey = (value) => Buffer.concat([Buffer.from(`P5\n${WIDTH} ${HEIGHT}\n255\n`), Buffer.alloc(WIDTH * HEIGHT, value)]).toString("base64");
 const ask = (body, headers) => client.request("POST", "/api/v1/localizations", { body, headers });
+
+test("an image takes the thread that has it and no other of the machine's cores", async () => {
+  const threads = () => readdirSync(`/proc/${system.server.pid}/task`).length;
+  await client.get("/api/v1/vehicles"); // the server has all its own threads
+  const before = threads();
+  assert.equal((await ask({ vehicle: "TP-01", images: [{ camera: "front", image: grey(128) }] })).status, 200);
+  assert.equal(threads(), before);
+});
 
 test("images without a code are answered with the reason and a picture of each", async () => {
   const answer = await ask({ vehicle: "TP-01", images: [{ camera: "front", image: grey(0) }, { camera: "back", image: grey(255) }] });
