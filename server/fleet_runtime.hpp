@@ -148,7 +148,7 @@ private:
     struct Storing {
         Published batch;
         std::optional<fleet::SnapshotRow> snapshot;
-        std::exception_ptr error;
+        std::optional<WriteFailure> failure;
         bool done = false;  // guarded by the mutex
     };
     struct Quarantine {
@@ -214,8 +214,7 @@ private:
     void give_up_on_commit();
     void answer_what_acts();
     void fleet_threw(const std::exception_ptr& error);
-    void note_fault(const std::exception_ptr& error);
-    void note_fault(const std::string& cause, const std::string& what);
+    void note_fault(const WriteFailure& failure);
     void show_fault();
     bool is_slow() const;  // REQUIRES: the mutex
 
@@ -229,7 +228,7 @@ private:
     void try_snapshot(const fleet::SnapshotRow& snapshot);
     void deliver(Commit commit);
     void give_up(Commits lost, const Error& error);
-    std::exception_ptr write_and_wait(Job job, std::chrono::milliseconds most);
+    std::optional<WriteFailure> write_and_wait(Job job, std::chrono::milliseconds most);
 
     Ports ports_;
     std::uint64_t id_seed_;

@@ -16,34 +16,32 @@ void FleetRuntime::write(Job job) {
         const std::lock_guard lock(mutex_);
         if (is_slow()) throw StoreUnavailable(StoreHangs().what());
     }
-    const auto error = write_and_wait(std::move(job), kGiveUpAfter);
-    if (!error) return;
-    log::error("write_failed", {{"what", what(error)}});
-    throw StoreUnavailable(what(error));
+    const auto failure = write_and_wait(std::move(job), kGiveUpAfter);
+    if (!failure) return;
+    log::error("write_failed", {{"what", failure->what}});
+    throw StoreUnavailable(failure->what);
 }
 
-std::exception_ptr FleetRuntime::write_and_wait(Job job, std::chrono::milliseconds most) {
-    const auto done = std::make_shared<std::promise<std::exception_ptr>>();
+std::optional<WriteFailure> FleetRuntime::write_and_wait(Job job, std::chrono::milliseconds most) {
+    const auto done = std::make_shared<std::promise<std::optional<WriteFailure>>>();
     auto result = done->get_future();
     Commit commit;
     commit.job = [job = std::move(job), done] {
         try {
             job();
-            done->set_value(nullptr);
+            done->set_value(std::nullopt);
         } catch (...) {
-            done->set_value(std::current_exception());
+            done->set_value(write_failure(std::current_exception()));
         }
     };
     {
         const std::lock_guard lock(mutex_);
-        if (commit_stopping_) {
-            return std::make_exception_ptr(std::runtime_error("the server is stopping"));
-        }
+        if (commit_stopping_) return WriteFailure{"disk_error", "the server is stopping"};
         commits_.push_back(std::move(commit));
     }
     commit_wake_.notify_one();
     if (result.wait_for(most) != std::future_status::ready) {
-        return std::make_exception_ptr(StoreHangs());
+        return write_failure(std::make_exception_ptr(StoreHangs()));
     }
     return result.get();
 }
@@ -180,7 +178,7 @@ bool FleetRuntime::store(const Commits& group) {
         if (records.empty()) return true;
         ports_.store.commit(records);
     } catch (...) {
-        note_fault(std::current_exception());
+        note_fault(write_failure(std::current_exception()));
         ports_.metrics.commit_failed();
         return false;
     }

@@ -55,7 +55,7 @@ void FleetRuntime::answer_what_acts() {
 
 /// Nobody knows whether what is being written is kept; what waits behind it is not.
 void FleetRuntime::give_up_on_commit() {
-    note_fault("disk_hangs", "a commit has not ended for 5 s");
+    note_fault({"disk_hangs", "a commit has not ended for 5 s"});
     Tasks unknown;
     Commits flight;
     Commits behind;
@@ -117,9 +117,9 @@ void FleetRuntime::rebuild() {
 /// no use.
 bool FleetRuntime::build_from_journal(Time now) {
     const auto stored = std::make_shared<fleet::StoredJournal>();
-    if (const auto error = write_and_wait([this, stored] { *stored = ports_.store.load_journal(); },
-                                          kLongestLoad)) {
-        note_fault(error);
+    if (const auto failure = write_and_wait(
+            [this, stored] { *stored = ports_.store.load_journal(); }, kLongestLoad)) {
+        note_fault(*failure);
         return false;
     }
     try {
@@ -143,15 +143,15 @@ bool FleetRuntime::build_from_journal(Time now) {
 /// As after a restart: orders are interrupted.
 bool FleetRuntime::build_from_tables(Time now) {
     const auto stored = std::make_shared<fleet::StoredFleet>();
-    if (const auto error =
+    if (const auto failure =
             write_and_wait([this, stored] { *stored = ports_.store.load(); }, kLongestLoad)) {
-        note_fault(error);
+        note_fault(*failure);
         return false;
     }
     try {
         begin_from_tables(std::move(*stored), now);
     } catch (...) {
-        note_fault("internal", what(std::current_exception()));
+        note_fault({"internal", what(std::current_exception())});
         return false;
     }
     return true;
@@ -261,7 +261,7 @@ void FleetRuntime::begin_store() {
             ports_.store.commit(storing->batch.outputs.records);
             if (storing->snapshot) put_snapshot(*storing->snapshot);
         } catch (...) {
-            storing->error = std::current_exception();
+            storing->failure = write_failure(std::current_exception());
         }
         {
             const std::lock_guard lock(mutex_);
@@ -283,10 +283,10 @@ void FleetRuntime::end_store() {
         const std::lock_guard lock(mutex_);
         ended.swap(storing_);
     }
-    if (ended->error) {
+    if (ended->failure) {
         // One that was good for reads only has to say now why it takes no commands.
         const bool first = !store_fault();
-        note_fault(ended->error);
+        note_fault(*ended->failure);
         Published later = std::exchange(unstored_, std::move(ended->batch));
         append(unstored_, std::move(later));
         unstored_snapshot_ = std::move(ended->snapshot);
@@ -338,24 +338,20 @@ void FleetRuntime::fleet_threw(const std::exception_ptr& error) {
     last_fault_ = now;
     ++ports_.metrics.fleet_faults;
     log::error("fleet_threw", {{"what", what(error)}});
-    if (faults_in_a_row_ > 2) note_fault("internal", what(error));
+    if (faults_in_a_row_ > 2) note_fault({"internal", what(error)});
     const std::lock_guard lock(mutex_);
     must_rebuild_ = true;
     degraded_ = true;
 }
 
-void FleetRuntime::note_fault(const std::exception_ptr& error) {
-    note_fault(cause_of(error), what(error));
-}
-
-void FleetRuntime::note_fault(const std::string& cause, const std::string& what) {
+void FleetRuntime::note_fault(const WriteFailure& failure) {
     {
         const std::lock_guard lock(mutex_);
         if (fault_) return;  // one alarm until the store works again
-        fault_ = fleet::StoreFault{cause, ports_.clock.now()};
+        fault_ = fleet::StoreFault{failure.cause, ports_.clock.now()};
     }
     ports_.metrics.read_only = 1;
-    log::error("read_only", {{"cause", cause}, {"what", what}});
+    log::error("read_only", {{"cause", failure.cause}, {"what", failure.what}});
 }
 
 /// Tells the dashboards at once; the event of it follows when it can be stored.

@@ -28,8 +28,6 @@ Error refusal(const std::optional<fleet::StoreFault>& fault, std::string what, P
     return {Errc::kUnavailable, {"store_unavailable", std::move(params)}, what + kRetry, {}};
 }
 
-}  // namespace
-
 std::string cause_of(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
@@ -41,6 +39,12 @@ std::string cause_of(const std::exception_ptr& error) {
     } catch (...) {
     }
     return "disk_error";
+}
+
+}  // namespace
+
+WriteFailure write_failure(const std::exception_ptr& error) {
+    return {cause_of(error), what(error)};
 }
 
 Error store_unavailable(const std::optional<fleet::StoreFault>& fault) {
