@@ -148,9 +148,11 @@ nlohmann::json measure(World world, const Options& options, std::uint64_t releas
     print_times("release decision", ours.release_us, kReleaseLimit_us);
     print_times("improvement step", ours.improve_us, 0);
     std::printf(
-        "  %llu admissions refused; all at rest %.0f s after the last order\n"
+        "  admissions refused and tried again: %s; all at rest %.0f s after the last order\n",
+        ours.refused.empty() ? "none" : nlohmann::json(ours.refused).dump().c_str(),
+        ours.drained_s);
+    std::printf(
         "  %llu releases, %llu violations; %.1f KB a vehicle; record %.1f ms, rebuild %.1f ms%s\n",
-        static_cast<unsigned long long>(ours.refused), ours.drained_s,
         static_cast<unsigned long long>(ours.releases),
         static_cast<unsigned long long>(ours.violations), ours.bytes_per_vehicle / 1024,
         ours.record_ms, ours.rebuild_ms, ours.rebuilt_same ? "" : ", NOT THE SAME STATE");

@@ -135,10 +135,11 @@ private:
         traffic::Task task;
         task.visits = {{vehicle.goal, world_.dwell_s}};
         const double begin_us = cpu_us();
-        vehicle.admitted = traffic_.admit(v, task, at(now_s_)).has_value();
+        const auto admission = traffic_.admit(v, task, at(now_s_));
         run_.admission_us.push_back(cpu_us() - begin_us);
-        if (!vehicle.admitted) {
-            ++run_.refused;
+        vehicle.admitted = admission.has_value();
+        if (!admission) {
+            ++run_.refused[admission.error().reason.code];
             vehicle.retry_s = now_s_ + world_.retry_s;
             if (world_.real_plant && now_s_ - vehicle.since_s >= kHandOver_s) hand_over(v);
         }

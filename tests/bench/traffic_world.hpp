@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <random>
 #include <string>
@@ -64,7 +65,7 @@ struct Run {
     std::vector<double> release_us;
     std::vector<double> improve_us;
     std::uint64_t orders = 0;
-    std::uint64_t refused = 0;
+    std::map<std::string, std::uint64_t> refused;  // admissions, by reason; each is tried again
     std::uint64_t releases = 0;
     std::uint64_t violations = 0;  // found by the independent monitor
     double simulated_s = 0;

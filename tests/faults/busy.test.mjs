@@ -45,11 +45,14 @@ test("seven dry runs of a hundred steps, a thousand reads of a station and an or
   ]));
   for (const { status, body } of results) assert.ok([200, 201, 422, 503].includes(status), `${status} ${JSON.stringify(body)}`);
   assert.ok(results.slice(0, 7).some(({ status }) => status === 200), "no dry run was answered");
-  // On the fleet's thread the dry runs alone took more than ten seconds.
-  assert.ok(slowest < 4000, `a look at the vehicles took ${slowest.toFixed(0)} ms`);
-  const events = await client.events(last_event_seq);
-  assert.deepEqual(events.filter((e) => e.type === "vehicle.link" && e.params.to === "lost"), []);
-  assert.deepEqual(events.filter((e) => e.type === "server.stood_still"), []);
+  // Under a sanitizer, ten times slower, races are looked for, not times.
+  if (!process.env.PULSELINE_SANITIZED) {
+    // On the fleet's thread the dry runs alone took more than ten seconds.
+    assert.ok(slowest < 4000, `a look at the vehicles took ${slowest.toFixed(0)} ms`);
+    const events = await client.events(last_event_seq);
+    assert.deepEqual(events.filter((e) => e.type === "vehicle.link" && e.params.to === "lost"), []);
+    assert.deepEqual(events.filter((e) => e.type === "server.stood_still"), []);
+  }
   const metrics = (await client.request("GET", "/metrics")).body;
   assert.match(metrics, /^pulseline_fleet_batch_seconds_count [1-9]/m);
   assert.match(metrics, /^pulseline_fleet_queue_length\{queue="commands"\} \d+/m);
