@@ -229,9 +229,10 @@ Outputs Fleet::take_outputs(Time now) {
     }
     for (const auto& id : std::exchange(fleet.plans_wanted, {})) {
         const auto& awaited = fleet.find(id)->awaited_plan;
-        if (!awaited || awaited->answer) continue;
-        out.plans_wanted.push_back(
-            {awaited->question, id, awaited->request, closed_floors(), fleet.tables});
+        if (!awaited) continue;
+        out.plans_wanted.push_back({awaited->question, id, awaited->request, closed_floors(),
+                                    standing_floor(fleet, awaited->request.hall, id),
+                                    fleet.tables});
     }
     return out;
 }

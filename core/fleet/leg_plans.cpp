@@ -12,6 +12,8 @@ namespace {
 
 /// A question is lost with a batch that could not be stored, or by a thread that is too busy.
 constexpr Duration kAskAgain = std::chrono::seconds(5);
+/// A way that others bar is looked for anew.
+constexpr Duration kAskAnew = std::chrono::seconds(10);
 // A vehicle's standing pose trembles; a plan from where it stood by less is as good.
 constexpr double kSamePlace_m = 0.01;
 constexpr double kSamePlace_rad = 0.005;
@@ -63,13 +65,44 @@ Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
     return under_way();
 }
 
+void ask_anew(FleetState& fleet, VehicleRun& run, Time now) {
+    auto& awaited = run.awaited_plan;
+    const bool known = awaited && awaited->answer && awaited->answer->plan;
+    if (!known || now - awaited->asked < kAskAnew) return;
+    awaited->question = ++fleet.questions;
+    awaited->asked = now;
+    fleet.plans_wanted.insert(run.record.id);
+}
+
+std::vector<planning::StandingBody> standing_floor(const FleetState& fleet,
+                                                   const plant::HallId& hall,
+                                                   const plant::VehicleId& except) {
+    auto bodies = standing_bodies(fleet, hall, except);
+    for (auto& body : bodies) {
+        std::vector<geometry::Point2> corners;
+        for (const auto tile :
+             traffic::tiles_under(hall_index(fleet, hall.str()), body.outline, kFloorMargin_m)) {
+            const auto box = traffic::tile_box(tile);
+            corners.insert(
+                corners.end(),
+                {box.min, {box.max.x_m, box.min.y_m}, box.max, {box.min.x_m, box.max.y_m}});
+        }
+        body.outline = {geometry::convex_hull(std::move(corners))};
+    }
+    return bodies;
+}
+
 void Fleet::leg_planned(const plant::VehicleId& id, std::int64_t question,
                         const LegPlanAnswer& answer, Time now) {
     FleetState& fleet = input<&Fleet::leg_planned>(now, id, question, answer);
     VehicleRun* run = fleet.find(id);
     // Whoever asked may want to go elsewhere meanwhile, or floor was closed.
     if (!run || !run->awaited_plan || run->awaited_plan->question != question) return;
-    run->awaited_plan->answer = answer;
+    auto& known = run->awaited_plan->answer;
+    if (!known || answer.plan) {
+        known = answer;
+        run->newest_plan.reset();
+    }
     dispatch_for(fleet, *run, now);
 }
 
@@ -79,7 +112,7 @@ LegPlanAnswer LegPlanAnswerer::answer(const LegPlanQuestion& question) {
         planner_ = tables_->planner.again();
     }
     planner_->set_closures(question.closures);
-    auto plan = planner_->plan_leg(question.request);
+    auto plan = planner_->plan_leg(question.request, question.standing);
     if (!plan) return {{}, plan.error().reason};
     return {std::move(*plan), {}};
 }

@@ -25,12 +25,13 @@ struct LegPlanAnswer {
     Reason why_not;  // set when there is no plan
 };
 
-/// What a vehicle's next leg waits for, or has got.
+/// What a vehicle's next leg waits for, or has got. A plan that cannot be begun is asked for anew:
+/// others stand elsewhere by then.
 struct AwaitedPlan {
     std::int64_t question = 0;
     planning::LegRequest request;
     Time asked;
-    std::optional<LegPlanAnswer> answer;
+    std::optional<LegPlanAnswer> answer;  // the newest plan, or why there is none
 };
 
 /// A question with all that the fleet knows about it, to be answered on another thread.
@@ -39,6 +40,7 @@ struct LegPlanQuestion {
     plant::VehicleId vehicle;
     planning::LegRequest request;
     std::vector<planning::ClosedFloor> closures;
+    std::vector<planning::StandingBody> standing;
     std::shared_ptr<const PlantTables> tables;
 };
 
@@ -60,5 +62,14 @@ Result<planning::LegPlan> plan_here(const FleetState& fleet, const planning::Leg
 /// long. Errors: as before; why there is no way, once that has been told.
 Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
                                       const planning::LegRequest& request, Time now);
+
+/// When the plan of its next leg has been barred for a while: another is asked for, and the known
+/// one counts until then.
+void ask_anew(FleetState& fleet, VehicleRun& run, Time now);
+/// What vehicles other than `except` hold of the hall's floor where they stand: a plan that keeps
+/// off it is granted.
+std::vector<planning::StandingBody> standing_floor(const FleetState& fleet,
+                                                   const plant::HallId& hall,
+                                                   const plant::VehicleId& except);
 
 }  // namespace pulseline::fleet

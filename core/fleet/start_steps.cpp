@@ -11,6 +11,7 @@ Result<planning::LegPlan> plan_step(FleetState& fleet, VehicleRun& run, const St
                                     Time now) {
     // The measured pose, not the theoretical one, starts the leg (Tang 2020, section 3.2).
     auto request = leg_request(fleet, run, run.record.pose, step.station, step.mode);
+    ask_anew(fleet, run, now);
     if (!run.newest_plan || run.newest_plan->request != request) {
         auto plan = plan_or_ask(fleet, run, request, now);
         if (!plan) return plan;

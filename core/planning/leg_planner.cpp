@@ -192,7 +192,8 @@ struct LegPlanner::Tables {
         return options;
     }
 
-    Result<LegPlan> plan(const LegRequest& request, bool with_free) {
+    Result<LegPlan> plan(const LegRequest& request, bool with_free,
+                         const std::vector<StandingBody>& standing = {}) {
         auto modes = modes_of(*request.type);
         if (!with_free) std::erase(modes, MotionMode::kFree);
         if (request.mode != MotionMode::kAuto) {
@@ -207,7 +208,7 @@ struct LegPlanner::Tables {
         }
         std::unique_ptr<Tables::Prepared> fresh;
         auto options = assess(request, of(*request.type, request.loaded, fresh), modes,
-                              request.mode == MotionMode::kFree, {});
+                              request.mode == MotionMode::kFree, standing);
         for (ModeOption& option : options) {
             if (option.suggested) return std::move(option.plan);
         }
@@ -309,10 +310,15 @@ Result<LegPlan> LegPlanner::plan_primitive_leg(const LegRequest& request) const 
     return plan_known(request, false);
 }
 
-Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request) const {
+Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
+                                     const std::vector<StandingBody>& standing) const {
     if (request.mode != MotionMode::kFree) {
         auto plan = plan_known(request, false);
         if (plan || !may_need_free_manoeuvre(request)) return plan;
+    }
+    if (!standing.empty()) {
+        auto round = tables_->plan(request, true, standing);
+        if (round && round->closures.empty()) return round;
     }
     return plan_known(request, true);
 }

@@ -103,7 +103,10 @@ public:
 
     /// The plan of request.mode, or for kAuto the suggested one, or why there is none (kAuto: the
     /// reason of the most promising mode).
-    Result<LegPlan> plan_leg(const LegRequest& request) const;
+    /// A free manoeuvre goes round who stands there; where it cannot, as if nobody did: they may be
+    /// asked to leave.
+    Result<LegPlan> plan_leg(const LegRequest& request,
+                             const std::vector<StandingBody>& standing = {}) const;
     /// The same without free manoeuvres, which alone take more than a few milliseconds.
     Result<LegPlan> plan_primitive_leg(const LegRequest& request) const;
 

@@ -164,11 +164,11 @@ void fields(V& visit, S& it) {
     visit(orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates);
 }
 PULSELINE_FIELDS(VehicleMessage, vehicle, order, instant_actions)
-// Closed floor and tables are those of the state it was asked in.
+// Closed floor, who stands where, and tables are those of the state it was asked in.
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, LegPlanQuestion>
 void fields(V& visit, S& it) {
-    auto& [number, vehicle, request, closures, tables] = it;
+    auto& [number, vehicle, request, closures, standing, tables] = it;
     visit(number, vehicle, request);
 }
 PULSELINE_FIELDS(Outputs, records, messages, vehicles, stations, plans_wanted, fleet_changed)

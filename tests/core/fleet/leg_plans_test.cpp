@@ -51,6 +51,72 @@ TEST(LegPlans, AFreeDriveWaitsForItsPlanAndThenGoes) {
         << world.stored(asked.order).reason.code;
 }
 
+/// V2 stands at station 2, between V1 and station 3, and may not move.
+struct Barred {
+    Barred() {
+        plant::Plant plant = hall_of_free_drivers();
+        plant.vehicles.back().home = plant::StationId("s2");
+        world.emplace(std::move(plant));
+        world->connect_all();
+        EXPECT_TRUE(world->fleet->pause_vehicle(plant::VehicleId("V2"), "op", world->now));
+        world->plans_at_once = false;
+        order = world->order("V1", {3}, plant::MotionMode::kFree).value().order.id;
+        world->run(0.5);
+    }
+    void answer(const LegPlanQuestion& question) {
+        world->fleet->leg_planned(question.vehicle, question.number,
+                                  world->answerer.answer(question), world->now);
+        world->settle();
+    }
+    std::optional<World> world;
+    JobOrderId order;
+};
+
+TEST(LegPlans, AFreeDriveGoesRoundWhoStandsInItsWay) {
+    Barred barred;
+    ASSERT_EQ(barred.world->questions.size(), 1u);
+    barred.answer(barred.world->questions.front());
+    barred.world->run(120);
+    EXPECT_EQ(barred.world->stored(barred.order).state, JobState::kEnded)
+        << barred.world->stored(barred.order).reason.code;
+}
+
+TEST(LegPlans, OneThatOthersBarIsAskedForAnewAndKeepsItsReasonMeanwhile) {
+    Barred barred;
+    World& world = *barred.world;
+    ASSERT_EQ(world.questions.size(), 1u);
+    LegPlanQuestion before = world.questions.front();
+    before.standing.clear();  // V2 had not come yet
+    barred.answer(before);
+    EXPECT_EQ(world.stored(barred.order).reason.code, "floor_held");
+    world.run(11);
+
+    ASSERT_EQ(world.questions.size(), 2u);
+    EXPECT_EQ(world.stored(barred.order).reason.code, "floor_held");
+    barred.answer(world.questions.back());
+    world.run(120);
+    EXPECT_EQ(world.stored(barred.order).state, JobState::kEnded)
+        << world.stored(barred.order).reason.code;
+}
+
+TEST(LegPlans, WhereThereIsNoWayAnyMoreTheOneThatWasKnownIsKept) {
+    Barred barred;
+    World& world = *barred.world;
+    LegPlanQuestion before = world.questions.front();
+    before.standing.clear();
+    barred.answer(before);
+    world.run(11);
+    ASSERT_EQ(world.questions.size(), 2u);
+    world.fleet->leg_planned(kV1, world.questions.back().number,
+                             {std::nullopt, {"no_free_way", {{"enclosed", true}}}}, world.now);
+    world.run(1);
+    EXPECT_EQ(world.stored(barred.order).state, JobState::kRunning);
+    ASSERT_TRUE(world.fleet->resume_fleet({plant::VehicleId("V2")}, "op", world.now));
+    world.run(120);
+    EXPECT_EQ(world.stored(barred.order).state, JobState::kEnded)
+        << "V2 was asked to leave: " << world.stored(barred.order).reason.code;
+}
+
 TEST(LegPlans, OneThatIsNotAnsweredIsAskedForAgainAndTheOldAnswerCountsNoMore) {
     Asked asked;
     World& world = asked.world;
