@@ -77,6 +77,23 @@ bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
     return true;
 }
 
+/// Nothing of the leg was sent yet, and its plan was given up so that others can pass. Beside all
+/// places traffic finds no way back: its step begins anew.
+bool drop_unsent(FleetState& fleet, VehicleRun& run, Time now) {
+    const Leg& leg = run.leg();
+    if (run.cancelling || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty()) return false;
+    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
+    if (plan.place != traffic::kNoPlace || plan.last() > plan.passed) return false;
+    JobOrder* order = fleet.find(leg.order);
+    drop_leg(fleet, run, now);
+    if (!order) return true;
+    Step& step = order->steps[order->current_step];
+    step.state = StepState::kPending;
+    step.leg = {};
+    fleet.store(*order);
+    return true;
+}
+
 /// A leg that outlived a restart has its base only; the rest of it is planned again.
 void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
@@ -167,7 +184,8 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
 
 void start_steps(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
-        if (run.has_leg() && !leave_dead_end(fleet, run, now)) plan_rest(fleet, run, now);
+        if (!run.has_leg() || drop_unsent(fleet, run, now)) continue;
+        if (!leave_dead_end(fleet, run, now)) plan_rest(fleet, run, now);
     }
     for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
         VehicleRun* run = fleet.find(order->assigned_vehicle);
