@@ -231,7 +231,7 @@ Outputs Fleet::take_outputs(Time now) {
         const auto& awaited = fleet.find(id)->awaited_plan;
         if (!awaited) continue;
         out.plans_wanted.push_back({awaited->question, id, awaited->request, closed_floors(),
-                                    standing_floor(fleet, awaited->request.hall, id),
+                                    standing_bodies(fleet, awaited->request.hall, id),
                                     fleet.tables});
     }
     return out;

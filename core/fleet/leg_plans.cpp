@@ -30,6 +30,22 @@ bool answers(const AwaitedPlan& known, planning::LegRequest request) {
     return known.request == request;
 }
 
+/// With the floor that each body holds where it stands: a way that keeps off it is granted.
+std::vector<planning::StandingBody> on_held_floor(std::vector<planning::StandingBody> bodies) {
+    constexpr std::size_t kAnyHall = 0;  // its tiles lie where those of the others do
+    for (auto& body : bodies) {
+        std::vector<geometry::Point2> corners;
+        for (const auto tile : traffic::tiles_under(kAnyHall, body.outline, kFloorMargin_m)) {
+            const auto box = traffic::tile_box(tile);
+            corners.insert(
+                corners.end(),
+                {box.min, {box.max.x_m, box.min.y_m}, box.max, {box.min.x_m, box.max.y_m}});
+        }
+        body.outline = {geometry::convex_hull(std::move(corners))};
+    }
+    return bodies;
+}
+
 tl::unexpected<Error> under_way() {
     return fail(Error{Errc::kNeedsPlan,
                       {"plan_under_way", {}},
@@ -74,24 +90,6 @@ void ask_anew(FleetState& fleet, VehicleRun& run, Time now) {
     fleet.plans_wanted.insert(run.record.id);
 }
 
-std::vector<planning::StandingBody> standing_floor(const FleetState& fleet,
-                                                   const plant::HallId& hall,
-                                                   const plant::VehicleId& except) {
-    auto bodies = standing_bodies(fleet, hall, except);
-    for (auto& body : bodies) {
-        std::vector<geometry::Point2> corners;
-        for (const auto tile :
-             traffic::tiles_under(hall_index(fleet, hall.str()), body.outline, kFloorMargin_m)) {
-            const auto box = traffic::tile_box(tile);
-            corners.insert(
-                corners.end(),
-                {box.min, {box.max.x_m, box.min.y_m}, box.max, {box.min.x_m, box.max.y_m}});
-        }
-        body.outline = {geometry::convex_hull(std::move(corners))};
-    }
-    return bodies;
-}
-
 void Fleet::leg_planned(const plant::VehicleId& id, std::int64_t question,
                         const LegPlanAnswer& answer, Time now) {
     FleetState& fleet = input<&Fleet::leg_planned>(now, id, question, answer);
@@ -112,7 +110,7 @@ LegPlanAnswer LegPlanAnswerer::answer(const LegPlanQuestion& question) {
         planner_ = tables_->planner.again();
     }
     planner_->set_closures(question.closures);
-    auto plan = planner_->plan_leg(question.request, question.standing);
+    auto plan = planner_->plan_leg(question.request, on_held_floor(question.standing));
     if (!plan) return {{}, plan.error().reason};
     return {std::move(*plan), {}};
 }

@@ -40,7 +40,7 @@ struct LegPlanQuestion {
     plant::VehicleId vehicle;
     planning::LegRequest request;
     std::vector<planning::ClosedFloor> closures;
-    std::vector<planning::StandingBody> standing;
+    std::vector<planning::StandingBody> standing;  // the others
     std::shared_ptr<const PlantTables> tables;
 };
 
@@ -66,10 +66,5 @@ Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
 /// When the plan of its next leg has been barred for a while: another is asked for, and the known
 /// one counts until then.
 void ask_anew(FleetState& fleet, VehicleRun& run, Time now);
-/// What vehicles other than `except` hold of the hall's floor where they stand: a plan that keeps
-/// off it is granted.
-std::vector<planning::StandingBody> standing_floor(const FleetState& fleet,
-                                                   const plant::HallId& hall,
-                                                   const plant::VehicleId& except);
 
 }  // namespace pulseline::fleet
