@@ -115,11 +115,16 @@ void Fleet::store_works_again(Time now) {
     add_event(fleet, now, "store.recovered", {}, {}, {}, {},
               {{"cause", fleet.store_fault->cause},
                {"read_only_s", seconds(now - fleet.store_fault->since)}});
+    const Time since = fleet.store_fault->since;
     fleet.store_fault.reset();
     fleet.out.fleet_changed = true;
-    // Nobody listened meanwhile: silence counts from now on.
+    // Nobody listened meanwhile: silence counts from now on. Who was gone could not come back.
     for (auto& [id, run] : fleet.vehicles) {
-        if (run.connected) run.last_heard = now;
+        if (run.connected) {
+            run.last_heard = now;
+        } else if (run.last_heard) {
+            run.last_heard = std::min(now, *run.last_heard + (now - since));
+        }
     }
 }
 

@@ -42,6 +42,8 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     run.record.pose = {};
     run.record.hall = {};
     run.record.claim.reset();
+    run.claim_told.reset();
+    run.claim_left = false;
     run.stated.reset();
     JobOrder* order = fleet.orders.of(run.record.id);
     drop_leg(fleet, run, now);

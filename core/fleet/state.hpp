@@ -83,6 +83,8 @@ struct VehicleRun {
         Time at;
     };
     std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
+    std::optional<Time> claim_told;   // newest report that can follow the claim of its record
+    bool claim_left = false;          // the newest report cannot
     std::optional<Time> leg_started;
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
@@ -280,7 +282,8 @@ void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, T
 /// it.
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now);
 bool is_in_doubt(const VehicleRun& run);
-/// Having claimed to be elsewhere it says again that it is where it was known to be.
+/// Having claimed to be elsewhere it says again that it is where it was known to be, or that it
+/// has gone on from there on its leg. A claim that only happens to lie on the leg is not that.
 bool stands_where_known(const FleetState& fleet, const VehicleRun& run, Time now);
 /// A person has looked: it is where it says now.
 void end_doubt(FleetState& fleet, VehicleRun& run, Time now);

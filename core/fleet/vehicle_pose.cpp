@@ -160,6 +160,8 @@ void doubt(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now
     add_event(fleet, now, "vehicle.pose_jumped", {}, run.record.leg, run.record.id, {},
               std::move(params));
     run.record.claim = told;
+    run.claim_told = now;
+    run.claim_left = false;
     run.record.pose_known = false;
     run.stated.reset();
     const Reason jumped{"pose_jumped", {{"vehicle", name}, {"distance_m", distance_m}}};
@@ -169,10 +171,25 @@ void doubt(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now
     keep_doubt(fleet, run, now);
 }
 
+/// Whether a vehicle that is where it claims can say this next. What it said before the server
+/// was restarted is not known, and a wrong code goes along with a vehicle that drives.
+bool can_follow_claim(const VehicleRun& run, const Whereabouts& told, Time now) {
+    const Whereabouts& claim = *run.record.claim;
+    if (claim.hall != told.hall) return false;
+    if (run.claim_left) return is_near(claim.pose, told.pose);
+    if (!run.claim_told) return true;
+    const double way_m = run.type->max_speed_mps * std::max(1.0, speed_share(run)) *
+                         seconds(std::max(kHidesADrive, now - *run.claim_told));
+    return geometry::distance(claim.pose.position(), told.pose.position()) <= kPush_m + way_m;
+}
+
 /// In doubt: the claim goes where the vehicle says to go.
 void follow_claim(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
     Whereabouts& claim = *run.record.claim;
+    run.claim_left = !can_follow_claim(run, told, now);
     if (stands_where_known(fleet, run, now)) return;
+    run.claim_left = false;
+    run.claim_told = now;
     if (claim.hall == told.hall && is_near(claim.pose, told.pose)) return;
     claim = told;
     fleet.store(run);
@@ -212,11 +229,15 @@ bool stands_where_known(const FleetState& fleet, const VehicleRun& run, Time) {
     if (!tells_pose(run) || !run.reconciled) return false;
     const Whereabouts told = told_by(fleet, run);
     if (told.hall != hall_of(fleet, run) || !is_in_hall(fleet, told)) return false;
-    return run.has_leg() ? is_on_leg(run, told.pose) : is_near(run.record.pose, told.pose);
+    const bool has_returned = is_near(run.record.pose, told.pose);
+    if (!run.has_leg()) return has_returned;
+    return (has_returned || run.claim_left) && is_on_leg(run, told.pose);
 }
 
 void end_doubt(FleetState& fleet, VehicleRun& run, Time now) {
     run.record.claim.reset();
+    run.claim_told.reset();
+    run.claim_left = false;
     run.stated.reset();
     run.seen.reset();
     run.seen_before.reset();

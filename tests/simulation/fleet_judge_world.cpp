@@ -102,11 +102,12 @@ void World::step(double dt_s) {
 
 /// After a stall the first tick may come before anything that waits was read.
 void World::listen(double dt_s) {
-    const double still_s = now_s_ - std::exchange(listened_s_, now_s_);
+    const double still_s = now_s_ - listened_s_;
+    if (still_s > kStall_s) settle();  // what was decided before goes out now
+    if (unstored_) return;             // it stands still again
+    listened_s_ = now_s_;
     for (auto& [id, watch] : watch_) watch.unheard_s += dt_s;
     if (still_s <= kStall_s) return;
-    settle();  // what was decided before goes out now
-    if (unstored_) return;
     for (auto& [id, watch] : watch_) watch.told_since_stall = false;
     fleet_->server_stood_still(now() - from_seconds(still_s), now());
     settle();
@@ -249,7 +250,6 @@ void World::retry_store() {
     if (!hung) {  // else it finds out itself that it stood still
         fleet_->store_works_again(now());
         listened_s_ = now_s_;
-        for (auto& [id, watch] : watch_) watch.unheard_s = 0;
     }
     send(out);
 }

@@ -83,12 +83,13 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
-           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
-           areas, awaited_plan, newest_plan, swept] = it;
+           claim_told, claim_left, leg_started, foreign_since, actions, errors_from, errors_told,
+           charge_wait, charge_retry, areas, awaited_plan, newest_plan, swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
-          gave_up, cancelling, floor, seen, seen_before, stated, leg_started, foreign_since,
-          actions, errors_from, errors_told, charge_wait, charge_retry, awaited_plan);
+          gave_up, cancelling, floor, seen, seen_before, stated, claim_told, claim_left,
+          leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
+          awaited_plan);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.

@@ -192,6 +192,21 @@ TEST(Fleet, SilenceIsLateLostGone) {
     EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->link, Link::kGone);
 }
 
+TEST(Fleet, NoSilenceCountsWhileTheStoreFailsOfThoseWhoAreGoneEither) {
+    World world;
+    world.connect_all();
+    world.connected[kV1] = false;
+    world.fleet->vehicle_disconnected(kV1, world.now);
+    world.run(1);
+    world.fleet->store_failed({"disk_full", world.now}, world.now);
+    world.now += std::chrono::seconds(20);
+    world.fleet->store_works_again(world.now);
+    world.run(5);
+    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->link, Link::kLate);
+    world.run(5);
+    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->link, Link::kLost);
+}
+
 TEST(Fleet, NoBaseIsExtendedToASilentVehicle) {
     World world;
     world.connect_all();

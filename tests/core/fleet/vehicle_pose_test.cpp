@@ -254,6 +254,25 @@ TEST(ImpossiblePose, AheadOnItsOwnBaseFartherThanItCanHaveDriven) {
     drive_on_first_edge(world);
     claim(world, {22, 20, 0});  // on its way, but 9.5 m in a second
     EXPECT_TRUE(view(world).claimed_pose);
+    world.run(10);
+    EXPECT_FALSE(world.fleet->resume_fleet({kV1}, "op", world.now)) << "it only said it again";
+    claim(world, {22.5, 20, 0});  // a wrong code goes along
+    EXPECT_FALSE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    EXPECT_TRUE(view(world).claimed_pose);
+}
+
+TEST(ImpossiblePose, OfOneReportWhileDrivingIsOverWhenItSaysThatItHasGoneOn) {
+    World world;
+    drive_on_first_edge(world);
+    claim(world, kAside);
+    world.vehicle("V1").state.driving = false;
+    claim(world, {13.5, 20, 0});
+    EXPECT_TRUE(view(world).claimed_pose) << "nobody has looked yet";
+    world.vehicles_move = true;
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    EXPECT_FALSE(view(world).claimed_pose);
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
 }
 
 TEST(ImpossiblePose, BehindTheNodeThatItSaysItHasPassed) {
