@@ -252,11 +252,11 @@ TEST(ImpossiblePose, WhileDrivingFreesNothingAndEndsTheDrive) {
 TEST(ImpossiblePose, AheadOnItsOwnBaseFartherThanItCanHaveDriven) {
     World world;
     drive_on_first_edge(world);
-    claim(world, {22, 20, 0});  // on its way, but 9.5 m in a second
+    claim(world, {15.8, 20, 0});  // on its base, but 3.3 m in a second
     EXPECT_TRUE(view(world).claimed_pose);
     world.run(10);
     EXPECT_FALSE(world.fleet->resume_fleet({kV1}, "op", world.now)) << "it only said it again";
-    claim(world, {22.5, 20, 0});  // a wrong code goes along
+    claim(world, {16.2, 20, 0});  // a wrong code goes along
     EXPECT_FALSE(world.fleet->resume_fleet({kV1}, "op", world.now));
     EXPECT_TRUE(view(world).claimed_pose);
 }
