@@ -290,11 +290,8 @@ void FleetRuntime::end_store() {
         Published later = std::exchange(unstored_, std::move(ended->batch));
         append(unstored_, std::move(later));
         unstored_snapshot_ = std::move(ended->snapshot);
-        if (first) {
-            fleet_.reset();
-            retry_at_ = {};
-        }
         show_fault();
+        if (first) rebuild();  // at once: reads are answered all the time
         return;
     }
     const Time now = ports_.clock.now();

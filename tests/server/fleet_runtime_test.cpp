@@ -2,178 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <future>
-
-#include "tests/server/memory_stores.hpp"
-#include "tests/server/test_server.hpp"
+#include "tests/server/lone_runtime.hpp"
 
 namespace pulseline::server::testing {
 namespace {
 
-using std::chrono::milliseconds;
-using Steady = std::chrono::steady_clock;
-
-const plant::VehicleId kVehicle("V1");
-constexpr auto kPatience = std::chrono::seconds(60);  // of a busy machine; nothing waits for it
-
-/// The runtime alone; this test's threads stand for the network thread.
-class Runtime {
-public:
-    Runtime() {
-        FleetRuntime::Ports ports{plant_, store, clock, metrics, {}, {}, [] {}};
-        ports.deliver = [this](FleetRuntime::Job job) {
-            if (deliver_throws > 0 && std::this_thread::get_id() != network_.get_id()) {
-                --deliver_throws;
-                throw std::bad_alloc();
-            }
-            const std::lock_guard lock(mutex_);
-            jobs_.push_back(std::move(job));
-            wake_.notify_all();
-        };
-        ports.publish = [this](const Published& batch) { publish(batch); };
-        network_ = std::thread([this] { run(); });
-        runtime.emplace(std::move(ports), 1);
-        if (!runtime->start({})) throw std::runtime_error("did not start");
-        begun_ = true;
-    }
-    ~Runtime() {
-        store.go_on();
-        runtime->stop();
-        {
-            const std::lock_guard lock(mutex_);
-            over_ = true;
-        }
-        wake_.notify_all();
-        network_.join();
-    }
-
-    template <class F>
-    auto ask(F f, bool stops = false) {
-        using R = std::invoke_result_t<F, fleet::Fleet&, Time>;
-        auto promise = std::make_shared<std::promise<Result<R>>>();
-        auto done = [promise](Result<R> result) { promise->set_value(std::move(result)); };
-        if (stops) {
-            runtime->stop_command(std::move(f), std::move(done));
-        } else {
-            runtime->command(std::move(f), std::move(done));
-        }
-        return promise->get_future();
-    }
-    template <class F>
-    auto look(F f) {
-        using R = std::invoke_result_t<F, fleet::Fleet&, Time>;
-        auto promise = std::make_shared<std::promise<Result<R>>>();
-        runtime->read(std::move(f),
-                      [promise](Result<R> result) { promise->set_value(std::move(result)); });
-        return promise->get_future();
-    }
-    void report() {
-        runtime->input(kVehicle, [](fleet::Fleet& fleet, Time now) {
-            fleet.vehicle_connected(kVehicle, now);
-            fleet::StateMessage state;
-            state.header_id = 1;
-            state.position_initialized = true;
-            state.pose = geometry::Pose2{5, 5, 0};
-            state.map_id = "hall";
-            fleet.vehicle_state(kVehicle, state, now);
-        });
-    }
-    template <class F>
-    bool until(F condition) {
-        const auto end = Steady::now() + kPatience;
-        while (!condition()) {
-            if (Steady::now() > end) return false;
-            std::this_thread::sleep_for(milliseconds(2));
-        }
-        return true;
-    }
-    int events(const std::string& type) {
-        const auto all = store.all_events();
-        return static_cast<int>(
-            std::ranges::count_if(all, [&](const auto& event) { return event.type == type; }));
-    }
-    int sent(const std::string& action) {
-        const std::lock_guard lock(mutex_);
-        return static_cast<int>(std::ranges::count(actions_, action));
-    }
-
-    struct LateClock : Clock {
-        std::atomic<std::int64_t> late_ns{0};
-        Time now() const override {
-            if (looks_left_ > 0 && --looks_left_ == 0) act_();
-            return Time{Steady::now().time_since_epoch() + std::chrono::hours(24 * 365)} +
-                   Duration(late_ns);
-        }
-        /// REQUIRES: the fleet thread. It asks for the time when it begins to wait, and when it has
-        /// decided what to do.
-        void between_two_looks(std::function<void()> act) {
-            act_ = std::move(act);
-            looks_left_ = 2;
-        }
-
-    private:
-        std::function<void()> act_;
-        mutable std::atomic<int> looks_left_{0};
-    };
-
-    MemoryStore store;
-    LateClock clock;
-    Metrics metrics;
-    std::atomic<bool> publish_throws{false};
-    std::atomic<int> deliver_throws{0};
-    std::atomic<bool> deaf{false};
-    std::atomic<int> pauses_shown{0};  // views of a fleet that is paused
-    std::optional<FleetRuntime> runtime;
-
-private:
-    void publish(const Published& batch) {
-        if (publish_throws) throw std::runtime_error("a dashboard's frame cannot be made");
-        if (batch.fleet && batch.fleet->paused) ++pauses_shown;
-        const std::lock_guard lock(mutex_);
-        for (const auto& message : batch.outputs.messages) {
-            if (!message.instant_actions) continue;
-            for (const auto& action : message.instant_actions->actions)
-                actions_.push_back(action.type);
-        }
-    }
-    void run() {
-        for (;;) {
-            if (begun_ && !deaf) runtime->listening();
-            FleetRuntime::Job job;
-            {
-                std::unique_lock lock(mutex_);
-                wake_.wait_for(lock, milliseconds(50), [this] { return over_ || !jobs_.empty(); });
-                if (jobs_.empty() && over_) return;
-                if (jobs_.empty()) continue;
-                job = std::move(jobs_.front());
-                jobs_.pop_front();
-            }
-            job();
-        }
-    }
-
-    plant::Plant plant_ = small_plant();
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    std::deque<FleetRuntime::Job> jobs_;
-    std::vector<std::string> actions_;
-    bool over_ = false;
-    std::atomic<bool> begun_{false};
-    std::thread network_;
-};
-
-int pause_fleet(fleet::Fleet& fleet, Time now) {
-    fleet.pause_fleet("person", now);
-    return 1;
-}
 int resume_vehicle(fleet::Fleet& fleet, Time now) {
     return fleet.resume_fleet({kVehicle}, "person", now) ? 1 : 0;
 }
 int throws(fleet::Fleet&, Time) { throw std::runtime_error("a fault of the fleet"); }
 
 TEST(FleetRuntime, WhatCannotBeShownKeepsNobodysAnswer) {
-    Runtime server;
+    LoneRuntime server;
     server.publish_throws = true;
 
     auto paused = server.ask(pause_fleet);
@@ -183,7 +23,7 @@ TEST(FleetRuntime, WhatCannotBeShownKeepsNobodysAnswer) {
 }
 
 TEST(FleetRuntime, OneThatThrowsCostsOthersNothing) {
-    Runtime server;
+    LoneRuntime server;
     // All three wait behind a slow one, so that they are one batch.
     auto first = server.ask([](fleet::Fleet&, Time) {
         std::this_thread::sleep_for(milliseconds(15));
@@ -203,7 +43,7 @@ TEST(FleetRuntime, OneThatThrowsCostsOthersNothing) {
 }
 
 TEST(FleetRuntime, AVehicleWhoseMessageThrowsIsNotListenedToForAWhileAndThenHeard) {
-    Runtime server;
+    LoneRuntime server;
     std::atomic<int> handled{0};
     std::atomic<bool> faulty{true};
     const auto say = [&] {
@@ -226,7 +66,7 @@ TEST(FleetRuntime, AVehicleWhoseMessageThrowsIsNotListenedToForAWhileAndThenHear
 }
 
 TEST(FleetRuntime, AFaultOfTheFleetThreadEndsInReadOnlyAndComesBack) {
-    Runtime server;
+    LoneRuntime server;
     // The answer to the fault cannot be handed over: the exception leaves the batch.
     for (int i = 0; i < 3; ++i) {
         server.deliver_throws = 1;
@@ -246,7 +86,7 @@ TEST(FleetRuntime, AFaultOfTheFleetThreadEndsInReadOnlyAndComesBack) {
 }
 
 TEST(FleetRuntime, AFaultOfTheCommitThreadIsOverByItself) {
-    Runtime server;
+    LoneRuntime server;
     // What is stored cannot be handed over.
     server.deliver_throws = 1;
     server.runtime->command(pause_fleet, [](Result<int>) {});
@@ -259,7 +99,7 @@ TEST(FleetRuntime, AFaultOfTheCommitThreadIsOverByItself) {
 }
 
 TEST(FleetRuntime, AStallIsNobodysSilence) {
-    Runtime server;
+    LoneRuntime server;
     server.report();
     ASSERT_TRUE(server.until([&] { return server.events("vehicle.pose_confirmed") == 1; }));
 
@@ -274,7 +114,7 @@ TEST(FleetRuntime, AStallIsNobodysSilence) {
 }
 
 TEST(FleetRuntime, NothingIsSilenceWhileTheSocketsAreNotRead) {
-    Runtime server;
+    LoneRuntime server;
     server.report();
     ASSERT_TRUE(server.until([&] { return server.events("vehicle.pose_confirmed") == 1; }));
     server.deaf = true;
@@ -296,7 +136,7 @@ constexpr auto kFiveMilliseconds = [](fleet::Fleet&, Time) {
 };
 
 TEST(FleetRuntime, AFloodOfCommandsLeavesRoomForTicksAndReads) {
-    Runtime server;
+    LoneRuntime server;
     ASSERT_TRUE(server.until([&] { return server.runtime->queues().tick_age_s < 0.5; }));
     for (int i = 0; i < 300; ++i) {
         server.runtime->command(kFiveMilliseconds, [](Result<int>) {});
@@ -312,7 +152,7 @@ TEST(FleetRuntime, AFloodOfCommandsLeavesRoomForTicksAndReads) {
 }
 
 TEST(FleetRuntime, AFloodOfReadsLeavesRoomForTicksAndCommands) {
-    Runtime server;
+    LoneRuntime server;
     ASSERT_TRUE(server.until([&] { return server.runtime->queues().tick_age_s < 0.5; }));
     for (int i = 0; i < 300; ++i) {
         server.runtime->read(kFiveMilliseconds, [](Result<int>) {});
@@ -328,7 +168,7 @@ TEST(FleetRuntime, AFloodOfReadsLeavesRoomForTicksAndCommands) {
 }
 
 TEST(FleetRuntime, ACommandThatHasWaitedTooLongChangesNothing) {
-    Runtime server;
+    LoneRuntime server;
     std::promise<void> go;
     auto first = server.ask([gone = go.get_future().share()](fleet::Fleet&, Time) {
         gone.wait();
@@ -347,7 +187,7 @@ TEST(FleetRuntime, ACommandThatHasWaitedTooLongChangesNothing) {
 
 TEST(FailedCommit, IsOfUnknownOutcomeUnlessTheDiskTookNothing) {
     for (const bool full : {false, true}) {
-        Runtime server;
+        LoneRuntime server;
         (full ? server.store.is_full : server.store.fails) = true;
 
         const auto caught = server.ask(pause_fleet).get();
@@ -362,7 +202,7 @@ TEST(FailedCommit, IsOfUnknownOutcomeUnlessTheDiskTookNothing) {
 
 /// The fleet thread has decided what this turn is about, and not yet begun with it.
 TEST(FailedCommit, BetweenTwoLooksOfTheFleetThreadIsToldAndNothingOfItIsShown) {
-    Runtime server;
+    LoneRuntime server;
     server.store.hang();
     auto lost = server.ask(pause_fleet);
     ASSERT_TRUE(server.until([&] { return server.runtime->queues().commits > 0; }));
@@ -386,7 +226,7 @@ TEST(FailedCommit, BetweenTwoLooksOfTheFleetThreadIsToldAndNothingOfItIsShown) {
 }
 
 struct HungDisk : ::testing::Test {
-    Runtime server;
+    LoneRuntime server;
 
     void SetUp() override {
         server.report();
@@ -463,7 +303,7 @@ TEST_F(HungDisk, WhoseHangIsShortCostsNothing) {
 }
 
 TEST(FullDisk, StopsVehiclesAtOnceAndStoresThatWhenItCan) {
-    Runtime server;
+    LoneRuntime server;
     server.report();
     ASSERT_TRUE(server.until([&] { return server.events("vehicle.pose_confirmed") == 1; }));
     server.store.fails = true;
