@@ -191,7 +191,8 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
     const bool stops = next <= plan.last() && !(mutated(Mutation::kReroutedLosesStop) && !ends);
-    if (stops || (leg.order.empty() && station)) {
+    const bool rests = leg.order.empty() && station && leg.nodes.size() > 1;
+    if (stops || rests) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, run, *station, leg)
                                                      : stop_actions(fleet, run, *station, leg.id);

@@ -212,13 +212,16 @@ bool leaves_in_vain(const VehicleRun& run, Time now) {
 void park_idle(FleetState& fleet, Time now) {
     const auto in_vain = std::ranges::count_if(
         fleet.vehicles, [&](const auto& entry) { return leaves_in_vain(entry.second, now); });
-    std::optional<WaitedFor> wanted;
+    std::optional<WaitedFor> found;
+    const auto wanted = [&]() -> const WaitedFor& {
+        if (!found) found = waited_for(fleet);
+        return *found;
+    };
     const auto is_wanted_away = [&](const VehicleRun& run) {
-        if (!wanted) wanted = waited_for(fleet);
         // Traffic moves who stands at a place aside when that helps; a load stays when it does not.
         const bool asked = !is_loaded(run) || !has_place(fleet, run);
-        return wanted->on_the_way.contains(run.floor.vehicle) ||
-               (asked && wanted->named.contains(run.floor.vehicle)) ||
+        return wanted().on_the_way.contains(run.floor.vehicle) ||
+               (asked && wanted().named.contains(run.floor.vehicle)) ||
                leaves_for(fleet, run) != nullptr;
     };
     for (auto& [id, run] : fleet.vehicles) {
@@ -241,8 +244,9 @@ void park_idle(FleetState& fleet, Time now) {
             const bool stuck = long_idle && order;
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
             // What bars another's way is said to be who rests at its end; it may be this one, who
-            // stands on the way.
-            const bool others_in_vain = in_vain > (leaves_in_vain(run, now) ? 1 : 0);
+            // stands on the way, of the other's or of who would leave for it.
+            const bool others_in_vain =
+                in_vain > (leaves_in_vain(run, now) ? 1 : 0) || !wanted().named.empty();
             const bool clears = long_idle && others_in_vain;
             const bool by_itself = (stuck || clears) && !is_loaded(run);
             if (soon || (!by_itself && !is_wanted_away(run))) continue;

@@ -77,13 +77,15 @@ bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
     return true;
 }
 
-/// Nothing of the leg was sent yet, and its plan was given up so that others can pass. Beside all
-/// places traffic finds no way back: its step begins anew.
+/// Nothing of the leg was sent yet, and its plan was given up so that others can pass. One that
+/// would have left has nobody to leave for any more; beside all places traffic finds no way back,
+/// and the step begins anew.
 bool drop_unsent(FleetState& fleet, VehicleRun& run, Time now) {
     const Leg& leg = run.leg();
     if (run.cancelling || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty()) return false;
     const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
-    if (plan.place != traffic::kNoPlace || plan.last() > plan.passed) return false;
+    if (plan.last() > plan.passed) return false;
+    if (!leg.order.empty() && plan.place != traffic::kNoPlace) return false;
     JobOrder* order = fleet.find(leg.order);
     drop_leg(fleet, run, now);
     if (!order) return true;

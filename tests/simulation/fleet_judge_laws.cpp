@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cstdio>
+#include <map>
+#include <ranges>
+#include <set>
 
 #include "core/kinematics/motion.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
@@ -200,7 +203,27 @@ void World::check_transition(const fleet::Event& event) {
     }
 }
 
+/// No vehicle has two orders, be they of these records or of before.
+void World::check_one_order_each(const fleet::Records& records) {
+    std::map<plant::VehicleId, fleet::JobOrderId> has;
+    const auto note = [&](const fleet::JobOrder& order) {
+        if (order.assigned_vehicle.empty() || fleet::is_final(order.state)) return;
+        const auto [other, fresh] = has.try_emplace(order.assigned_vehicle, order.id);
+        if (!fresh && other->second != order.id)
+            violate(order.assigned_vehicle.str() + " has the orders " + other->second.str() +
+                    " and " + order.id.str());
+    };
+    std::set<fleet::JobOrderId> told;
+    for (const auto& order : std::views::reverse(records.orders)) {
+        if (told.insert(order.id).second) note(order);
+    }
+    for (const auto& [id, order] : store_.orders) {
+        if (!told.contains(id)) note(order);
+    }
+}
+
 void World::check_records(const fleet::Records& records) {
+    if (!records.orders.empty()) check_one_order_each(records);
     for (const auto& event : records.events) {
         if (event.seq != last_seq_ + 1) {
             violate("event " + std::to_string(event.seq) + " follows " + std::to_string(last_seq_));

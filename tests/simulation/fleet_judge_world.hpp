@@ -145,6 +145,7 @@ private:
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
     void check_records(const fleet::Records& records);
+    void check_one_order_each(const fleet::Records& records);
     void check_link(const fleet::Event& event);
     void check_transition(const fleet::Event& event);
     void check_all();
