@@ -243,11 +243,10 @@ void park_idle(FleetState& fleet, Time now) {
             // Its own order's way from here may be barred for ever where the roads' is not.
             const bool stuck = long_idle && order;
             const bool soon = run.floor.next_leave && now < *run.floor.next_leave;
-            // What bars another's way is said to be who rests at its end; it may be this one, who
-            // stands on the way, of the other's or of who would leave for it.
-            const bool others_in_vain =
-                in_vain > (leaves_in_vain(run, now) ? 1 : 0) || !wanted().named.empty();
-            const bool clears = long_idle && others_in_vain;
+            // What bars another's way is said to be who rests at its end. It may be this one, who
+            // stands on that way, or on the way out of the one at rest.
+            const bool others_in_vain = in_vain > (leaves_in_vain(run, now) ? 1 : 0);
+            const bool clears = long_idle && (others_in_vain || !wanted().named.empty());
             const bool by_itself = (stuck || clears) && !is_loaded(run);
             if (soon || (!by_itself && !is_wanted_away(run))) continue;
             if (ends_charging(fleet, run, now)) continue;

@@ -96,13 +96,13 @@ Hunt start(int mutation, std::uint64_t seeds, bool rare, const Options& options,
         const std::uint64_t seed = number == 0 ? kPlanted[mutation].found_by : number;
         if (seed == 0) continue;
         dprintf(pipes[1], "seed %llu", static_cast<unsigned long long>(seed));
-        fleet::planted_mutation = static_cast<fleet::Mutation>(mutation);
         const Outcome outcome = judge_seed(seed, options);
         if (!outcome.violations.empty()) {
             dprintf(pipes[1], ": %s\n", outcome.violations.front().c_str());
             fleet::planted_mutation = fleet::Mutation::kNone;
             if (judge_seed(seed, options).violations.empty()) _exit(1);
-            dprintf(pipes[1], "that seed, which fails without the planted bug too\n");
+            dprintf(pipes[1], "seed %llu, which fails without the planted bug too\n",
+                    static_cast<unsigned long long>(seed));
             _exit(0);
         }
         dprintf(pipes[1], "\n");
