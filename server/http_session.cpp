@@ -260,7 +260,7 @@ tl::expected<api::Request, api::Response> understand(Context& context, const Upg
 }  // namespace
 
 template <class Stream>
-net::awaitable<void> http_session(Context& context, Stream stream, std::string peer) {
+net::awaitable<Next> http_session(Context& context, Stream stream, std::string peer) {
     const Limits& limits = context.options.limits;
     error_code ignored;
     beast::get_lowest_layer(stream).socket().set_option(
@@ -321,10 +321,9 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             note(context, request, "/vehicles/{manufacturer}/{serialNumber}",
                  admitted ? 101 : admitted.error().status, start);
             if (admitted) {
-                buffer = beast::flat_buffer{};  // a vehicle stays for days
                 end_abruptly(stream, false);
-                co_await vehicle_session(context, std::move(stream), std::move(message), *admitted);
-                co_return;
+                co_return vehicle_session(context, std::move(stream), std::move(message),
+                                          *admitted);
             }
             keep =
                 co_await write_response(context, stream, request, admitted.error(), version, keep);
@@ -342,9 +341,8 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
             if (upgrade) {
                 note(context, request, out.route, 101, start);
                 end_abruptly(stream, false);
-                co_await stream_session(context, std::move(stream), std::move(message),
-                                        std::move(request));
-                co_return;
+                co_return stream_session(context, std::move(stream), std::move(message),
+                                         std::move(request));
             }
             out.response = upgrade_required(request);
         }
@@ -353,9 +351,10 @@ net::awaitable<void> http_session(Context& context, Stream stream, std::string p
                                        out.asset);
     }
     co_await close_gently(stream, linger);
+    co_return std::nullopt;
 }
 
-template net::awaitable<void> http_session(Context&, PlainStream, std::string);
-template net::awaitable<void> http_session(Context&, TlsStream, std::string);
+template net::awaitable<Next> http_session(Context&, PlainStream, std::string);
+template net::awaitable<Next> http_session(Context&, TlsStream, std::string);
 
 }  // namespace pulseline::server

@@ -32,20 +32,25 @@ struct Place {
     Quota::Slot slot;
 };
 
+/// What the connection is at first, whatever it goes on as.
+net::awaitable<Next> first_session(Context& context, tcp::socket socket, Tls* tls,
+                                   std::string peer) {
+    error_code ec;
+    socket.set_option(tcp::no_delay(true), ec);
+    PlainStream plain(std::move(socket));
+    if (!tls) co_return co_await http_session(context, std::move(plain), std::move(peer));
+    TlsStream stream(std::move(plain), tls->context);
+    beast::get_lowest_layer(stream).expires_after(context.options.limits.tls_handshake);
+    co_await stream.async_handshake(ssl::stream_base::server, into(ec));
+    if (ec) co_return std::nullopt;
+    co_return co_await http_session(context, std::move(stream), std::move(peer));
+}
+
 net::awaitable<void> serve(Context& context, tcp::socket socket, Tls* tls, Quota::Slot slot,
                            std::string peer) {
     const Place place(context, std::move(slot));
-    error_code ec;
-    socket.set_option(tcp::no_delay(true), ec);
-    if (!tls) {
-        co_await http_session(context, PlainStream(std::move(socket)), std::move(peer));
-        co_return;
-    }
-    TlsStream stream(PlainStream(std::move(socket)), tls->context);
-    beast::get_lowest_layer(stream).expires_after(context.options.limits.tls_handshake);
-    co_await stream.async_handshake(ssl::stream_base::server, into(ec));
-    if (ec) co_return;
-    co_await http_session(context, std::move(stream), std::move(peer));
+    auto next = co_await first_session(context, std::move(socket), tls, std::move(peer));
+    if (next) co_await std::move(*next);
 }
 
 }  // namespace

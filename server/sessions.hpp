@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "server/context.hpp"
@@ -7,9 +8,13 @@
 /// One coroutine each. Stream is PlainStream or TlsStream; both are instantiated in the .cpp.
 namespace pulseline::server {
 
+/// What a connection goes on as when its HTTP is over: not started yet, and nothing of what HTTP
+/// needed is kept for it, because it stays for days. None: the connection has ended.
+using Next = std::optional<net::awaitable<void>>;
+
 /// Reads, routes and answers requests until the connection ends or becomes something else.
 template <class Stream>
-net::awaitable<void> http_session(Context& context, Stream stream, std::string peer);
+net::awaitable<Next> http_session(Context& context, Stream stream, std::string peer);
 
 /// /api/v1/stream, after the identity and origin were checked.
 template <class Stream>

@@ -106,12 +106,11 @@ void rethrow(const std::exception_ptr& error) {
     }
 }
 
-}  // namespace
-
+/// The WebSocket, or none when the other side did not see it through. What only the greeting needs
+/// ends with it: a dashboard stays for days.
 template <class Stream>
-net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upgrade,
-                                    api::Request request) {
-    const auto slot = context.streams.take(request.identity.name);
+net::awaitable<std::shared_ptr<Session<Stream>>> accept(Context& context, Stream stream,
+                                                        Upgrade upgrade, api::Request request) {
     error_code ec;
     // Old poses in a long kernel queue would look new.
     beast::get_lowest_layer(stream).socket().set_option(net::socket_base::send_buffer_size(65536),
@@ -119,19 +118,33 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
     beast::get_lowest_layer(stream).expires_never();  // the WebSocket keeps its own time
     beast::get_lowest_layer(stream).rate_policy().read_limit(
         context.options.limits.stream_bytes_per_second);
-    auto session = std::make_shared<Session<Stream>>(context, std::move(stream), request.identity);
+    auto session =
+        std::make_shared<Session<Stream>>(context, std::move(stream), std::move(request.identity));
     auto& socket = session->socket;
     socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10),
                                                       context.options.limits.stream_dead, true});
-    socket.set_option(websocket::stream_base::decorator([&](websocket::response_type& response) {
-        response.erase(http::field::server);
-        response.set("X-Request-Id", request.request_id);
-    }));
+    socket.set_option(websocket::stream_base::decorator(
+        [id = std::move(request.request_id)](websocket::response_type& response) {
+            response.erase(http::field::server);
+            response.set("X-Request-Id", id);
+        }));
     socket.read_message_max(context.options.limits.stream_message_bytes);
     socket.auto_fragment(false);
     socket.text(true);
     co_await socket.async_accept(upgrade, into(ec));
-    if (ec) co_return;
+    if (ec) co_return nullptr;
+    co_return session;
+}
+
+}  // namespace
+
+template <class Stream>
+net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upgrade,
+                                    api::Request request) {
+    const auto slot = context.streams.take(request.identity.name);
+    const auto session =
+        co_await accept(context, std::move(stream), std::move(upgrade), std::move(request));
+    if (!session) co_return;
     if (!slot) session->close(1013, "too many open streams of this account");
 
     session->client.wake = [raw = session.get()] { raw->signal.set(); };

@@ -138,6 +138,7 @@ net::awaitable<void> vehicle_session(Context& context, Stream stream, Upgrade up
     socket.text(true);
     co_await socket.async_accept(upgrade, into(ec));
     if (ec) co_return;
+    upgrade = {};  // a vehicle stays for days
     // A pong is a sign of life like any frame.
     socket.control_callback([raw = session.get()](websocket::frame_type, beast::string_view) {
         raw->context.gateway.heard(raw->id, raw);
