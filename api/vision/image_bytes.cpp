@@ -90,6 +90,11 @@ std::optional<Size> header_size(std::string_view bytes) {
     if (bytes.starts_with(std::string_view("\x89PNG\r\n\x1a\n", 8))) return png_size(bytes);
     if (bytes.starts_with("\xFF\xD8\xFF")) return jpeg_size(bytes);
     if (bytes.starts_with("BM")) return bmp_size(bytes);
+    // OpenCV knows such an image by the white space behind its number, too. Without it the bytes
+    // would go to whichever of its many other readers wants them, and not all of those survive any
+    // bytes.
+    constexpr std::string_view kSpace = " \t\n\v\f\r";
+    if (bytes.size() < 3 || kSpace.find(bytes[2]) == std::string_view::npos) return std::nullopt;
     for (const char* magic : {"P2", "P3", "P5", "P6"})
         if (bytes.starts_with(magic)) return pnm_size(bytes);
     return std::nullopt;

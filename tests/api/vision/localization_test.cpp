@@ -197,6 +197,12 @@ TEST_F(Localize, WhatIsNoImageOfTheCameraIsRefusedWithTheField) {
     EXPECT_EQ(reason(with("")), "image_unreadable /images/0/image");
     EXPECT_EQ(reason(with("no image at all")), "image_unreadable /images/0/image");
     EXPECT_EQ(reason(with(good.substr(0, good.size() / 2))), "image_unreadable /images/0/image");
+    // Begins like a PGM and is a DICOM image to OpenCV, whose reader of those ends the process.
+    const std::string dicom =
+        std::string("DICM\x02\0\x09\0UI\x06\x35\x13\x31\xdc\x6f\x31\x44", 18) +
+        "\x0e\x15\x7c\xb8\x31\xae 4 4 255\n" + std::string(64, 'a');
+    EXPECT_EQ(reason(with("P5#\n4 4 255\n" + std::string(116, 'x') + dicom)),
+              "image_unreadable /images/0/image");
     EXPECT_EQ(reason(with(plain(100, 100, 0))), "image_size /images/0/image");
     EXPECT_EQ(reason(with(plain(8000, 8000, 0))), "image_unreadable /images/0/image");
     EXPECT_EQ(reason(with(plain(1024, 1280, 0))), "no_marker_in_view");
