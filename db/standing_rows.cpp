@@ -12,6 +12,7 @@ void ScheduleRow::set(const fleet::Schedule& schedule) {
     name = schedule.name;
     every_ns = when.every.count();
     daily_at_s = seconds_to_json(when.daily_at_s);
+    time_zone = when.time_zone;
     window_ns = when.window.count();
     from_ns = to_ns(when.from);
     until_ns = when.until ? to_ns(*when.until) : 0;
@@ -34,6 +35,7 @@ fleet::Schedule ScheduleRow::get() const {
     schedule.name = name;
     schedule.recurrence.every = Duration(every_ns);
     schedule.recurrence.daily_at_s = seconds_from_json(daily_at_s);
+    schedule.recurrence.time_zone = time_zone;
     schedule.recurrence.window = Duration(window_ns);
     schedule.recurrence.from = time_from_ns(from_ns);
     if (until_ns != 0) schedule.recurrence.until = time_from_ns(until_ns);

@@ -6,6 +6,7 @@
 
 #include "api/http/order_body.hpp"
 #include "api/http/requests.hpp"
+#include "core/base/time_zone.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -53,13 +54,22 @@ fleet::Recurrence read_recurrence(ObjectReader& in) {
             const int second = second_of_day(text);
             if (second < 0) {
                 in.errors().add(pointer, {"bad_time_of_day", {}},
-                                "Write the time of day in UTC as 06:30 or 06:30:00.");
+                                "Write the time of day as 06:30 or 06:30:00.");
             }
             when.daily_at_s.push_back(second);
         });
     std::sort(when.daily_at_s.begin(), when.daily_at_s.end());
     const auto same = std::unique(when.daily_at_s.begin(), when.daily_at_s.end());
     when.daily_at_s.erase(same, when.daily_at_s.end());
+    when.time_zone = in.text_or("time_zone", when.time_zone, {1, 64});
+    if (in.has("time_zone") && !daily) {
+        in.errors().add("/time_zone", {"time_zone_without_daily", {}},
+                        "A time zone goes with daily_at; leave it out here.");
+    } else if (!is_time_zone(when.time_zone)) {
+        in.errors().add(
+            "/time_zone", {"unknown_time_zone", {{"time_zone", when.time_zone}}},
+            "Name a zone of the tz database, as Europe/Berlin, or leave it out for UTC.");
+    }
     const std::int64_t usual_s =
         every ? std::max<std::int64_t>(1, when.every / std::chrono::seconds(1)) : kDailyWindow_s;
     when.window =
@@ -109,6 +119,7 @@ Json schedule_json(const fleet::Schedule& schedule) {
         json["daily_at"] = list_json(when.daily_at_s, [](int s) {
             return fmt::format("{:02}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
         });
+        json["time_zone"] = when.time_zone;
     }
     if (when.until) json["until"] = rfc3339(*when.until);
     if (schedule.next && !schedule.paused) json["next_at"] = rfc3339(*schedule.next);

@@ -1,37 +1,36 @@
 #include <algorithm>
 
+#include "core/base/time_zone.hpp"
 #include "core/fleet/standing_orders.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
-constexpr std::int64_t kDay_ns = 86'400LL * 1'000'000'000;
-
-/// Floor division: times before 1970 are nobody's, but must not round up.
-std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
-
-Time daily(std::int64_t day, int second) {
-    return time_from_ns(day * kDay_ns + std::int64_t{second} * 1'000'000'000);
+/// Its times on the days `first` to `last` days after that of `t`, as clocks there show them. Two
+/// of them can be one moment, and their order is not that of the clock, where summer time begins.
+std::vector<Time> daily(const Recurrence& r, Time t, int first, int last) {
+    std::vector<Time> times;
+    if (!is_time_zone(r.time_zone)) return times;  // gone from the database since: nothing is made
+    const std::int64_t today = local_day(r.time_zone, t);
+    for (std::int64_t day = today + first; day <= today + last; ++day) {
+        for (const int second : r.daily_at_s) {
+            times.push_back(local_time(r.time_zone, day, second));
+        }
+    }
+    std::ranges::sort(times);
+    return times;
 }
 
 std::optional<Time> next_daily(const Recurrence& r, Time after) {
-    const std::int64_t day = floor_div(to_ns(after), kDay_ns);
-    for (std::int64_t d = day; d <= day + 1; ++d) {
-        for (const int second : r.daily_at_s) {
-            if (const Time at = daily(d, second); at > after) return at;
-        }
-    }
-    return std::nullopt;
+    const std::vector<Time> times = daily(r, after, 0, 2);
+    const auto it = std::ranges::upper_bound(times, after);
+    return it == times.end() ? std::nullopt : std::optional(*it);
 }
 
 std::optional<Time> last_daily(const Recurrence& r, Time now) {
-    const std::int64_t day = floor_div(to_ns(now), kDay_ns);
-    for (std::int64_t d = day; d >= day - 1; --d) {
-        for (auto it = r.daily_at_s.rbegin(); it != r.daily_at_s.rend(); ++it) {
-            if (const Time at = daily(d, *it); at <= now) return at;
-        }
-    }
-    return std::nullopt;
+    const std::vector<Time> times = daily(r, now, -2, 0);
+    const auto it = std::ranges::upper_bound(times, now);
+    return it == times.begin() ? std::nullopt : std::optional(*std::prev(it));
 }
 
 }  // namespace

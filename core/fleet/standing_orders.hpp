@@ -27,11 +27,12 @@ struct OrderTemplate {
     }
 };
 
-/// When a schedule makes its orders: every so often from `from` on, or daily at times of day (UTC).
+/// When a schedule makes its orders: every so often from `from` on, or daily at times of day.
 struct Recurrence {
-    Duration every{0};            // 0: daily
-    std::vector<int> daily_at_s;  // seconds after midnight UTC, ascending
-    Duration window{0};           // an order not made this long after its time is left out
+    Duration every{0};              // 0: daily
+    std::vector<int> daily_at_s;    // seconds after midnight in time_zone, ascending
+    std::string time_zone = "UTC";  // name in the tz database
+    Duration window{0};             // an order not made this long after its time is left out
     Time from;
     std::optional<Time> until;
     friend bool operator==(const Recurrence&, const Recurrence&) = default;

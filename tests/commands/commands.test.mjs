@@ -176,3 +176,15 @@ test("./dev run serves the page and its vehicles on a bare machine", { timeout: 
     rmSync(folder, { recursive: true, force: true });
   }
 });
+
+test("both programs are built as what is attacked from outside: addresses at random, no table that can be written, checked copies", () => {
+  for (const name of ["pulseline", "pulseline-agent"]) {
+    const read = (...flags) => execFileSync("readelf", ["-W", ...flags, join(BUILD, name)], { encoding: "utf8", maxBuffer: 1 << 28 });
+    assert.match(read("-h"), /Type:\s+DYN/, `${name}: position independent`);
+    assert.match(read("-l"), /GNU_RELRO/, name);
+    assert.match(read("-d"), /BIND_NOW|Flags:.*NOW/, name);
+    const calls = read("--dyn-syms");
+    assert.match(calls, /__stack_chk_fail/, name);
+    assert.match(calls, /__mem(cpy|move|set)_chk/, `${name}: _FORTIFY_SOURCE`);
+  }
+});

@@ -72,6 +72,7 @@ public:
         s.id = fleet::ScheduleId(ids_.next(at(ms)));
         s.name = name;
         s.recurrence.daily_at_s = {60, 7200};
+        s.recurrence.time_zone = "Europe/Berlin";
         s.recurrence.window = std::chrono::seconds(900);
         s.recurrence.from = at(ms);
         s.recurrence.until = at(ms + 86'400'000);

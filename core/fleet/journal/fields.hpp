@@ -136,7 +136,7 @@ PULSELINE_FIELDS(NewOrder, client_order_id, vehicle, vehicle_type, priority, sta
 PULSELINE_FIELDS(Closure, id, name, hall, outline, edges, created_by, created)
 PULSELINE_FIELDS(NewClosure, name, hall, outline, edges)
 PULSELINE_FIELDS(OrderTemplate, name, description, parameters, body, created_by, created, deleted)
-PULSELINE_FIELDS(Recurrence, every, daily_at_s, window, from, until)
+PULSELINE_FIELDS(Recurrence, every, daily_at_s, time_zone, window, from, until)
 PULSELINE_FIELDS(NewSchedule, name, recurrence, order, actor)
 PULSELINE_FIELDS(Schedule, id, name, recurrence, order, paused, next, newest_order, made, skipped,
                  last_skip, created_by, created, revision, deleted)

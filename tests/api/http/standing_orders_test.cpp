@@ -141,14 +141,25 @@ TEST(Schedules, AreMadeShownPausedResumedAndDeleted) {
     EXPECT_EQ(api.post(at + "/pause").status, 404);
 }
 
-TEST(Schedules, DailyOnesHaveTimesOfDayInUtc) {
+TEST(Schedules, DailyOnesHaveTimesOfDay) {
     ApiWorld api;
     const Answer made = api.post(
         kSchedules,
         R"({"name":"d","daily_at":["14:30","06:00:15"],"order":{"steps":[{"station":2}]}})");
     ASSERT_EQ(made.status, 201) << made.body;
     EXPECT_EQ(made.json()["daily_at"], Json({"06:00:15", "14:30:00"}));
+    EXPECT_EQ(made.json()["time_zone"], "UTC");
     EXPECT_EQ(made.json()["window_s"], 3600);
+}
+
+TEST(Schedules, DailyOnesFollowTheClockOfTheirTimeZone) {
+    ApiWorld api;
+    const Answer made = api.post(
+        kSchedules,
+        R"({"name":"d","daily_at":["06:00"],"time_zone":"Asia/Shanghai","order":{"steps":[{"station":2}]}})");
+    ASSERT_EQ(made.status, 201) << made.body;
+    EXPECT_EQ(made.json()["time_zone"], "Asia/Shanghai");
+    EXPECT_EQ(made.json()["next_at"].get<std::string>().substr(10), "T22:00:00.000Z");
 }
 
 TEST(Schedules, FaultsNameTheField) {
@@ -167,6 +178,12 @@ TEST(Schedules, FaultsNameTheField) {
     refused(R"("daily_at":["6:00"],)" + order, 400, "bad_time_of_day", "/daily_at/0");
     refused(R"("daily_at":["06:60"],)" + order, 400, "bad_time_of_day", "/daily_at/0");
     refused(R"("daily_at":[],)" + order, 400, "wrong_count", "/daily_at");
+    refused(R"("daily_at":["06:00"],"time_zone":"Europe/Atlantis",)" + order, 400,
+            "unknown_time_zone", "/time_zone");
+    refused(R"("daily_at":["06:00"],"time_zone":"../../../etc/passwd",)" + order, 400,
+            "unknown_time_zone", "/time_zone");
+    refused(R"("every_s":60,"time_zone":"UTC",)" + order, 400, "time_zone_without_daily",
+            "/time_zone");
     refused(R"("every_s":60,"until":"2001-01-01T00:00:00Z",)" + order, 422, "schedule_over",
             "/until");
     refused(R"("every_s":60,"order":{"steps":[{"station":2}],"due":"2030-01-01T00:00:00Z"})", 400,

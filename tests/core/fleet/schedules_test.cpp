@@ -37,6 +37,35 @@ TEST(Recurrence, DailyTimesGoOnTheNextDay) {
     EXPECT_EQ(last_time(r, at(10, 3600)), at(9, 14 * 3600));
 }
 
+TEST(Recurrence, DailyTimesFollowTheClockOfTheirZone) {
+    Recurrence r;
+    r.daily_at_s = {6 * 3600};
+    r.time_zone = "Europe/Berlin";
+    const std::int64_t change = 20'541;  // 2026-03-29
+    EXPECT_EQ(next_time(r, at(change - 1, 0)), at(change - 1, 5 * 3600));
+    EXPECT_EQ(next_time(r, at(change - 1, 5 * 3600)), at(change, 4 * 3600)) << "23 hours later";
+    EXPECT_EQ(last_time(r, at(change, 4 * 3600)), at(change, 4 * 3600));
+    EXPECT_EQ(last_time(r, at(change, 4 * 3600 - 1)), at(change - 1, 5 * 3600));
+}
+
+TEST(Recurrence, TimesThatFallTogetherAtTheChangeOfTheClockAreOne) {
+    Recurrence r;
+    r.daily_at_s = {2 * 3600 + 1800, 3 * 3600 + 600, 3 * 3600 + 1800};
+    r.time_zone = "Europe/Berlin";
+    const std::int64_t change = 20'541;
+    EXPECT_EQ(next_time(r, at(change, 0)), at(change, 3600 + 600)) << "03:10, before 02:30";
+    EXPECT_EQ(next_time(r, at(change, 3600 + 600)), at(change, 3600 + 1800)) << "02:30 and 03:30";
+    EXPECT_EQ(next_time(r, at(change, 3600 + 1800)), at(change + 1, 1800));
+}
+
+TEST(Recurrence, AZoneThatIsNoMoreMakesNothing) {
+    Recurrence r;
+    r.daily_at_s = {3600};
+    r.time_zone = "Europe/Atlantis";
+    EXPECT_EQ(next_time(r, at(10, 0)), std::nullopt);
+    EXPECT_EQ(last_time(r, at(10, 0)), std::nullopt);
+}
+
 TEST(Recurrence, EndsAfterUntil) {
     Recurrence r;
     r.daily_at_s = {3600};
