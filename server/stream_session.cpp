@@ -7,6 +7,41 @@ namespace {
 constexpr auto kRecheck = std::chrono::seconds(10);  // is the session behind it still good
 constexpr auto kCloseTime = std::chrono::seconds(3);
 
+/// How far a reader is behind, by pings that it answers when it comes to them. What lies in queues
+/// between here and there cannot be made newer, so little is let into them where reading is slow:
+/// the rest waits in StreamClient, where only the newest is kept.
+class Pace {
+public:
+    using Clock = std::chrono::steady_clock;
+    static constexpr std::string_view kMark = "pace";
+
+    /// Whether more may be written now.
+    bool may_write(Clock::time_point now) const {
+        return !waiting_ || (!slow_ && now - asked_ < kSlow);
+    }
+    /// Bytes to write at once; what is longer goes in pieces, so that a ping comes between.
+    std::size_t piece_bytes() const { return slow_ ? 8U << 10U : 256U << 10U; }
+    /// Whether a ping is to follow what was written now.
+    bool must_ask(Clock::time_point now) const {
+        return !waiting_ && (slow_ || now - asked_ >= kAskEvery);
+    }
+    void asked(Clock::time_point now) {
+        waiting_ = true;
+        asked_ = now;
+    }
+    void answered(Clock::time_point now) {
+        waiting_ = false;
+        slow_ = now - asked_ >= kSlow;
+    }
+
+private:
+    static constexpr auto kSlow = std::chrono::seconds(1);
+    static constexpr auto kAskEvery = std::chrono::seconds(1);  // of a fast one: a ping is a write
+    bool waiting_ = false;                                      // a ping has no answer yet
+    bool slow_ = true;  // until the first answer says otherwise
+    Clock::time_point asked_{};
+};
+
 template <class Stream>
 struct Session {
     Session(Context& c, Stream s, access::Identity who)
@@ -18,6 +53,11 @@ struct Session {
     access::Identity identity;
     StreamClient client;
     Signal signal;
+    Pace pace;
+    struct {
+        Frame frame;
+        std::size_t at = 0;
+    } writing;
     bool ended = false;            // the reader saw the end
     std::uint16_t close_with = 0;  // asks the writer to close
     const char* close_reason = "";
@@ -47,6 +87,25 @@ net::awaitable<void> close_socket(std::shared_ptr<Session<Stream>> session) {
     beast::get_lowest_layer(session->socket).close();
 }
 
+/// The next piece of the frame that is being written, and a ping behind it when one is due.
+template <class Stream>
+net::awaitable<error_code> write_piece(std::shared_ptr<Session<Stream>> session) {
+    auto& [frame, at] = session->writing;
+    Pace& pace = session->pace;
+    error_code ec;
+    const std::size_t bytes = std::min(pace.piece_bytes(), frame->size() - at);
+    const bool is_last = at + bytes == frame->size();
+    co_await session->socket.async_write_some(is_last, net::buffer(frame->data() + at, bytes),
+                                              into(ec));
+    at += bytes;
+    if (is_last) session->writing = {};
+    if (!ec && pace.must_ask(Pace::Clock::now())) {
+        pace.asked(Pace::Clock::now());
+        co_await session->socket.async_ping({Pace::kMark.data(), Pace::kMark.size()}, into(ec));
+    }
+    co_return ec;
+}
+
 template <class Stream>
 net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
     auto& context = session->context;
@@ -61,14 +120,14 @@ net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
             co_await close_socket(session);
             break;
         }
-        const Frame frame = context.hub.next(session->client);
-        if (!frame) {
+        const bool may_write = session->pace.may_write(Pace::Clock::now());
+        Frame& frame = session->writing.frame;
+        if (may_write && !frame) frame = context.hub.next(session->client);
+        if (!may_write || !frame) {
             co_await session->signal.wait(kRecheck);
             continue;
         }
-        error_code ec;
-        co_await session->socket.async_write(net::buffer(*frame), into(ec));
-        if (ec) break;
+        if (co_await write_piece(session)) break;
     }
     context.hub.remove(session->client);
     session->client.subscribed = false;
@@ -131,6 +190,12 @@ net::awaitable<std::shared_ptr<Session<Stream>>> accept(Context& context, Stream
     socket.read_message_max(context.options.limits.stream_message_bytes);
     socket.auto_fragment(false);
     socket.text(true);
+    socket.control_callback(
+        [raw = session.get()](websocket::frame_type kind, beast::string_view payload) {
+            if (kind != websocket::frame_type::pong || payload != Pace::kMark) return;
+            raw->pace.answered(Pace::Clock::now());
+            raw->signal.set();
+        });
     co_await socket.async_accept(upgrade, into(ec));
     if (ec) co_return nullptr;
     co_return session;
