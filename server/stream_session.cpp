@@ -13,7 +13,7 @@ constexpr auto kCloseTime = std::chrono::seconds(3);
 class Pace {
 public:
     using Clock = std::chrono::steady_clock;
-    static constexpr std::string_view kMark = "pace";
+    static constexpr const char* kMark = "pace";
 
     /// Whether more may be written now.
     bool may_write(Clock::time_point now) const {
@@ -101,7 +101,7 @@ net::awaitable<error_code> write_piece(std::shared_ptr<Session<Stream>> session)
     if (is_last) session->writing = {};
     if (!ec && pace.must_ask(Pace::Clock::now())) {
         pace.asked(Pace::Clock::now());
-        co_await session->socket.async_ping({Pace::kMark.data(), Pace::kMark.size()}, into(ec));
+        co_await session->socket.async_ping(Pace::kMark, into(ec));
     }
     co_return ec;
 }
