@@ -238,6 +238,9 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--world", options.world_file, "plant file of the simulated world")->required();
     app.add_option("--seed", options.seed, "of all simulated errors");
+    app.add_option("--errors", options.errors,
+                   "how well the simulated machines and floor are kept: nominal, kind, harsh")
+        ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
     app.add_option("--time-factor", options.time_factor, "speeds times it, accelerations squared")
         ->check(CLI::Range(1.0, 20.0));

@@ -78,13 +78,14 @@ geometry::Polygon thing_at(geometry::Point2 place) {
 std::unique_ptr<simulation::Drive> make_drive(const plant::VehicleType& type,
                                               const plant::Vehicle& vehicle,
                                               const geometry::Pose2& true_pose,
-                                              const VehicleSettings& settings) {
+                                              const VehicleSettings& settings,
+                                              const localisation::ErrorBudget& errors) {
     const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
     const bool driven = std::any_of(type.wheels.begin(), type.wheels.end(),
                                     [](const plant::Wheel& wheel) { return wheel.driven; });
     if (settings.servo_drive && driven) {
         return std::make_unique<simulation::ServoDrive>(type, true_pose, seed, settings.time_factor,
-                                                        vehicle.load_kg);
+                                                        vehicle.load_kg, errors);
     }
     return std::make_unique<simulation::VehicleMotion>(type, true_pose, seed, settings.time_factor);
 }
@@ -96,9 +97,10 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
     : vehicle_(vehicle),
       type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
       settings_(settings),
-      drive_(make_drive(type_, vehicle, true_pose, settings)),
+      drive_(make_drive(type_, vehicle, true_pose, settings, world.errors)),
       sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, *drive_,
-               settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
+               settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
+               plant::is_loaded(vehicle)),
       equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
