@@ -23,7 +23,7 @@ struct ServerAddress {
 };
 
 struct Fault {
-    enum class Kind { kWheel, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
+    enum class Kind { kWheel, kBearing, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
     Kind kind = Kind::kWheel;
     std::string wheel;
     double share = 0;        // of the rim's speed that slips

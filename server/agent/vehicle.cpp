@@ -192,6 +192,9 @@ void Vehicle::apply(const Fault& fault) {
             body_.break_wheel(fault.wheel);
             if (servo != nullptr) known = servo->break_wheel(fault.wheel);
             break;
+        case Fault::Kind::kBearing:
+            known = body_.seize_bearing(fault.wheel);
+            break;
         case Fault::Kind::kSlip:
             known = servo != nullptr && servo->set_slip(fault.wheel, fault.share);
             break;
@@ -199,7 +202,7 @@ void Vehicle::apply(const Fault& fault) {
             known = servo != nullptr && servo->kill_encoder(fault.wheel);
             break;
     }
-    if (!known) spdlog::warn("{}: no drive {} can fail so", vehicle_.id.str(), fault.wheel);
+    if (!known) spdlog::warn("{}: no wheel {} can fail so", vehicle_.id.str(), fault.wheel);
 }
 
 void Vehicle::keep_learned() {
