@@ -76,6 +76,18 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     return std::make_unique<Vehicle>(world, *vehicle, *pose, settings, truth);
 }
 
+/// Vehicles of one process stand in one hall and see each other; those of another process do not.
+void let_see(const std::vector<Unit>& units) {
+    for (const auto& unit : units) {
+        Vehicle* own = unit.vehicle.get();
+        own->see([&units, own](geometry::Point2 from, std::vector<geometry::Polygon>& seen) {
+            for (const auto& other : units) {
+                if (other.vehicle.get() != own) other.vehicle->show_body(own->hall(), from, seen);
+            }
+        });
+    }
+}
+
 net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
     net::steady_timer timer(co_await net::this_coro::executor);
     auto last = Vehicle::Steady::now();
@@ -132,6 +144,8 @@ Result<int> run(const Options& options) {
             simulation::seed_for(options.seed, "link " + identity.serial_number));
         units.push_back({std::move(*vehicle), std::move(link)});
     }
+
+    let_see(units);
 
     std::unique_ptr<HandHeldLink> hand_held;
     if (!options.hand_held.empty()) {

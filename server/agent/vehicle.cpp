@@ -33,6 +33,7 @@ constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 constexpr int kLookShare = 10;
 constexpr double kOwnStep_s = 0.1;
 constexpr double kRounding = 1e-9;
+constexpr double kSeen_m = 30;      // a scanner's range and two long bodies
 constexpr double kRangeSigmas = 3;  // what deviationRange covers
 
 Time utc_now() {
@@ -96,10 +97,11 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                  const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth)
     : vehicle_(vehicle),
       type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
+      hall_(plant::find_station(world.plant, vehicle.home)->hall),
       settings_(settings),
       drive_(make_drive(type_, vehicle, true_pose, settings, world.errors)),
-      sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, *drive_,
-               settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
+      sensing_(world, hall_, *drive_, settings.rendered,
+               simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
                plant::is_loaded(vehicle)),
       equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
@@ -107,16 +109,14 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       learned_(settings.learned.empty() ? std::nullopt
                                         : std::optional<LearnedMoves>(
                                               std::in_place, settings.learned, vehicle.id.str())),
-      executor_(*drive_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
-                &equipment_, learned_before(learned_)),
+      executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
       estimate_(true_pose),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
     if (settings.servo_drive) {
-        look_out_.emplace(world, vehicle, plant::find_station(world.plant, vehicle.home)->hall,
-                          *drive_,
+        look_out_.emplace(world, vehicle, hall_, *drive_,
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
     }
@@ -162,6 +162,19 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
         send_visualization();
     }
     if (pictures_due_ && now - last_pictures_ >= kPictureInterval) send_pictures(now);
+}
+
+void Vehicle::see(LookOut::Neighbours neighbours) {
+    if (look_out_) look_out_->see(std::move(neighbours));
+}
+
+void Vehicle::show_body(const plant::HallId& hall, geometry::Point2 from,
+                        std::vector<geometry::Polygon>& to) const {
+    const auto& pose = drive_->true_pose();
+    if (hall != hall_ || distance(pose.position(), from) > kSeen_m) return;
+    for (const auto& piece : plant::outline_with_load(type_, plant::is_loaded(vehicle_))) {
+        to.push_back(geometry::transformed(pose, piece));
+    }
 }
 
 void Vehicle::apply_faults(double dt_s) {

@@ -64,6 +64,13 @@ public:
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
+    /// What its scanners see of the vehicles around it.
+    void see(LookOut::Neighbours neighbours);
+    /// Puts its body, load included, as it truly stands, to what others' scanners see.
+    void show_body(const plant::HallId& hall, geometry::Point2 from,
+                   std::vector<geometry::Polygon>& to) const;
+    const plant::HallId& hall() const { return hall_; }
+
 private:
     fleet::StateMessage state();
     void report(const Error& error, const char* topic);
@@ -82,6 +89,7 @@ private:
 
     const plant::Vehicle& vehicle_;
     const plant::VehicleType type_;  // its cameras as they hang under its load
+    const plant::HallId hall_;
     VehicleSettings settings_;
     std::unique_ptr<simulation::Drive> drive_;
     CameraSensing sensing_;
