@@ -60,6 +60,7 @@ public:
     Status give_back() { return executor_.give_back(); }
     bool in_hand() const { return executor_.in_hand(); }
     bool standing() const { return drive_->standing(); }
+    bool knows_pose() const { return executor_.position_initialized(); }
     const geometry::Pose2& believed_pose() const { return drive_->believed_pose(); }
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }

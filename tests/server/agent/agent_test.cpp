@@ -415,6 +415,7 @@ json::Json hand_held(Vehicle& vehicle, const std::string& line) {
 
 TEST_F(VehicleTest, AHandHeldControlIsAnsweredAndRefusedInWords) {
     EXPECT_EQ(hand_held(vehicle, R"({"do":"where"})")["operating_mode"], "AUTOMATIC");
+    EXPECT_FALSE(hand_held(vehicle, R"({"do":"where"})").contains("pose")) << "nobody has said it";
     const struct {
         const char* line;
         const char* reason;
