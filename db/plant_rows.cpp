@@ -80,6 +80,8 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     wheels = wheels_to_json(type.wheels);
     cameras = cameras_to_json(type.cameras);
     brackets = brackets_to_json(type.brackets);
+    usual_code_kind = plant::to_string(type.usual_code.kind);
+    slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
 }
 
 plant::VehicleType VehicleTypeRow::get() const {
@@ -96,6 +98,9 @@ plant::VehicleType VehicleTypeRow::get() const {
     type.wheels = wheels_from_json(wheels);
     type.cameras = cameras_from_json(cameras);
     type.brackets = brackets_from_json(brackets);
+    read(usual_code_kind, type.usual_code.kind);
+    type.slip_sensor.reset();
+    if (slip_sensor_noise_mps > 0) type.slip_sensor = {slip_sensor_noise_mps};
     return type;
 }
 

@@ -83,9 +83,12 @@ struct VehicleTypeRow {
         "max_turn_rate_radps, max_turn_accel_radps2, min_turn_radius_m, max_arc_radius_m, "
         "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg, "
         "battery_critical_percent, battery_low_percent, battery_enough_percent, "
-        "max_steering_rate_radps";
+        "max_steering_rate_radps, height_m, usual_code_kind, usual_code_size_m, "
+        "slip_sensor_noise_mps";
     std::int64_t position = 0;
-    std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets;
+    std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets,
+        usual_code_kind;
+    double slip_sensor_noise_mps = 0;  // 0: none
     plant::VehicleType element;
 
     auto fields() {
@@ -95,7 +98,8 @@ struct VehicleTypeRow {
                         t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
                         t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
                         t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
-                        t.battery.enough_percent, t.max_steering_rate_radps);
+                        t.battery.enough_percent, t.max_steering_rate_radps, t.height_m,
+                        usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;

@@ -187,6 +187,7 @@ void decode_limits(ObjectReader& in, VehicleType& type) {
     type.min_turn_radius_m = in.number_or("min_turn_radius_m", 0, kQuantity);
     type.max_arc_radius_m = in.number_or("max_arc_radius_m", type.max_arc_radius_m, kQuantity);
     type.clearance_m = in.number("clearance_m", kQuantity);
+    type.height_m = in.number_or("height_m", type.height_m, kQuantity);
     type.mass_kg = in.number("mass_kg", kQuantity);
     type.max_load_kg = in.number("max_load_kg", kQuantity);
 }
@@ -200,6 +201,20 @@ BatteryLimits decode_battery(ObjectReader& in) {
     return limits;
 }
 
+UsualCode decode_usual_code(ObjectReader& in) {
+    UsualCode code;
+    code.kind = in.one_of("kind", {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark});
+    code.size_m = in.number("size_m", kMetres);
+    in.refuse_unknown();
+    return code;
+}
+
+SlipSensor decode_slip_sensor(ObjectReader& in) {
+    const SlipSensor sensor{in.number("noise_mps", kQuantity)};
+    in.refuse_unknown();
+    return sensor;
+}
+
 VehicleType decode_vehicle_type(ObjectReader& in) {
     VehicleType type;
     type.id = decode_key<VehicleTypeId>(in, "id");
@@ -210,6 +225,10 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     type.load_footprint = decode_ring(in, "load_footprint", false);
     decode_limits(in, type);
     if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
+    if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);
+    if (auto sensor = in.object_if_any("slip_sensor")) {
+        type.slip_sensor = decode_slip_sensor(*sensor);
+    }
     in.items("motion_modes", kFew, [&](const Json& item, const std::string& at) {
         const auto mode = parse_motion_mode(json::read_text(item, at, in.errors(), kId));
         if (mode) {

@@ -115,29 +115,33 @@ Json encode_all(const std::vector<T>& items) {
 Json encode(const VehicleType& t) {
     Json modes = Json::array();
     for (const MotionMode mode : t.motion_modes) modes.push_back(to_string(mode));
-    return {{"id", t.id.str()},
-            {"name", t.name},
-            {"kinematics", to_string(t.kinematics)},
-            {"footprint", encode(t.footprint)},
-            {"load_footprint", encode(t.load_footprint)},
-            {"max_speed_mps", t.max_speed_mps},
-            {"max_accel_mps2", t.max_accel_mps2},
-            {"max_turn_rate_radps", t.max_turn_rate_radps},
-            {"max_turn_accel_radps2", t.max_turn_accel_radps2},
-            {"max_steering_rate_radps", t.max_steering_rate_radps},
-            {"min_turn_radius_m", t.min_turn_radius_m},
-            {"max_arc_radius_m", t.max_arc_radius_m},
-            {"clearance_m", t.clearance_m},
-            {"motion_modes", std::move(modes)},
-            {"wheels", encode_all(t.wheels)},
-            {"cameras", encode_all(t.cameras)},
-            {"brackets", encode_all(t.brackets)},
-            {"mass_kg", t.mass_kg},
-            {"max_load_kg", t.max_load_kg},
-            {"battery",
-             {{"critical_percent", t.battery.critical_percent},
-              {"low_percent", t.battery.low_percent},
-              {"enough_percent", t.battery.enough_percent}}}};
+    Json json = {{"id", t.id.str()},
+                 {"name", t.name},
+                 {"kinematics", to_string(t.kinematics)},
+                 {"footprint", encode(t.footprint)},
+                 {"load_footprint", encode(t.load_footprint)},
+                 {"max_speed_mps", t.max_speed_mps},
+                 {"max_accel_mps2", t.max_accel_mps2},
+                 {"max_turn_rate_radps", t.max_turn_rate_radps},
+                 {"max_turn_accel_radps2", t.max_turn_accel_radps2},
+                 {"max_steering_rate_radps", t.max_steering_rate_radps},
+                 {"min_turn_radius_m", t.min_turn_radius_m},
+                 {"max_arc_radius_m", t.max_arc_radius_m},
+                 {"clearance_m", t.clearance_m},
+                 {"height_m", t.height_m},
+                 {"motion_modes", std::move(modes)},
+                 {"wheels", encode_all(t.wheels)},
+                 {"cameras", encode_all(t.cameras)},
+                 {"brackets", encode_all(t.brackets)},
+                 {"mass_kg", t.mass_kg},
+                 {"max_load_kg", t.max_load_kg},
+                 {"battery",
+                  {{"critical_percent", t.battery.critical_percent},
+                   {"low_percent", t.battery.low_percent},
+                   {"enough_percent", t.battery.enough_percent}}}};
+    json["usual_code"] = {{"kind", to_string(t.usual_code.kind)}, {"size_m", t.usual_code.size_m}};
+    if (t.slip_sensor) json["slip_sensor"] = {{"noise_mps", t.slip_sensor->noise_mps}};
+    return json;
 }
 
 Json encode(const Vehicle& v) {

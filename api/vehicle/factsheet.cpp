@@ -12,9 +12,15 @@ namespace {
 using plant::Kinematics;
 using plant::VehicleType;
 
-// The plant file does not say them; no message depends on them.
-constexpr double kHeight_m = 1.2;
+// The plant file does not say it; no message depends on it.
 constexpr double kWheelWidth_m = 0.15;
+
+/// VDA 5050 has a word for coded squares only.
+Json localization_types(const VehicleType& type) {
+    const bool squares =
+        !type.cameras.empty() && type.usual_code.kind != plant::MarkerKind::kLandmark;
+    return squares ? Json::array({"DMC"}) : Json::array();
+}
 
 Json parameter(const char* key, const char* type, bool optional = false) {
     return {{"key", key}, {"valueDataType", type}, {"isOptional", optional}};
@@ -97,7 +103,7 @@ Json encode_physical(const FactsheetSource& source) {
             {"speedMax", finite(type.max_speed_mps * factor)},
             {"accelerationMax", accel},
             {"decelerationMax", accel},
-            {"heightMax", kHeight_m},
+            {"heightMax", finite(type.height_m)},
             {"width", finite(box.max.y_m - box.min.y_m)},
             {"length", finite(box.max.x_m - box.min.x_m)}};
 }
@@ -119,7 +125,7 @@ std::string encode_factsheet(const FactsheetSource& source, const Header& header
         {"agvKinematic", type.kinematics == Kinematics::kDifferential ? "DIFF" : "OMNI"},
         {"agvClass", "CARRIER"},
         {"maxLoadMass", finite(type.max_load_kg)},
-        {"localizationTypes", {"DMC"}},
+        {"localizationTypes", localization_types(type)},
         {"navigationTypes", {"VIRTUAL_LINE_GUIDED"}}};
     out["physicalParameters"] = encode_physical(source);
     out["protocolLimits"] = {{"maxStringLens", Json::object()},

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "api/vision/image_bytes.hpp"
+#include "core/localisation/error_budget.hpp"
 #include "core/vision/camera_picture.hpp"
 #include "core/vision/marker_reader.hpp"
 #include "core/vision/optics.hpp"
@@ -13,9 +14,8 @@
 namespace pulseline::vision {
 namespace {
 
-// Of the cameras' mounting and scale, as the vehicles count it in their own measurements.
-constexpr double kCalibration_m = 1e-4;
-constexpr double kCalibration_rad = 3e-4;
+// As the vehicles count it in their own measurements.
+const auto kErrors = localisation::ErrorBudget::nominal();
 
 struct Print {
     plant::MarkerKind kind;
@@ -67,7 +67,7 @@ Result<MarkerReading> read_any(const cv::Mat& grey, const plant::Camera& camera,
 }
 
 Result<CameraFinding> look(const CameraImage& image, std::size_t i, const plant::Camera& camera,
-                           const std::set<Print>& prints) {
+                           const std::set<Print>& prints, bool loaded) {
     auto grey = decode_grey(image.bytes, image.camera);
     if (!grey) {
         Error error = grey.error();
@@ -86,8 +86,9 @@ Result<CameraFinding> look(const CameraImage& image, std::size_t i, const plant:
     double size_m = 0.060;
     if (finding.reading) {
         seen = finding.body_from_marker = body_from_marker(*finding.reading, camera);
-        finding.sigma_m =
-            std::hypot(finding.reading->sigma_px / pixels_per_metre(camera), kCalibration_m);
+        finding.sigma_m = localisation::code_sigma_m(
+            kErrors, camera, std::hypot(finding.reading->x_m, finding.reading->y_m),
+            finding.reading->sigma_px / pixels_per_metre(camera), loaded);
         size_m = finding.reading->size_m;
     }
     const auto jpeg = encode_jpeg(annotate(*grey, camera, seen, size_m), camera);
@@ -111,7 +112,7 @@ Result<localisation::PoseFix> fix_of(const std::vector<CameraFinding>& cameras,
         if (!finding.reading) continue;
         seen.push_back({finding.reading->payload, finding.body_from_marker.position(),
                         finding.body_from_marker.heading_rad, finding.sigma_m,
-                        std::hypot(finding.reading->sigma_angle_rad, kCalibration_rad)});
+                        localisation::code_sigma_rad(kErrors, finding.reading->sigma_angle_rad)});
     }
     std::vector<localisation::SurveyedCode> survey;
     for (const auto* marker : markers) {
@@ -142,7 +143,8 @@ Result<Localization> localize(const plant::Plant& plant, const LocalizationQuest
         }
     }
     const auto prints = prints_of(plant);
-    const auto cameras = plant::cameras_of(*type, plant::is_loaded(*vehicle));
+    const bool loaded = plant::is_loaded(*vehicle);
+    const auto cameras = plant::cameras_of(*type, loaded);
     for (std::size_t i = 0; i < question.images.size(); ++i) {
         const CameraImage& image = question.images[i];
         const auto camera = std::ranges::find(cameras, image.camera, &plant::Camera::name);
@@ -157,7 +159,7 @@ Result<Localization> localize(const plant::Plant& plant, const LocalizationQuest
                         "One image of each camera can be told apart. Leave out the other one.",
                         at("camera", i), {{"camera", image.camera}});
         }
-        auto finding = look(image, i, *camera, prints);
+        auto finding = look(image, i, *camera, prints, loaded);
         if (!finding) return fail(finding.error());
         answer.cameras.push_back(std::move(*finding));
     }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <vector>
 
 #include "core/fleet/state.hpp"
 
@@ -13,7 +15,6 @@ constexpr double kEmpty = 0.01;  // of the largest load: bracket forces below it
 
 struct Load {
     double force_n = 0;
-    double mean_n = 0;
     geometry::Point2 centre;  // body frame
     bool present = false;
 };
@@ -29,7 +30,6 @@ Load load_of(const VehicleRun& run) {
         }
     }
     if (run.state.brackets.empty()) return load;
-    load.mean_n = load.force_n / static_cast<double>(run.state.brackets.size());
     load.present = load.force_n > kEmpty * run.type->max_load_kg * kGravity_mps2;
     if (load.present) load.centre = (1 / load.force_n) * load.centre;
     return load;
@@ -60,12 +60,27 @@ std::optional<Reason> unseen_codes(const FleetState& fleet, const VehicleRun& ru
 }  // namespace
 
 double bracket_unbalance(const VehicleRun& run) {
-    const Load load = load_of(run);
-    if (!load.present) return 0;
+    const auto& places = run.type->brackets;
+    if (places.empty() || !load_of(run).present) return 0;
+    double middle_m = 0;
+    for (const auto& place : places) {
+        middle_m += place.position.x_m / static_cast<double>(places.size());
+    }
+    std::map<bool, std::vector<double>> ends;  // whether in front of the middle -> forces
+    for (const auto& reported : run.state.brackets) {
+        const auto place = std::ranges::find(places, reported.name, &plant::Bracket::name);
+        if (place == places.end()) continue;
+        ends[place->position.x_m > middle_m].push_back(reported.force_a_n + reported.force_b_n);
+    }
     double worst = 0;
-    for (const auto& bracket : run.state.brackets) {
-        const double force_n = bracket.force_a_n + bracket.force_b_n;
-        worst = std::max(worst, std::abs(force_n - load.mean_n) / load.mean_n);
+    for (const auto& [in_front, forces_n] : ends) {
+        double mean_n = 0;
+        for (const double force_n : forces_n)
+            mean_n += force_n / static_cast<double>(forces_n.size());
+        if (mean_n <= 0) continue;  // it all hangs on the other end
+        for (const double force_n : forces_n) {
+            worst = std::max(worst, std::abs(force_n - mean_n) / mean_n);
+        }
     }
     return worst;
 }

@@ -11,11 +11,12 @@ namespace pulseline::fleet {
 struct FleetState;
 struct VehicleRun;
 
-/// How far a bracket may differ from the mean of all, as a share of it.
+/// How far a bracket may differ from the mean of its end, front or back, as a share of it. Between
+/// the ends a load may lie where it likes, as aircraft do, inside the wheel base.
 constexpr double kBracketBalance = 0.10;
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 
-/// Deviation of the worst bracket from the mean of all, as a share of it; 0 without a load.
+/// Deviation of the worst bracket from the mean of its end, as a share of it; 0 without a load.
 double bracket_unbalance(const VehicleRun& run);
 
 /// The first one that bars the drive: parking_feet_down {furthest_m}, load_too_heavy {load_kg,

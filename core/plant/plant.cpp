@@ -121,6 +121,13 @@ std::optional<MotionMode> parse_motion_mode(const std::string& text) {
     return std::nullopt;
 }
 
+std::optional<MarkerKind> parse_marker_kind(const std::string& name) {
+    for (const MarkerKind kind : {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark}) {
+        if (name == to_string(kind)) return kind;
+    }
+    return std::nullopt;
+}
+
 const char* to_string(Kinematics kinematics) {
     switch (kinematics) {
         case Kinematics::kSteeredPlatform:

@@ -145,6 +145,18 @@ struct BatteryLimits {
     double enough_percent = 60;    // from here on it may be taken off the charger
 };
 
+/// What a vehicle's cameras look for when no order says it.
+struct UsualCode {
+    MarkerKind kind = MarkerKind::kQr;
+    double size_m = 0.060;
+};
+
+/// Free-rolling measuring wheels beside the driven ones. They show whether those slip, and are too
+/// coarse for odometry.
+struct SlipSensor {
+    double noise_mps = 0;  // one sigma of one look, each wheel
+};
+
 struct VehicleType {
     VehicleTypeId id;
     std::string name;
@@ -159,10 +171,13 @@ struct VehicleType {
     double min_turn_radius_m = 0;          // of arcs; 0: none
     double max_arc_radius_m = 200;         // above it an arc is a straight line with a hidden drift
     double clearance_m = 0.5;              // distance kept from walls and other vehicles
+    double height_m = 1.2;                 // without its load
     double length_m() const;
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;
     std::vector<Camera> cameras;
+    UsualCode usual_code;
+    std::optional<SlipSensor> slip_sensor;  // none: nobody sees a wheel that slips alone
     std::vector<Bracket> brackets;
     double mass_kg = 0;
     double max_load_kg = 0;
@@ -253,8 +268,9 @@ double reach_m(const std::vector<Polygon>& outline);
 
 const char* to_string(MotionMode mode);  // "self_rotation"
 std::optional<MotionMode> parse_motion_mode(const std::string& text);
-const char* to_string(Kinematics kinematics);   // "steered_platform"
-const char* to_string(MarkerKind kind);         // "qr", "apriltag", "landmark"
+const char* to_string(Kinematics kinematics);  // "steered_platform"
+const char* to_string(MarkerKind kind);        // "qr", "apriltag", "landmark"
+std::optional<MarkerKind> parse_marker_kind(const std::string& name);
 const char* to_string(AreaKind kind);           // "zone", "lane", "no_go", "obstacle"
 const char* to_string(Tolerance::Shape shape);  // "box", "ellipse"
 

@@ -67,6 +67,9 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     n.not_negative("/min_turn_radius_m", t.min_turn_radius_m);
     n.positive("/max_arc_radius_m", t.max_arc_radius_m);
     n.not_negative("/clearance_m", t.clearance_m);
+    n.positive("/height_m", t.height_m);
+    n.positive("/usual_code/size_m", t.usual_code.size_m);
+    if (t.slip_sensor) n.positive("/slip_sensor/noise_mps", t.slip_sensor->noise_mps);
     n.not_negative("/mass_kg", t.mass_kg);
     n.not_negative("/max_load_kg", t.max_load_kg);
     n.not_negative("/battery/critical_percent", t.battery.critical_percent);

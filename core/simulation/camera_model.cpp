@@ -31,6 +31,7 @@ std::optional<vision::MarkerReading> analytic_reading(const plant::Camera& camer
     ideal.v += errors.sigma_px * normal(random);
     vision::MarkerReading reading;
     reading.kind = seen->kind;
+    reading.size_m = seen->size_m;
     reading.payload = seen->payload;
     reading.centre = vision::distorted(camera, ideal);
     reading.angle_rad = wrap(kPi / 2 - place.heading_rad + errors.sigma_angle_rad * normal(random));

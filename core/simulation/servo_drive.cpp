@@ -35,13 +35,14 @@ constexpr double kNewDirection_rad = 0.2;  // steered so by twists, it first sta
 }  // namespace
 
 ServoDrive::ServoDrive(plant::VehicleType type, const Pose2& true_pose, std::uint64_t seed,
-                       double time_factor, double load_kg, const DriveBudget& budget)
+                       double time_factor, double load_kg, const localisation::ErrorBudget& errors)
     : type_(std::move(type)),
       time_factor_(time_factor),
-      budget_(budget),
+      errors_(errors.drive),
       random_(seed),
-      wheels_(type_, load_kg, budget, random_),
-      contact_(type_, load_kg, budget, random_),
+      wheels_(type_, load_kg, errors.drive, random_),
+      contact_(type_, load_kg, errors.drive, random_),
+      measuring_(type_, errors.slip_sensor, random_),
       odometry_(type_),
       reference_(type_, 1),
       true_(true_pose),
@@ -160,7 +161,7 @@ void ServoDrive::begin() {
     choose_steering(wheels_.present());
     for (WheelMotion& wheel : wanted_) wheel.speed_mps = 0;
     if (!wheels_.aligned(wanted_, kScrubTurn_rad)) {
-        true_ = true_ * Pose2{normal(budget_.scrub_m), normal(budget_.scrub_m), 0};
+        true_ = true_ * Pose2{normal(errors_.scrub_m), normal(errors_.scrub_m), 0};
     }
     must_steer_ = false;
     phase_ = Phase::kSteering;
@@ -209,7 +210,7 @@ double ServoDrive::steerable_way(std::size_t wheel, double angle_rad) const {
 
 void ServoDrive::steer_standing() {
     if (must_steer_ && !reference_.empty()) return begin();
-    if (wheels_.aligned(wanted_, budget_.aligned_rad)) {
+    if (wheels_.aligned(wanted_, limits_.aligned_rad)) {
         phase_ = Phase::kDriving;
         return;
     }
@@ -286,17 +287,20 @@ void ServoDrive::turn_wheels(const std::vector<WheelMotion>& wanted, bool standi
 void ServoDrive::watch_path() {
     const double off_m = distance(goal_.position(), believed_.position());
     const double off_rad = std::abs(wrap(goal_.heading_rad - believed_.heading_rad));
-    if (off_m > budget_.path_limit_m || off_rad > budget_.path_limit_rad) {
+    if (off_m > limits_.path_m || off_rad > limits_.path_rad) {
         stop_for({"off_path", {{"distance_m", off_m}}});
     }
 }
 
 void ServoDrive::watch_slip() {
-    double share = contact_.slip_share(wheels_.measured(), true_twist_).value_or(0);
+    double share =
+        measuring_
+            .slip_share(wheels_.measured(), contact_.rolling(), true_twist_, kCycle_s, random_)
+            .value_or(0);
     const double pace = std::hypot(told_.twist.vx_mps, told_.twist.vy_mps);
-    if (pace > budget_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
-    slipping_s_ = share > budget_.slip_limit ? slipping_s_ + kCycle_s : 0;
-    if (slipping_s_ <= budget_.slip_time_s) return;
+    if (pace > limits_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
+    slipping_s_ = share > limits_.slip ? slipping_s_ + kCycle_s : 0;
+    if (slipping_s_ <= limits_.slip_time_s) return;
     if (auto wheel = wheels_.lagging()) {
         wheels_.switch_off(*wheel);
         return stop_for({"wheel_fault", {{"wheel", *wheel}}});
@@ -313,13 +317,14 @@ void ServoDrive::stop_for(Reason cause) {
 void ServoDrive::come_to_rest() {
     wheels_.brake();
     const double share = std::min(1.0, std::exchange(peak_mps_, 0) / type_.max_speed_mps);
-    const double settle_m = budget_.fine_m + share * budget_.settle_m;
-    const double settle_rad = budget_.fine_rad + share * budget_.settle_rad;
+    const double settle_m = errors_.fine_m + share * errors_.settle_m;
+    const double settle_rad = errors_.fine_rad + share * errors_.settle_rad;
     true_ = true_ * Pose2{normal(settle_m), normal(settle_m), normal(settle_rad)};
     told_ = {};
     last_ = {};
     true_twist_ = {};
     slipping_s_ = 0;
+    measuring_.rest();
     phase_ = Phase::kBraked;
     in_phase_s_ = 0;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/simulation/drive.hpp"
+#include "core/simulation/measuring_wheels.hpp"
 #include "core/simulation/path_reference.hpp"
 #include "core/simulation/wheel_contact.hpp"
 #include "core/simulation/wheel_set.hpp"
@@ -20,8 +21,8 @@ namespace pulseline::simulation {
 /// Before it moves from rest in a new direction it steers its wheels standing. When a wheel fails,
 /// wheels and floor disagree, or it leaves its path, it brakes on the path and stays
 /// (stop_cause()).
-/// Encoders alone cannot see a wheel that slips at the commanded speed: free-rolling measuring
-/// wheels beside the driven ones show it. They are too coarse for odometry.
+/// Encoders alone cannot see a wheel that slips at the commanded speed: measuring wheels show it,
+/// where the type has them.
 /// Physics runs in the vehicle's own time, in cycles of ServoAxis::kCycle_s: with a time factor the
 /// same motion happens faster. Deterministic: the same seed and calls give the same poses.
 class ServoDrive final : public Drive {
@@ -29,7 +30,8 @@ public:
     /// REQUIRES: `type` has a driven wheel. Speeds are multiplied by `time_factor`, accelerations
     /// by its square.
     ServoDrive(plant::VehicleType type, const Pose2& true_pose, std::uint64_t seed,
-               double time_factor = 1, double load_kg = 0, const DriveBudget& budget = {});
+               double time_factor = 1, double load_kg = 0,
+               const localisation::ErrorBudget& errors = localisation::ErrorBudget::nominal());
 
     void append(const kinematics::Segment& segment, double max_speed_mps = 0) override;
     void correct(std::span<const kinematics::Segment> moves) override;
@@ -94,11 +96,13 @@ private:
 
     plant::VehicleType type_;
     double time_factor_;
-    DriveBudget budget_;
+    localisation::DriveErrors errors_;
+    DriveLimits limits_;
     std::mt19937_64 random_;
     std::normal_distribution<double> normal_;
     WheelSet wheels_;
     WheelContact contact_;
+    MeasuringWheels measuring_;
     RollingWheels odometry_;
     PathReference reference_;  // in the vehicle's own time
 

@@ -28,14 +28,21 @@ fleet::CameraReading not_found(const plant::Camera& camera, std::string why) {
     return reading;
 }
 
-/// The code that lies next to the camera's foot as far as the vehicle knows.
-std::optional<vision::ExpectedMarker> expected_below(const plant::Camera& camera,
-                                                     const KnownFloor& known) {
-    const geometry::Point2 foot = known.hall_from_body * camera.body_from_camera.position();
-    const auto nearest = std::ranges::min_element(
-        known.codes, {}, [&](const Pose2& code) { return distance(code.position(), foot); });
-    if (nearest == known.codes.end()) return std::nullopt;
-    return vision::ExpectedMarker{inverse(known.hall_from_body) * *nearest};
+/// The code that lies next to the camera's foot as far as the vehicle knows; null: it knows none.
+const KnownCode* code_below(const plant::Camera& camera, const std::optional<KnownFloor>& known) {
+    if (!known) return nullptr;
+    const geometry::Point2 foot = known->hall_from_body * camera.body_from_camera.position();
+    const auto nearest = std::ranges::min_element(known->codes, {}, [&](const KnownCode& code) {
+        return distance(code.pose.position(), foot);
+    });
+    return nearest == known->codes.end() ? nullptr : &*nearest;
+}
+
+/// What a reader that looks for codes of that kind and size would not take.
+const char* refused(const vision::MarkerReading& seen, const plant::UsualCode& look) {
+    if (seen.kind != look.kind) return "no_code";
+    const double ratio = seen.scale_ratio * seen.size_m / look.size_m;
+    return std::abs(ratio - 1) > vision::ReaderOptions{}.max_scale_error ? "scale_off" : nullptr;
 }
 
 /// What the vehicle makes of the true image point when its calibration differs from the truth.
@@ -57,7 +64,7 @@ std::optional<Pose2> body_from_code(const fleet::CameraReading& reading) {
 
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
                                     const vision::MarkerReading& reading,
-                                    double calibration_sigma_m) {
+                                    const SensingOptions& options) {
     const Pose2 code = vision::body_from_marker(reading, calibrated);
     fleet::CameraReading out;
     out.camera = calibrated.name;
@@ -65,8 +72,9 @@ fleet::CameraReading camera_reading(const plant::Camera& calibrated,
     out.payload = reading.payload;
     out.code = code.position();
     out.angle_rad = code.heading_rad;
-    out.sigma_m =
-        std::hypot(reading.sigma_px / vision::pixels_per_metre(calibrated), calibration_sigma_m);
+    out.sigma_m = localisation::code_sigma_m(
+        options.errors, calibrated, std::hypot(reading.x_m, reading.y_m),
+        reading.sigma_px / vision::pixels_per_metre(calibrated), options.loaded);
     out.rms_px = reading.rms_px;
     return out;
 }
@@ -79,27 +87,36 @@ StopView sense_stop(std::span<const plant::Camera> actual,
     StopView view;
     for (std::size_t i = 0; i < actual.size(); ++i) {
         const auto in_reach = near(actual[i], hall_from_body, codes);
+        const KnownCode* expected = code_below(calibrated[i], options.known);
+        const plant::UsualCode look = expected ? expected->look : options.look;
+        view.sizes_m.push_back(look.size_m);
+        const auto found = [&](const vision::MarkerReading& reading) {
+            view.readings.push_back(camera_reading(calibrated[i], reading, options));
+        };
+        const auto missed = [&](const char* why) {
+            view.readings.push_back(not_found(calibrated[i], why));
+        };
         if (options.mode == Sensing::kAnalytic) {
             const auto seen = options.dark
                                   ? std::nullopt
                                   : analytic_reading(actual[i], hall_from_body, in_reach, random);
-            view.readings.push_back(
-                seen ? camera_reading(calibrated[i], reinterpreted(*seen, actual[i], calibrated[i]),
-                                      options.calibration_sigma_m)
-                     : not_found(calibrated[i], "no_code"));
+            const auto read =
+                seen ? std::optional(reinterpreted(*seen, actual[i], calibrated[i])) : std::nullopt;
+            const char* why_not = read ? refused(*read, look) : "no_code";
+            why_not ? missed(why_not) : found(*read);
             continue;
         }
         auto conditions = ImageConditions::nominal(random);
         if (options.dark) conditions.exposure = 0;
         view.images.push_back(render_floor(actual[i], hall_from_body, in_reach, conditions));
         vision::ReaderOptions reader;
-        reader.size_m = options.code_size_m;
-        if (options.known) reader.expected = expected_below(calibrated[i], *options.known);
-        const auto seen =
-            vision::read_marker(options.kind, view.images.back(), calibrated[i], reader);
-        view.readings.push_back(
-            seen ? camera_reading(calibrated[i], *seen, options.calibration_sigma_m)
-                 : not_found(calibrated[i], seen.error().reason.code));
+        reader.size_m = look.size_m;
+        if (expected) {
+            reader.expected =
+                vision::ExpectedMarker{inverse(options.known->hall_from_body) * expected->pose};
+        }
+        const auto seen = vision::read_marker(look.kind, view.images.back(), calibrated[i], reader);
+        seen ? found(*seen) : missed(seen.error().reason.code.c_str());
     }
     return view;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/fleet/vehicle_messages.hpp"
+#include "core/localisation/error_budget.hpp"
 #include "core/simulation/camera_model.hpp"
 
 namespace pulseline::simulation {
@@ -15,19 +16,25 @@ namespace pulseline::simulation {
 /// kRendered makes real images and reads them; kAnalytic draws the reader's measured error.
 enum class Sensing { kRendered, kAnalytic };
 
+/// A code as the survey has it.
+struct KnownCode {
+    Pose2 pose;  // hall frame
+    plant::UsualCode look;
+};
+
 /// What a vehicle knows of the floor below it: each camera expects the code next to its foot.
 struct KnownFloor {
-    Pose2 hall_from_body;      // as odometry has it
-    std::vector<Pose2> codes;  // surveyed, hall frame
+    Pose2 hall_from_body;  // as odometry has it
+    std::vector<KnownCode> codes;
 };
 
 struct SensingOptions {
     Sensing mode = Sensing::kRendered;
-    /// One sigma of the cameras' mounting and scale, part of every reading's sigma_m.
-    double calibration_sigma_m = 0.0001;
-    /// What the vehicle's cameras look for.
-    plant::MarkerKind kind = plant::MarkerKind::kQr;
-    double code_size_m = 0.060;
+    /// From which a reading's sigma_m is computed.
+    localisation::ErrorBudget errors = {};
+    bool loaded = false;
+    /// What the vehicle's cameras look for where nothing is known of the floor.
+    plant::UsualCode look = {};
     std::optional<KnownFloor> known = {};
     bool dark = false;  // no light below the vehicle
 };
@@ -35,6 +42,7 @@ struct SensingOptions {
 struct StopView {
     std::vector<fleet::CameraReading> readings;  // one per camera, in their order
     std::vector<cv::Mat> images;                 // 8-bit grey, one per camera; none when analytic
+    std::vector<double> sizes_m;                 // of the codes looked for, one per camera
 };
 
 /// What the cameras of a vehicle standing at the true pose see of the true codes. `actual` cameras
@@ -51,6 +59,6 @@ std::optional<Pose2> body_from_code(const fleet::CameraReading& reading);
 /// The reading of one camera as the vehicle reports it, in the body frame.
 fleet::CameraReading camera_reading(const plant::Camera& calibrated,
                                     const vision::MarkerReading& reading,
-                                    double calibration_sigma_m);
+                                    const SensingOptions& options);
 
 }  // namespace pulseline::simulation

@@ -19,9 +19,9 @@ constexpr double kContact_rad = 2 * kPi / 180.0;
 constexpr double kFeetDown_m = 0.12;
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kOverload = 1.5;  // of an even share of the greatest load, on one bracket
-// At most, each direction: a load was set down with care. 0.7 m from the middle it is 4 % of a
-// bracket's share; the fleet refuses a drive at 10 %.
-constexpr double kLoadOffCentre_m = 0.025;
+// At most: an aircraft is set down with care across, and has its weight where it has it along.
+constexpr double kLoadAcross_m = 0.025;
+constexpr double kLoadAlong_m = 0.5;
 // Feet have no force sensors: nothing stops them but their ends.
 constexpr LiftParameters kFeet{.stroke_m = 0.15, .speed_mps = 0.02, .accel_mps2 = 0.05};
 
@@ -56,8 +56,9 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, double load_kg, std::
     parameters.most_force_n =
         kOverload * kGravity_mps2 * std::max(type.max_load_kg, load_kg) / count;
     std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> off(-kLoadOffCentre_m, kLoadOffCentre_m);
-    const geometry::Point2 beside{off(random), off(random)};
+    std::uniform_real_distribution<double> share(-1, 1);
+    const double along_m = kLoadAlong_m * share(random);
+    const geometry::Point2 beside{along_m, kLoadAcross_m * share(random)};
     LiftingDrive lifts(std::move(places), parameters, random());
     lifts.set_load(load_kg, middle + beside);
     return lifts;

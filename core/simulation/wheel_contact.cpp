@@ -67,11 +67,11 @@ Pose2 moved(const Pose2& pose, const Twist& twist, double h_s) {
 }
 
 WheelContact::WheelContact(const plant::VehicleType& type, double load_kg,
-                           const DriveBudget& budget, std::mt19937_64& random)
-    : budget_(budget),
+                           const localisation::DriveErrors& errors, std::mt19937_64& random)
+    : errors_(errors),
       type_(type),
       nominal_(type),
-      actual_(misplaced(type, budget.wheel_place, random)),
+      actual_(misplaced(type, errors.wheel_place, random)),
       slip_(type.wheels.size()),
       driven_kg_(type.wheels.size()),
       contact_(type.wheels.size()) {
@@ -80,8 +80,8 @@ WheelContact::WheelContact(const plant::VehicleType& type, double load_kg,
     for (std::size_t i = 0; i < driven_kg_.size(); ++i) {
         if (type.wheels[i].driven) driven_kg_[i] = (type.mass_kg + load_kg) / driven;
     }
-    grade_ = {budget_.grade * normal_(random), budget_.grade * normal_(random)};
-    if (on_rollers(type_)) roller_loss_ = budget_.roller_slip * normal_(random);
+    grade_ = {errors_.grade * normal_(random), errors_.grade * normal_(random)};
+    if (on_rollers(type_)) roller_loss_ = errors_.roller_slip * normal_(random);
 }
 
 bool WheelContact::set_slip(const std::string& wheel, double share) {
@@ -116,9 +116,9 @@ Twist WheelContact::body_twist(std::span<const WheelMotion> rolled,
             const double uphill = grade.x_m * std::cos(rolled[i].angle_rad) +
                                   grade.y_m * std::sin(rolled[i].angle_rad);
             const double forward = rolled[i].speed_mps >= 0 ? 1 : -1;
-            lost += forward * (accel_mps2[i] / kGravity_mps2 + uphill) / budget_.creep_stiffness;
+            lost += forward * (accel_mps2[i] / kGravity_mps2 + uphill) / errors_.creep_stiffness;
         }
-        if (patch_left_m_ > 0 && i == patch_wheel_) lost += budget_.patch_slip;
+        if (patch_left_m_ > 0 && i == patch_wheel_) lost += errors_.patch_slip;
         contact_[i].speed_mps *= 1 - lost;
     }
     Twist twist = actual_.body_of(contact_).twist;
@@ -131,18 +131,18 @@ Twist WheelContact::body_twist(std::span<const WheelMotion> rolled,
     if (speed > 0) {
         // Tyres give way across, downhill.
         const Point2 left{-twist.vy_mps / speed, twist.vx_mps / speed};
-        const double drift = -speed * dot(grade, left) / budget_.side_stiffness;
+        const double drift = -speed * dot(grade, left) / errors_.side_stiffness;
         twist.vx_mps += drift * left.x_m;
         twist.vy_mps += drift * left.y_m;
     }
     twist.vy_mps *= 1 - roller_loss_;
     const double root_m = std::sqrt(way_m) / h_s;
-    const double across = on_rollers(type_) ? budget_.roller_wander : 1;
-    twist.vx_mps += budget_.wander_m_per_sqrt_m * root_m * normal_(random);
-    twist.vy_mps += across * budget_.wander_m_per_sqrt_m * root_m * normal_(random);
+    const double across = on_rollers(type_) ? errors_.roller_wander : 1;
+    twist.vx_mps += errors_.wander_m_per_sqrt_m * root_m * normal_(random);
+    twist.vy_mps += across * errors_.wander_m_per_sqrt_m * root_m * normal_(random);
     twist.turn_radps +=
-        budget_.wander_rad_per_sqrt_m * root_m * normal_(random) +
-        budget_.wander_rad_per_sqrt_rad * std::sqrt(turn_rad) / h_s * normal_(random);
+        errors_.wander_rad_per_sqrt_m * root_m * normal_(random) +
+        errors_.wander_rad_per_sqrt_rad * std::sqrt(turn_rad) / h_s * normal_(random);
     return twist;
 }
 
@@ -152,23 +152,9 @@ void WheelContact::maybe_enter_patch(double way_m, std::mt19937_64& random) {
         return;
     }
     std::uniform_real_distribution<double> chance;
-    if (chance(random) * budget_.patch_every_m >= way_m) return;
-    patch_left_m_ = budget_.patch_m;
+    if (chance(random) * errors_.patch_every_m >= way_m) return;
+    patch_left_m_ = errors_.patch_m;
     patch_wheel_ = nominal_.index[random() % nominal_.index.size()];
-}
-
-std::optional<double> WheelContact::slip_share(std::span<const WheelMotion> measured,
-                                               const Twist& true_twist) const {
-    std::optional<double> most;
-    for (const std::size_t i : nominal_.index) {
-        const double rim = measured[i].speed_mps;
-        const double floor =
-            rolling_speed(type_, type_.wheels[i], measured[i].angle_rad, true_twist);
-        const double pace = std::max(std::abs(rim), std::abs(floor));
-        if (pace < budget_.slip_speed_mps) continue;
-        most = std::max(most.value_or(0), std::abs(rim - floor) / pace);
-    }
-    return most;
 }
 
 }  // namespace pulseline::simulation

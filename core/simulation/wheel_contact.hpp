@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -8,7 +7,7 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/kinematics/wheels.hpp"
-#include "core/simulation/drive_budget.hpp"
+#include "core/simulation/drive_errors.hpp"
 
 namespace pulseline::simulation {
 
@@ -36,8 +35,8 @@ Pose2 moved(const Pose2& pose, const kinematics::Twist& twist, double h_s);
 /// how the body truly moves.
 class WheelContact {
 public:
-    WheelContact(const plant::VehicleType& type, double load_kg, const DriveBudget& budget,
-                 std::mt19937_64& random);
+    WheelContact(const plant::VehicleType& type, double load_kg,
+                 const localisation::DriveErrors& errors, std::mt19937_64& random);
 
     /// Twist of the body over a cycle of `h_s` at `true_pose`. `accel_mps2`: of each wheel's rim.
     kinematics::Twist body_twist(std::span<const kinematics::WheelMotion> rolled,
@@ -51,15 +50,13 @@ public:
     void set_grade(geometry::Point2 grade) { grade_ = grade; }
     /// Share of a wheel's rim speed that is lost; false: no such wheel.
     bool set_slip(const std::string& wheel, double share);
-    /// What measuring wheels beside the driven ones show: the largest share between the speed of a
-    /// wheel's rim and that of the floor below it. nullopt: too slow to say.
-    std::optional<double> slip_share(std::span<const kinematics::WheelMotion> measured,
-                                     const kinematics::Twist& true_twist) const;
+    /// Those that say how the body moves, among the vehicle's wheels.
+    std::span<const std::size_t> rolling() const { return nominal_.index; }
 
 private:
     void maybe_enter_patch(double way_m, std::mt19937_64& random);
 
-    DriveBudget budget_;
+    localisation::DriveErrors errors_;
     const plant::VehicleType type_;
     RollingWheels nominal_;
     RollingWheels actual_;  // wheels where they truly are

@@ -63,23 +63,23 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg) {
 
 }  // namespace
 
-WheelSet::WheelSet(const plant::VehicleType& type, double load_kg, const DriveBudget& budget,
-                   std::mt19937_64& random)
-    : budget_(budget),
+WheelSet::WheelSet(const plant::VehicleType& type, double load_kg,
+                   const localisation::DriveErrors& errors, std::mt19937_64& random)
+    : errors_(errors),
       max_accel_mps2_(type.max_accel_mps2),
       steering_rate_radps_(type.max_steering_rate_radps) {
     const auto driven = static_cast<double>(std::count_if(
         type.wheels.begin(), type.wheels.end(), [](const auto& wheel) { return wheel.driven; }));
     assert(driven > 0);
     std::normal_distribution<double> normal;
-    const double diameter = budget.diameter_common * normal(random);
-    const double askew_rad = budget.steering_common_rad * normal(random);
+    const double diameter = errors.diameter_common * normal(random);
+    const double askew_rad = errors.steering_common_rad * normal(random);
     for (const auto& plan : type.wheels) {
         Wheel wheel;
         wheel.plan = plan;
-        wheel.diameter_scale = 1 + diameter + budget.diameter_each * normal(random);
+        wheel.diameter_scale = 1 + diameter + errors.diameter_each * normal(random);
         // Fixed wheels are askew, too; Mecanum ones are what their rollers make of it.
-        wheel.zero_rad = askew_rad + budget.steering_each_rad * normal(random);
+        wheel.zero_rad = askew_rad + errors.steering_each_rad * normal(random);
         if (plan.driven) {
             wheel.roll.emplace(rolling(type, plan, load_kg, driven), random());
             wheel.roll->set_load((std::max(kLightest_kg, type.mass_kg) + load_kg) / driven);
@@ -143,13 +143,13 @@ double WheelSet::roll(Wheel& wheel, double wanted_mps, double grade_force_n) {
         const double contact_m = wheel.contact_m;
         wheel.roll->set_external_force(grade_force_n);
         wheel.roll->cycle(wheel.roll_m, wanted_mps);
-        const double half_m = budget_.play_m / 2;
+        const double half_m = errors_.play_m / 2;
         wheel.contact_m = std::clamp(wheel.contact_m, wheel.roll->position() - half_m,
                                      wheel.roll->position() + half_m);
         rim_mps = (wheel.contact_m - contact_m) / h;
         measured_mps = (wheel.roll->measured_position() - told_m) / h;
         wheel.faulty_mps = wheel.roll->velocity();
-        wheel.blind = std::abs(wheel.roll->following_error()) > budget_.following_limit_m;
+        wheel.blind = std::abs(wheel.roll->following_error()) > limits_.following_m;
     }
     wheel.speed_mps = rim_mps * wheel.diameter_scale;
     wheel.accel_mps2 = (wheel.speed_mps - before_mps) / h;
@@ -191,7 +191,7 @@ bool WheelSet::settled() const {
 std::optional<std::string> WheelSet::fault() const {
     for (const Wheel& wheel : wheels_) {
         const bool astray =
-            wheel.steer && std::abs(wheel.steer->following_error()) > budget_.steering_limit_rad;
+            wheel.steer && std::abs(wheel.steer->following_error()) > limits_.steering_rad;
         if (wheel.broken || wheel.blind || astray) return wheel.plan.name;
     }
     return std::nullopt;
@@ -200,9 +200,9 @@ std::optional<std::string> WheelSet::fault() const {
 std::optional<std::string> WheelSet::lagging() const {
     for (const Wheel& wheel : wheels_) {
         if (!wheel.roll) continue;
-        const double missed_m = std::abs(wheel.wanted_mps) * budget_.slip_time_s;
+        const double missed_m = std::abs(wheel.wanted_mps) * limits_.slip_time_s;
         const double behind_m = std::abs(wheel.roll->following_error());
-        if (behind_m > budget_.lag_share * missed_m) return wheel.plan.name;
+        if (behind_m > limits_.lag_share * missed_m) return wheel.plan.name;
     }
     return std::nullopt;
 }

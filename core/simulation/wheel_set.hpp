@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/kinematics/wheels.hpp"
-#include "core/simulation/drive_budget.hpp"
+#include "core/simulation/drive_errors.hpp"
 #include "core/simulation/servo_axis.hpp"
 
 namespace pulseline::simulation {
@@ -23,8 +23,8 @@ public:
     static constexpr int kDeadCycles = 2;
 
     /// REQUIRES: a driven wheel. `load_kg`: carried by the vehicle.
-    WheelSet(const plant::VehicleType& type, double load_kg, const DriveBudget& budget,
-             std::mt19937_64& random);
+    WheelSet(const plant::VehicleType& type, double load_kg,
+             const localisation::DriveErrors& errors, std::mt19937_64& random);
 
     /// One cycle towards `wanted`, one a wheel. `standing`: the brakes hold, steering only.
     /// `grade_force_n`: slope, on each wheel along its rolling direction.
@@ -78,7 +78,8 @@ private:
     void steer(Wheel& wheel, double wanted_rad);
     double roll(Wheel& wheel, double wanted_mps, double grade_force_n);
 
-    DriveBudget budget_;
+    localisation::DriveErrors errors_;
+    DriveLimits limits_;
     std::vector<Wheel> wheels_;
     std::vector<kinematics::WheelMotion> present_;
     std::vector<kinematics::WheelMotion> measured_;

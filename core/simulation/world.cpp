@@ -22,8 +22,9 @@ std::uint64_t seed_for(std::uint64_t seed, const std::string& name) {
     return hash;
 }
 
-World make_world(plant::Plant plant, std::uint64_t seed) {
+World make_world(plant::Plant plant, std::uint64_t seed, const localisation::ErrorBudget& errors) {
     World world;
+    world.errors = errors;
     for (const auto& marker : plant.markers) {
         std::mt19937_64 random(seed_for(seed, "marker " + marker.id.str()));
         std::normal_distribution<double> normal;
@@ -32,6 +33,9 @@ World make_world(plant::Plant plant, std::uint64_t seed) {
         lying.pose.y_m += marker.sigma_xy_m * normal(random);
         lying.pose.heading_rad =
             wrap(lying.pose.heading_rad + marker.sigma_heading_rad * normal(random));
+        lying.pose.x_m += errors.marker.print_m * normal(random);
+        lying.pose.y_m += errors.marker.print_m * normal(random);
+        lying.size_m *= 1 + errors.marker.print_share * normal(random);
         world.markers.push_back(std::move(lying));
     }
     world.plant = std::move(plant);

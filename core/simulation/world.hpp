@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
+#include "core/localisation/error_budget.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::simulation {
@@ -24,11 +25,14 @@ struct TrueMarker {
 struct World {
     plant::Plant plant;
     std::vector<TrueMarker> markers;
+    localisation::ErrorBudget errors;  // of which its machines are drawn, too
 };
 
-/// The codes' true poses are survey + an error of the survey's sigma, drawn from the seed. Every
-/// program with the same plant and seed sees the same world.
-World make_world(plant::Plant plant, std::uint64_t seed);
+/// The codes lie where the survey says + an error of its sigma, and are printed with the budget's
+/// errors, all drawn from the seed. Every program with the same plant, seed and budget sees the
+/// same world.
+World make_world(plant::Plant plant, std::uint64_t seed,
+                 const localisation::ErrorBudget& errors = localisation::ErrorBudget::nominal());
 
 /// A seed of its own for each thing of a world, from its name.
 std::uint64_t seed_for(std::uint64_t seed, const std::string& name);

@@ -8,7 +8,8 @@ namespace pulseline::agent {
 namespace {
 
 constexpr double kAmbient_c = 22;
-constexpr double kHeat_c = 18;  // above ambient at full speed for long
+constexpr double kHeat_c = 18;        // above ambient at full speed for long
+constexpr double kSeizedHeat_c = 90;  // besides, of a wheel whose bearing grinds
 constexpr double kHeatTime_s = 600;
 
 std::string text_of(const Param& param) {
@@ -42,6 +43,12 @@ BodyStatus::BodyStatus(const simulation::Drive& motion) : motion_(motion) {
     }
 }
 
+bool BodyStatus::seize_bearing(const std::string& name) {
+    const bool known = std::ranges::find(wheels_, name, &fleet::WheelStatus::name) != wheels_.end();
+    if (known) hot_wheel_ = name;
+    return known;
+}
+
 /// As the drive tells; one without a model of its wheels has those of its twist.
 std::vector<kinematics::WheelMotion> BodyStatus::wheel_motions() const {
     auto told = motion_.wheels();
@@ -63,7 +70,8 @@ void BodyStatus::step(double dt_s) {
         const double speed = std::abs(rolling_[i].speed_mps);
         wheels_[i].steering_rad = rolling_[i].angle_rad;
         wheels_[i].speed_mps = speed;
-        const double target_c = kAmbient_c + kHeat_c * std::min(1.0, speed / full_mps);
+        const double heat_c = kHeat_c + (wheels_[i].name == hot_wheel_ ? kSeizedHeat_c : 0);
+        const double target_c = kAmbient_c + heat_c * std::min(1.0, speed / full_mps);
         const double share = std::min(1.0, dt_s * motion_.time_factor() / kHeatTime_s);
         wheels_[i].temperature_c += share * (target_c - wheels_[i].temperature_c);
         wheels_[i].fault = "";

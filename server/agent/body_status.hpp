@@ -15,6 +15,8 @@ public:
 
     void step(double dt_s);
     void break_wheel(const std::string& name) { broken_wheel_ = name; }
+    /// The wheel runs hot when it turns. False: there is no such wheel.
+    bool seize_bearing(const std::string& name);
     void write_state(fleet::StateMessage& state) const;
 
 private:
@@ -25,6 +27,7 @@ private:
     std::vector<fleet::WheelStatus> wheels_;
     std::vector<kinematics::WheelMotion> rolling_;
     std::string broken_wheel_;
+    std::string hot_wheel_;
 };
 
 }  // namespace pulseline::agent

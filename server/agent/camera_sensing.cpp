@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/localisation/dual_camera.hpp"
+#include "core/simulation/true_camera.hpp"
 #include "core/vision/camera_picture.hpp"
 
 namespace pulseline::agent {
@@ -13,26 +14,19 @@ using simulation::FloorCode;
 
 constexpr double kAround_m = 20;      // farther codes are no camera's business
 constexpr std::size_t kQrBytes = 11;  // of a version 1 symbol, level Q
-constexpr double kMounting_m = 7e-5;  // true mounting against the calibrated one, per axis
-constexpr double kMounting_rad = 2e-4;
-constexpr double kSigmaUp_rad = 3e-4;  // mounting and fit together
-
-localisation::CodeObservation observation(const fleet::CameraReading& reading) {
-    return {reading.payload, reading.code, reading.angle_rad, reading.sigma_m, kSigmaUp_rad};
-}
 
 }  // namespace
 
 CameraSensing::CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                             const simulation::Drive& motion, bool rendered, std::uint64_t seed)
+                             const simulation::Drive& motion, bool rendered, std::uint64_t seed,
+                             bool loaded)
     : world_(world), hall_(hall), motion_(motion), random_(seed), actual_(motion.type().cameras) {
     options_.mode = rendered ? simulation::Sensing::kRendered : simulation::Sensing::kAnalytic;
-    std::normal_distribution<double> normal;
+    options_.errors = world.errors;
+    options_.loaded = loaded;
+    options_.look = motion.type().usual_code;
     for (auto& camera : actual_) {
-        camera.body_from_camera =
-            camera.body_from_camera * geometry::Pose2{kMounting_m * normal(random_),
-                                                      kMounting_m * normal(random_),
-                                                      kMounting_rad * normal(random_)};
+        camera = simulation::true_camera(camera, world.errors.camera, loaded, random_);
     }
 }
 
@@ -50,32 +44,18 @@ std::vector<FloorCode> CameraSensing::codes_around() const {
     return codes;
 }
 
-void CameraSensing::look_for_nearest(const std::vector<FloorCode>& codes) {
-    double least_m = kAround_m;
-    for (const auto& camera : motion_.type().cameras) {
-        const auto foot = motion_.true_pose() * camera.body_from_camera.position();
-        for (const FloorCode& code : codes) {
-            const double away_m = distance(code.pose.position(), foot);
-            if (away_m >= least_m) continue;
-            least_m = away_m;
-            options_.kind = code.kind;
-            options_.code_size_m = code.size_m;
-        }
-    }
-}
-
 void CameraSensing::look() { look_expecting(std::nullopt); }
 
 void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) {
     options_.dark = dark_;
     const auto codes = codes_around();
-    look_for_nearest(codes);
     options_.known = std::move(known);
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
     readings_ = std::move(view.readings);
     pictured_ = readings_;
     images_ = std::move(view.images);
+    sizes_m_ = std::move(view.sizes_m);
     fresh_ = true;
 }
 
@@ -83,15 +63,22 @@ bool CameraSensing::take_fresh() { return std::exchange(fresh_, false); }
 
 Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& target) {
     simulation::KnownFloor known{motion_.believed_pose(), {}};
-    for (const auto& marker : target.markers) known.codes.push_back(marker.pose);
+    for (const auto& marker : target.markers) {
+        // Of a kind that it has never heard of it sees none.
+        const auto kind = plant::parse_marker_kind(marker.kind);
+        if (kind) known.codes.push_back({marker.pose, {*kind, marker.size_m}});
+    }
     look_expecting(std::move(known));
     std::vector<localisation::CodeObservation> seen;
     for (const auto& reading : readings_) {
-        if (reading.found) seen.push_back(observation(reading));
+        if (!reading.found) continue;
+        seen.push_back({reading.payload, reading.code, reading.angle_rad, reading.sigma_m,
+                        localisation::code_sigma_rad(options_.errors, 0)});
     }
     std::vector<localisation::SurveyedCode> survey;
     for (const auto& marker : target.markers) {
-        survey.push_back({marker.payload, marker.pose, marker.sigma_m, kSigmaUp_rad});
+        survey.push_back(
+            {marker.payload, marker.pose, marker.sigma_m, options_.errors.marker.survey_rad});
     }
     const auto fix = localisation::locate(seen, survey);
     if (!fix) return fail(fix.error());
@@ -105,7 +92,7 @@ std::vector<CameraSensing::Picture> CameraSensing::pictures() const {
     const auto& cameras = motion_.type().cameras;
     for (std::size_t i = 0; i < images_.size(); ++i) {
         const auto annotated = vision::annotate(
-            images_[i], cameras[i], simulation::body_from_code(pictured_[i]), options_.code_size_m);
+            images_[i], cameras[i], simulation::body_from_code(pictured_[i]), sizes_m_[i]);
         const auto jpeg = vision::encode_jpeg(annotated, cameras[i]);
         pictures.push_back({cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }

@@ -25,8 +25,10 @@ public:
     };
 
     /// `motion` is asked for the true pose at every look.
+    /// `loaded`: the vehicle carries its load.
     CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                  const simulation::Drive& motion, bool rendered, std::uint64_t seed);
+                  const simulation::Drive& motion, bool rendered, std::uint64_t seed,
+                  bool loaded = false);
 
     Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override;
     /// Takes new images and reads them.
@@ -48,7 +50,6 @@ public:
 private:
     std::vector<simulation::FloorCode> codes_around() const;
     void look_expecting(std::optional<simulation::KnownFloor> known);
-    void look_for_nearest(const std::vector<simulation::FloorCode>& codes);
 
     const simulation::World& world_;
     plant::HallId hall_;
@@ -59,6 +60,7 @@ private:
     std::vector<fleet::CameraReading> readings_;
     std::vector<fleet::CameraReading> pictured_;  // what the images show, one per image
     std::vector<cv::Mat> images_;
+    std::vector<double> sizes_m_;  // of the codes looked for in them
     std::optional<localisation::PoseFix> fix_;
     bool fresh_ = false;
     bool covered_ = false;

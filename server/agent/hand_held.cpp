@@ -17,13 +17,16 @@ Json refused(const Error& error) {
 }
 
 Json told(const Vehicle& vehicle) {
+    Json told = {{"ok", true},
+                 {"vehicle", vehicle.plant_vehicle().manufacturer + "/" +
+                                 vehicle.plant_vehicle().serial_number},
+                 {"operating_mode", vehicle.in_hand() ? "MANUAL" : "AUTOMATIC"},
+                 {"standing", vehicle.standing()}};
+    // Before anybody has said where it stands it does not know.
+    if (!vehicle.knows_pose()) return told;
     const auto& pose = vehicle.believed_pose();
-    return {{"ok", true},
-            {"vehicle",
-             vehicle.plant_vehicle().manufacturer + "/" + vehicle.plant_vehicle().serial_number},
-            {"operating_mode", vehicle.in_hand() ? "MANUAL" : "AUTOMATIC"},
-            {"standing", vehicle.standing()},
-            {"pose", {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}}}};
+    told["pose"] = {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}};
+    return told;
 }
 
 Result<Vehicle*> vehicle_of(const std::vector<Vehicle*>& vehicles, const std::string& name) {

@@ -108,8 +108,10 @@ control::FieldAnswer LookOut::look() {
     const Twist twist = intended();
     if (still(twist)) return {};
     ++looks_;
+    seen_ = others_;
+    if (neighbours_) neighbours_(drive_.true_pose().position(), seen_);
     for (std::size_t i = 0; i < scanners_.size(); ++i) {
-        scanners_[i].scan(drive_.true_pose(), others_, random_, scans_[i]);
+        scanners_[i].scan(drive_.true_pose(), seen_, random_, scans_[i]);
     }
     auto answer = check(twist);
     const double run_m = drive_.run_ahead_m();

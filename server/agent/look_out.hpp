@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <random>
 #include <vector>
@@ -29,6 +30,9 @@ public:
     /// Something not in the drawing, hall frame.
     void put(geometry::Polygon obstacle) { others_.push_back(std::move(obstacle)); }
     void take_away() { others_.clear(); }
+    /// The bodies of the vehicles near a place, as they truly stand now: asked at every look.
+    using Neighbours = std::function<void(geometry::Point2, std::vector<geometry::Polygon>&)>;
+    void see(Neighbours neighbours) { neighbours_ = std::move(neighbours); }
 
     /// Before what bars its run it stops with room to swing out, instead of driving up to it as
     /// near as the fields let it: for a vehicle that may go round.
@@ -58,6 +62,8 @@ private:
     std::vector<control::Scan> scans_;
     std::vector<control::ProtectiveFields> fields_;  // one for each convex piece of the outline
     std::vector<geometry::Polygon> others_;
+    Neighbours neighbours_;
+    std::vector<geometry::Polygon> seen_;  // by the last look, beside what stands for good
     std::mt19937_64 random_;
     control::FieldAnswer last_;
     std::size_t looks_ = 0;

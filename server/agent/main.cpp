@@ -32,6 +32,12 @@ struct Unit {
     std::unique_ptr<LinkClient> link;
 };
 
+localisation::ErrorBudget errors_of(const std::string& name) {
+    if (name == "kind") return localisation::ErrorBudget::kind();
+    if (name == "harsh") return localisation::ErrorBudget::harsh();
+    return localisation::ErrorBudget::nominal();
+}
+
 /// Where the vehicle truly stands: where its log left it, else placed at home.
 Result<geometry::Pose2> start_pose(const Options& options, const simulation::World& world,
                                    const plant::Vehicle& vehicle) {
@@ -70,6 +76,18 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     return std::make_unique<Vehicle>(world, *vehicle, *pose, settings, truth);
 }
 
+/// Vehicles of one process stand in one hall and see each other; those of another process do not.
+void let_see(const std::vector<Unit>& units) {
+    for (const auto& unit : units) {
+        Vehicle* own = unit.vehicle.get();
+        own->see([&units, own](geometry::Point2 from, std::vector<geometry::Polygon>& seen) {
+            for (const auto& other : units) {
+                if (other.vehicle.get() != own) other.vehicle->show_body(own->hall(), from, seen);
+            }
+        });
+    }
+}
+
 net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
     net::steady_timer timer(co_await net::this_coro::executor);
     auto last = Vehicle::Steady::now();
@@ -105,7 +123,8 @@ Status set_up_tls(server::ssl::context& tls, const Options& options) {
 Result<int> run(const Options& options) {
     auto plant = plant::load_plant_file(options.world_file);
     if (!plant) return fail(plant.error());
-    const auto world = simulation::make_world(std::move(*plant), options.seed);
+    const auto world =
+        simulation::make_world(std::move(*plant), options.seed, errors_of(options.errors));
     std::optional<TruthLog> truth;
     server::ssl::context tls(server::ssl::context::tls_client);
     if (const auto status = set_up_tls(tls, options); !status) return fail(status.error());
@@ -125,6 +144,8 @@ Result<int> run(const Options& options) {
             simulation::seed_for(options.seed, "link " + identity.serial_number));
         units.push_back({std::move(*vehicle), std::move(link)});
     }
+
+    let_see(units);
 
     std::unique_ptr<HandHeldLink> hand_held;
     if (!options.hand_held.empty()) {

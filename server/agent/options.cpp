@@ -146,10 +146,11 @@ Result<ServerAddress> parse_server(const std::string& url) {
 
 Result<Fault> parse_fault(const std::string& text) {
     const auto bad = [&] {
-        return fail(Errc::kInvalid, "bad_fault",
-                    "fault \"" + text +
-                        "\" must be wheel=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                        "camera-dark, obstacle=X,Y or way-free, each with @SECONDS or without");
+        return fail(
+            Errc::kInvalid, "bad_fault",
+            "fault \"" + text +
+                "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
+                "camera-dark, obstacle=X,Y or way-free, each with @SECONDS or without");
     };
     Fault fault;
     std::string what = text;
@@ -174,6 +175,8 @@ Result<Fault> parse_fault(const std::string& text) {
     fault.wheel = what.substr(equals + 1);
     if (kind == "wheel") {
         fault.kind = Fault::Kind::kWheel;
+    } else if (kind == "bearing") {
+        fault.kind = Fault::Kind::kBearing;
     } else if (kind == "encoder") {
         fault.kind = Fault::Kind::kEncoder;
     } else if (kind == "obstacle") {
@@ -238,6 +241,9 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--world", options.world_file, "plant file of the simulated world")->required();
     app.add_option("--seed", options.seed, "of all simulated errors");
+    app.add_option("--errors", options.errors,
+                   "how well the simulated machines and floor are kept: nominal, kind, harsh")
+        ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
     app.add_option("--time-factor", options.time_factor, "speeds times it, accelerations squared")
         ->check(CLI::Range(1.0, 20.0));
@@ -256,7 +262,7 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
     app.add_option("--fault", raw.faults,
-                   "for tests: wheel=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
+                   "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
                    "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
                    "obstacle=X,Y@SECONDS, way-free@SECONDS");
     try {

@@ -23,7 +23,7 @@ struct ServerAddress {
 };
 
 struct Fault {
-    enum class Kind { kWheel, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
+    enum class Kind { kWheel, kBearing, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
     Kind kind = Kind::kWheel;
     std::string wheel;
     double share = 0;        // of the rim's speed that slips
@@ -39,6 +39,7 @@ struct Options {
     std::string learned;    // folder for what the vehicles learn; empty: none
     std::string hand_held;  // socket of a hand-held control; empty: none
     std::uint64_t seed = 1;
+    std::string errors = "nominal";  // how well machines and floor are kept: nominal, kind, harsh
     double time_factor = 1;
     bool rendered = true;
     bool servo_drive = true;

@@ -33,6 +33,7 @@ constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 constexpr int kLookShare = 10;
 constexpr double kOwnStep_s = 0.1;
 constexpr double kRounding = 1e-9;
+constexpr double kSeen_m = 30;      // a scanner's range and two long bodies
 constexpr double kRangeSigmas = 3;  // what deviationRange covers
 
 Time utc_now() {
@@ -78,13 +79,14 @@ geometry::Polygon thing_at(geometry::Point2 place) {
 std::unique_ptr<simulation::Drive> make_drive(const plant::VehicleType& type,
                                               const plant::Vehicle& vehicle,
                                               const geometry::Pose2& true_pose,
-                                              const VehicleSettings& settings) {
+                                              const VehicleSettings& settings,
+                                              const localisation::ErrorBudget& errors) {
     const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
     const bool driven = std::any_of(type.wheels.begin(), type.wheels.end(),
                                     [](const plant::Wheel& wheel) { return wheel.driven; });
     if (settings.servo_drive && driven) {
         return std::make_unique<simulation::ServoDrive>(type, true_pose, seed, settings.time_factor,
-                                                        vehicle.load_kg);
+                                                        vehicle.load_kg, errors);
     }
     return std::make_unique<simulation::VehicleMotion>(type, true_pose, seed, settings.time_factor);
 }
@@ -95,26 +97,26 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                  const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth)
     : vehicle_(vehicle),
       type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
+      hall_(plant::find_station(world.plant, vehicle.home)->hall),
       settings_(settings),
-      drive_(make_drive(type_, vehicle, true_pose, settings)),
-      sensing_(world, plant::find_station(world.plant, vehicle.home)->hall, *drive_,
-               settings.rendered, simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
+      drive_(make_drive(type_, vehicle, true_pose, settings, world.errors)),
+      sensing_(world, hall_, *drive_, settings.rendered,
+               simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
+               plant::is_loaded(vehicle)),
       equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       learned_(settings.learned.empty() ? std::nullopt
                                         : std::optional<LearnedMoves>(
                                               std::in_place, settings.learned, vehicle.id.str())),
-      executor_(*drive_, sensing_, plant::find_station(world.plant, vehicle.home)->hall.str(),
-                &equipment_, learned_before(learned_)),
+      executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
       estimate_(true_pose),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
     if (settings.servo_drive) {
-        look_out_.emplace(world, vehicle, plant::find_station(world.plant, vehicle.home)->hall,
-                          *drive_,
+        look_out_.emplace(world, vehicle, hall_, *drive_,
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
     }
@@ -162,6 +164,19 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     if (pictures_due_ && now - last_pictures_ >= kPictureInterval) send_pictures(now);
 }
 
+void Vehicle::see(LookOut::Neighbours neighbours) {
+    if (look_out_) look_out_->see(std::move(neighbours));
+}
+
+void Vehicle::show_body(const plant::HallId& hall, geometry::Point2 from,
+                        std::vector<geometry::Polygon>& to) const {
+    const auto& pose = drive_->true_pose();
+    if (hall != hall_ || distance(pose.position(), from) > kSeen_m) return;
+    for (const auto& piece : plant::outline_with_load(type_, plant::is_loaded(vehicle_))) {
+        to.push_back(geometry::transformed(pose, piece));
+    }
+}
+
 void Vehicle::apply_faults(double dt_s) {
     age_s_ += dt_s;
     std::erase_if(settings_.faults, [&](const Fault& fault) {
@@ -190,6 +205,9 @@ void Vehicle::apply(const Fault& fault) {
             body_.break_wheel(fault.wheel);
             if (servo != nullptr) known = servo->break_wheel(fault.wheel);
             break;
+        case Fault::Kind::kBearing:
+            known = body_.seize_bearing(fault.wheel);
+            break;
         case Fault::Kind::kSlip:
             known = servo != nullptr && servo->set_slip(fault.wheel, fault.share);
             break;
@@ -197,7 +215,7 @@ void Vehicle::apply(const Fault& fault) {
             known = servo != nullptr && servo->kill_encoder(fault.wheel);
             break;
     }
-    if (!known) spdlog::warn("{}: no drive {} can fail so", vehicle_.id.str(), fault.wheel);
+    if (!known) spdlog::warn("{}: no wheel {} can fail so", vehicle_.id.str(), fault.wheel);
 }
 
 void Vehicle::keep_learned() {

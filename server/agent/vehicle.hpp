@@ -60,9 +60,17 @@ public:
     Status give_back() { return executor_.give_back(); }
     bool in_hand() const { return executor_.in_hand(); }
     bool standing() const { return drive_->standing(); }
+    bool knows_pose() const { return executor_.position_initialized(); }
     const geometry::Pose2& believed_pose() const { return drive_->believed_pose(); }
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
+
+    /// What its scanners see of the vehicles around it.
+    void see(LookOut::Neighbours neighbours);
+    /// Puts its body, load included, as it truly stands, to what others' scanners see.
+    void show_body(const plant::HallId& hall, geometry::Point2 from,
+                   std::vector<geometry::Polygon>& to) const;
+    const plant::HallId& hall() const { return hall_; }
 
 private:
     fleet::StateMessage state();
@@ -82,6 +90,7 @@ private:
 
     const plant::Vehicle& vehicle_;
     const plant::VehicleType type_;  // its cameras as they hang under its load
+    const plant::HallId hall_;
     VehicleSettings settings_;
     std::unique_ptr<simulation::Drive> drive_;
     CameraSensing sensing_;

@@ -1,7 +1,7 @@
-// The table of faults names the tests that hold them: each must exist where it says.
+// No test is lost: each belongs to a suite, and those that the table of faults names exist.
 import assert from "node:assert/strict";
-import { existsSync, readFileSync } from "node:fs";
-import { join } from "node:path";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
 import { test } from "node:test";
 
 import { ROOT } from "../harness/processes.mjs";
@@ -33,4 +33,25 @@ test("every test that tests/faults/README.md names exists", () => {
   }
   assert.ok(rows.length > 60, `${rows.length} rows`);
   assert.deepEqual(missing, []);
+});
+
+const textOf = (file) => readFileSync(join(ROOT, file), "utf8");
+const filesUnder = (folder, ending) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(ending)).map((name) => join(folder, name));
+
+test("every test belongs to a suite", () => {
+  const dev = textOf("dev"), cmake = textOf("CMakeLists.txt");
+  const lost = [];
+  const globs = new Set([...dev.matchAll(/(tests\/[a-z0-9_]+)\/\*\.test\.mjs/g)].map(([, folder]) => folder));
+  for (const file of filesUnder("tests", ".test.mjs")) if (!globs.has(dirname(file))) lost.push(file);
+  for (const file of filesUnder("tests", ".cpp")) {
+    const fuzzed = file.match(/^tests\/fuzz\/(\w+)_fuzz\.cpp$/)?.[1];
+    const isRun = fuzzed ? new RegExp(`/dev fuzz 60 .*\\b${fuzzed}\\b`).test(textOf("tests/nightly/run")) : cmake.includes(file);
+    if (!isRun) lost.push(file);
+  }
+  // What the unit suite leaves out is run by name.
+  const leftOut = dev.match(/case \$program in (\S+)\) continue/)[1].split("|").map((name) => basename(name));
+  for (const name of leftOut) if (!dev.includes(`"$BUILD/${name}"`)) lost.push(name);
+  for (const [, name] of cmake.matchAll(/^ +pulseline_test\((\w+)/gm)) if (!name.startsWith("test_")) lost.push(name);
+  assert.ok(globs.size > 5 && leftOut.length > 3, "the script was read");
+  assert.deepEqual(lost, []);
 });

@@ -15,6 +15,9 @@ int main(int argc, char** argv) {
         ->check(CLI::IsMember({"all", "landmark-accuracy", "stop-adjustment", "stops"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
+    app.add_option("--errors", options.errors, "of the stops: nominal, kind, harsh")
+        ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
+    app.add_option("--spoil", options.spoil_mm, "mm that each measured stop is off unnoticed");
     CLI11_PARSE(app, argc, argv);
     cv::setNumThreads(1);
     bool good = true;

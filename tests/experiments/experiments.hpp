@@ -9,8 +9,10 @@ namespace pulseline::experiments {
 
 struct Options {
     std::uint64_t seed = 1;
-    std::optional<int> runs;  // absent: the experiment's own number
-    std::string folder;       // of the experiments' own files
+    std::optional<int> runs;         // absent: the experiment's own number
+    std::string errors = "nominal";  // of the stops: nominal, kind, harsh
+    double spoil_mm = 0;  // of the stops: measurements that are off by so much without knowing it
+    std::string folder;   // of the experiments' own files
 };
 
 /// Li 2020, section 4.2, Tables 1 and 2: distance and angle between two landmarks. False when a row
@@ -22,8 +24,8 @@ bool landmark_accuracy(const Options& options);
 bool stop_adjustment(const Options& options);
 
 /// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum with positions of
-/// iGPS grade), Li 2020 (differential vehicle, landmark). False when one is refused or misses what
-/// is asked of it.
+/// iGPS grade, from a stand-in), Li 2020 (differential vehicle, landmark), with the whole error
+/// budget. False when one is refused or misses what is asked of it.
 bool stops(const Options& options);
 
 }  // namespace pulseline::experiments

@@ -23,7 +23,8 @@ constexpr double kPatience_s = 600;  // of the vehicle's own time, for one stop
 constexpr double kReceiver_m = 6e-5;
 constexpr double kReceiverPlace_m = 2e-5;  // after calibration
 
-/// Pose by receivers at the corners (Wang eq. 1 and 2; here the rigid fit of all four).
+/// A stand-in until there are iGPS transmitters and receivers: the true places of four receivers at
+/// the corners with noise of Wang's grade, and the rigid fit of all four (his eq. 1 and 2).
 class ReceiverSensing : public simulation::StopSensing {
 public:
     ReceiverSensing(const simulation::Drive& drive, std::uint64_t seed)
@@ -81,21 +82,28 @@ private:
 /// Counts looks and keeps where the vehicle stood at the first.
 class Watched : public simulation::StopSensing {
 public:
-    Watched(simulation::StopSensing& eyes, const simulation::Drive& drive)
-        : eyes_(eyes), drive_(drive) {}
+    Watched(simulation::StopSensing& eyes, const simulation::Drive& drive, double spoil_m)
+        : eyes_(eyes), drive_(drive), spoil_m_(spoil_m) {}
     void forget() { looks_ = 0; }
     int looks() const { return looks_; }
     const Pose2& first() const { return first_; }
+    const fleet::StopMeasurement& last() const { return last_; }
     Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override {
         if (looks_++ == 0) first_ = drive_.true_pose();
-        return eyes_.measure(target);
+        auto made = eyes_.measure(target);
+        if (!made) return made;
+        made->pose.x_m += spoil_m_;
+        last_ = *made;
+        return made;
     }
 
 private:
     simulation::StopSensing& eyes_;
     const simulation::Drive& drive_;
+    double spoil_m_;
     int looks_ = 0;
     Pose2 first_;
+    fleet::StopMeasurement last_;
 };
 
 fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
@@ -153,22 +161,24 @@ fleet::OrderMessage order_to(const std::string& id, const std::string& map,
 class Vehicle {
 public:
     Vehicle(const StopFamily& family, const simulation::World& world, std::uint64_t seed,
-            double time_factor)
+            const StopRuns& runs)
         : family_(family),
           plant_(world.plant),
           vehicle_(*plant::find_vehicle(plant_, plant::VehicleId(family.vehicle))),
           hall_(plant::find_station(plant_, vehicle_.home)->hall),
           drive_(*plant::find_vehicle_type(plant_, vehicle_.type),
-                 simulation::placed_pose(world, vehicle_, seed).value(), seed, time_factor,
-                 vehicle_.load_kg),
-          cameras_(world, hall_, drive_, true, seed),
+                 simulation::placed_pose(world, vehicle_, seed).value(), seed, runs.time_factor,
+                 vehicle_.load_kg, world.errors),
+          cameras_(world, hall_, drive_, true, seed, plant::is_loaded(vehicle_)),
           receivers_(drive_, seed),
-          eyes_(family.igps ? static_cast<simulation::StopSensing&>(receivers_) : cameras_, drive_),
+          eyes_(family.igps ? static_cast<simulation::StopSensing&>(receivers_) : cameras_, drive_,
+                runs.spoil_m),
           executor_(drive_, eyes_, hall_.str()) {
         fleet::Action here;
         here.type = "initPosition";
         here.id = "init";
-        here.init_position = fleet::InitPosition{drive_.true_pose(), hall_.str(), {}};
+        here.init_position =
+            fleet::InitPosition{plant::find_station(plant_, vehicle_.home)->pose, hall_.str(), {}};
         executor_.handle(fleet::InstantActionsMessage{{here}});
     }
 
@@ -192,6 +202,9 @@ public:
         }
         stop.arrived = inverse(station.pose) * eyes_.first();
         stop.off = inverse(station.pose) * drive_.true_pose();
+        stop.measured = inverse(station.pose) * eyes_.last().pose;
+        stop.sigma_xy_m = eyes_.last().sigma_xy_m;
+        stop.sigma_heading_rad = eyes_.last().sigma_heading_rad;
         stop.looks = eyes_.looks();
         return stop;
     }
@@ -232,7 +245,7 @@ std::vector<StopFamily> stop_families() {
     platform.demand.most_axis_mm = 10;
     platform.demand.most_deg = 0.15;
     platform.demand.mean_mm = 1;
-    StopFamily mecanum{"Mecanum, iGPS grade", "OM-01", {23, 28, 25, 27}, true, 0.0004};
+    StopFamily mecanum{"Mecanum, iGPS stand-in", "OM-01", {23, 28, 25, 27}, true, 0.0004};
     mecanum.demand.words = "Wang: +-0.5 mm always";
     mecanum.demand.most_axis_mm = 0.5;
     StopFamily differential{"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002};
@@ -242,17 +255,20 @@ std::vector<StopFamily> stop_families() {
     return {platform, mecanum, differential};
 }
 
-std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file, int count,
-                            std::uint64_t seed, double time_factor) {
-    auto plant = plant::load_plant_file(plant_file);
+std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
+                            const StopRuns& runs) {
+    const auto plant = plant::load_plant_file(plant_file);
     if (!plant) throw std::runtime_error(plant.error().what);
-    const auto world = simulation::make_world(std::move(*plant), seed);
-    Vehicle vehicle(family, world, seed, time_factor);
     std::vector<Stop> stops;
-    for (int i = 0; i < count; ++i) {
-        const auto next = static_cast<std::size_t>(i) % family.stations.size();
-        stops.push_back(vehicle.drive_to(family.stations[next]));
-        if (!stops.back().why_not.empty()) break;
+    for (int v = 0; v < runs.vehicles; ++v) {
+        const std::uint64_t seed = runs.seed + static_cast<std::uint64_t>(v);
+        const auto world = simulation::make_world(*plant, seed, runs.errors);
+        Vehicle vehicle(family, world, seed, runs);
+        for (int i = 0; i < runs.stops; ++i) {
+            const auto next = static_cast<std::size_t>(i) % family.stations.size();
+            stops.push_back(vehicle.drive_to(family.stations[next]));
+            if (!stops.back().why_not.empty()) return stops;
+        }
     }
     return stops;
 }

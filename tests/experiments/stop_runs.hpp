@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
+#include "core/localisation/error_budget.hpp"
 
-/// Many stops of one simulated vehicle, closed loop: it drives from station to station by its
-/// wheels (ServoDrive, whose error budget drive_budget.hpp writes down), measures by what it sees,
-/// and adjusts. What counts is where it truly stands.
+/// Many stops of simulated vehicles, closed loop: each drives from station to station by its
+/// wheels, measures by what it sees, and adjusts. Each is a machine of its own, drawn from the
+/// error budget (core/localisation/error_budget.hpp). What counts is where it truly stands.
 namespace pulseline::experiments {
 
 /// What the true stops of a family are held to; infinite: nothing.
@@ -26,7 +27,7 @@ struct StopFamily {
     std::string name;
     std::string vehicle;         // of the plant final-assembly
     std::vector<int> stations;   // driven to in turn
-    bool igps = false;           // four receivers instead of the cameras
+    bool igps = false;           // a stand-in for iGPS receivers instead of the cameras
     double tolerance_m = 0.025;  // either way, along both axes
     StopDemand demand = {};
 };
@@ -35,16 +36,28 @@ std::vector<StopFamily> stop_families();
 
 struct Stop {
     int station = 0;
-    geometry::Pose2 arrived;  // true pose seen from the station's, before any adjusting
-    geometry::Pose2 off;      // and after
+    geometry::Pose2 arrived;   // true pose seen from the station's, before any adjusting
+    geometry::Pose2 off;       // and after
+    geometry::Pose2 measured;  // last, seen from the station's pose
+    double sigma_xy_m = 0;     // stated with it
+    double sigma_heading_rad = 0;
     int looks = 0;
     double time_s = 0;    // of adjusting and measuring, in the vehicle's own time
     std::string why_not;  // not empty: it was refused
 };
 
-/// `plant_file`: final-assembly.json. Images are rendered and read; light, dirt, print and survey
-/// errors come from the seed.
-std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file, int count,
-                            std::uint64_t seed, double time_factor);
+struct StopRuns {
+    int vehicles = 20;  // seeds one after the other
+    int stops = 10;     // of each
+    std::uint64_t seed = 1;
+    double time_factor = 10;
+    localisation::ErrorBudget errors;
+    double spoil_m = 0;  // a measurement that is off by so much without knowing it
+};
+
+/// `plant_file`: final-assembly.json. Images are rendered and read; all errors come from the seeds.
+/// Ends at the first stop that is refused.
+std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
+                            const StopRuns& runs);
 
 }  // namespace pulseline::experiments

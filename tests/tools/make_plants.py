@@ -57,7 +57,8 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "id": "transport-platform", "name": "Transport platform", "kinematics": "steered_platform",
     "footprint": rect(10.5, 2.5), "load_footprint": FIGHTER,
     "max_speed_mps": 1.67, "max_accel_mps2": 0.2, "max_turn_rate_radps": 0.12, "max_turn_accel_radps2": 0.04,
-    "min_turn_radius_m": 5, "max_arc_radius_m": 200, "clearance_m": 0.5,
+    "min_turn_radius_m": 5, "max_arc_radius_m": 200, "clearance_m": 0.5, "height_m": 1.1,
+    "usual_code": {"kind": "qr", "size_m": 0.06}, "slip_sensor": {"noise_mps": 0.002},
     "motion_modes": ["auto", "self_rotation", "linear", "fixed_axis_rotation", "free"],
     "wheels": [wheel("FL", 4.97, 0.925, False, True, 0.3), wheel("FR", 4.97, -0.925, False, True, 0.3),
                wheel("BL", -4.97, 0.925, False, True, 0.3), wheel("BR", -4.97, -0.925, False, True, 0.3),
@@ -69,23 +70,25 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "mass_kg": 10200, "max_load_kg": 22000}
 
 
-def mecanum(kind, name, length, width, camera_x, speed, mass, load):
+def mecanum(kind, name, length, width, height, camera_x, speed, mass, load):
     return {"id": kind, "name": name, "kinematics": "mecanum", "footprint": rect(length, width), "load_footprint": [],
             "max_speed_mps": speed, "max_accel_mps2": 0.4, "max_turn_rate_radps": 0.6, "max_turn_accel_radps2": 0.4,
-            "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2,
+            "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2, "height_m": height,
+            "usual_code": {"kind": "apriltag", "size_m": 0.05}, "slip_sensor": {"noise_mps": 0.002},
             "motion_modes": ["auto", "self_rotation", "linear", "lateral", "oblique", "combined", "free"],
             "wheels": [wheel(n, sx * (length / 2 - 0.35), sy * (width / 2 - 0.15), True, False, 0.3)
                        for n, sx, sy in [("FL", 1, 1), ("FR", 1, -1), ("BL", -1, 1), ("BR", -1, -1)]],
             "cameras": [camera("front", camera_x)], "brackets": [], "mass_kg": mass, "max_load_kg": load}
 
 
-MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 1.2, 900, 400)
-OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 1.2, 1.0, 1800, 3000)
+MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 0.9, 1.2, 900, 400)
+OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1800, 3000)
 DELIVERY = {
     "id": "delivery-vehicle", "name": "Delivery vehicle", "kinematics": "differential",
     "footprint": ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)]),
     "load_footprint": [], "max_speed_mps": 1.5, "max_accel_mps2": 0.6, "max_turn_rate_radps": 0.9,
-    "max_turn_accel_radps2": 0.8, "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2,
+    "max_turn_accel_radps2": 0.8, "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2, "height_m": 0.4,
+    "usual_code": {"kind": "landmark", "size_m": 0.08}, "slip_sensor": {"noise_mps": 0.002},
     "motion_modes": ["auto", "self_rotation", "linear", "free"],
     "wheels": [wheel("left", 0, 0.42, True, False, 0.2), wheel("right", 0, -0.42, True, False, 0.2)],
     "cameras": [camera("front", 0.5)], "brackets": [], "mass_kg": 180, "max_load_kg": 250}

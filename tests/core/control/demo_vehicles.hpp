@@ -27,6 +27,7 @@ inline plant::VehicleType platform() {
                      {"front right", {2.4, -0.7}},
                      {"back left", {-3.0, 0.7}},
                      {"back right", {-3.0, -0.7}}};
+    type.slip_sensor = plant::SlipSensor{0.002};
     return type;
 }
 
@@ -47,6 +48,7 @@ inline plant::VehicleType mecanum() {
                    {"FR", {0.85, -0.55}, true, false, 0.3},
                    {"BL", {-0.85, 0.55}, true, false, 0.3},
                    {"BR", {-0.85, -0.55}, true, false, 0.3}};
+    type.slip_sensor = plant::SlipSensor{0.002};
     return type;
 }
 
@@ -65,6 +67,7 @@ inline plant::VehicleType differential() {
     type.mass_kg = 180;
     type.max_load_kg = 250;
     type.wheels = {{"left", {0, 0.42}, true, false, 0.2}, {"right", {0, -0.42}, true, false, 0.2}};
+    type.slip_sensor = plant::SlipSensor{0.002};
     return type;
 }
 
@@ -76,6 +79,7 @@ inline plant::VehicleType tricycle() {
     type.wheels = {{"front", {1.2, 0}, true, true, 0.2},
                    {"left", {0, 0.5}, false, false, 0.2},
                    {"right", {0, -0.5}, false, false, 0.2}};
+    type.slip_sensor = plant::SlipSensor{0.002};
     return type;
 }
 

@@ -254,7 +254,7 @@ TEST(ServoDrive, AFullLoadOnASlopeIsStillDriven) {
 }
 
 TEST(ServoDrive, ASlopeAcrossThePathDrawsTheTrueVehicleDownhillUnnoticed) {
-    const DriveBudget budget;
+    const localisation::DriveErrors errors;
     for (const auto& type : families()) {
         ServoDrive level(type, {}, 3);
         ServoDrive tilted(type, {}, 3);
@@ -265,7 +265,7 @@ TEST(ServoDrive, ASlopeAcrossThePathDrawsTheTrueVehicleDownhillUnnoticed) {
             drive_to_end(*drive);
         }
         EXPECT_NEAR(tilted.true_pose().y_m - level.true_pose().y_m,
-                    -20 * 0.02 / budget.side_stiffness, 4e-3);
+                    -20 * 0.02 / errors.side_stiffness, 4e-3);
         EXPECT_NEAR(tilted.believed_pose().y_m, 0, 2e-3);
     }
 }

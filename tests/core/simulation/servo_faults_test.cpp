@@ -111,6 +111,28 @@ TEST(ServoFaults, AWheelThatSlipsStopsTheDriveWithItsShareAndItGoesOnWhenAcknowl
     }
 }
 
+TEST(ServoFaults, WithoutMeasuringWheelsNobodySeesAllWheelsSlip) {
+    plant::VehicleType type = differential();
+    type.slip_sensor.reset();
+    ServoDrive drive = driving(type);
+    for (const char* wheel : {"left", "right"}) drive.set_slip(wheel, 0.2);
+    for (int i = 0; i < 1200; ++i) drive.step(kStep_s);
+    EXPECT_FALSE(drive.stop_cause());
+    EXPECT_LT(drive.true_pose().x_m, 36);
+}
+
+TEST(ServoFaults, TheNoiseOfMeasuringWheelsStopsNobody) {
+    for (auto type : {platform(), mecanum(), differential()}) {
+        type.slip_sensor = plant::SlipSensor{0.004};  // twice what is usual
+        ServoDrive drive(type, {}, 5);
+        for (int leg = 0; leg < 20; ++leg) {
+            drive.append(straight({1.0 * leg, 0, 0}, 1));
+            for (int i = 0; i < 1200 && !drive.idle(); ++i) drive.step(kStep_s);
+            ASSERT_FALSE(drive.stop_cause()) << type.name << ", leg " << leg;
+        }
+    }
+}
+
 TEST(ServoFaults, ASlightSlipIsNotNoticedButFound) {
     ServoDrive drive = driving(mecanum());
     for (const char* wheel : {"FL", "FR", "BL", "BR"}) drive.set_slip(wheel, 0.03);

@@ -415,6 +415,7 @@ json::Json hand_held(Vehicle& vehicle, const std::string& line) {
 
 TEST_F(VehicleTest, AHandHeldControlIsAnsweredAndRefusedInWords) {
     EXPECT_EQ(hand_held(vehicle, R"({"do":"where"})")["operating_mode"], "AUTOMATIC");
+    EXPECT_FALSE(hand_held(vehicle, R"({"do":"where"})").contains("pose")) << "nobody has said it";
     const struct {
         const char* line;
         const char* reason;
@@ -487,6 +488,7 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->wheel, "back drive");
     EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
     EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
+    EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
     for (const char* bad : {"wheel=", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
                             "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;

@@ -8,7 +8,7 @@ import { useWords } from "@/shared/words/useWords";
 const two = { decimals: 2 };
 const dev = { decimals: 2, sign: true };
 
-/** The stops of one order: theoretical, actual, deviation, as Tang's Table 6. */
+/** The stops of one order: theoretical, actual, deviation, as Tang's Table 4. */
 export function RunTable({
   run,
   current,

@@ -2,14 +2,14 @@ import type { Vehicle, VehicleType } from "@/shared/api/types";
 
 export type BracketReading = Vehicle["brackets"][number];
 
-/** Half-width of the band around the mean in which eight sensors count as balanced. */
-export const kBalanceShare = 0.05;
+/** How far a bracket may differ from the mean of its end; beyond it the server lets nobody drive (core/fleet/interlocks.hpp). */
+export const kBalanceShare = 0.1;
 
 export interface LoadSummary {
   total_n: number;
   mean_n: number;
   brackets: { name: string; sum_n: number; a: SensorShare; b: SensorShare }[];
-  worst: number; // largest departure of one sensor from its bracket group's mean, as a share
+  worst: number; // largest departure of a bracket from the mean of its end, as a share
   balanced: boolean;
 }
 export interface SensorShare {
@@ -17,19 +17,18 @@ export interface SensorShare {
   share: number; // (force - reference) / reference
 }
 
-/**
- * Each sensor is compared with the mean of its end (front or back): a load aft of the middle is
- * normal, a pin that carries more than its neighbours at the same end is not.
- */
+/** Each bracket is compared with the mean of its end (front or back): a load aft of the middle is normal, one that leans is not. */
 export function summarise(
   brackets: readonly BracketReading[],
   type: VehicleType | undefined,
 ): LoadSummary | undefined {
   if (brackets.length === 0) return undefined;
   const total = brackets.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0);
+  const places = type?.brackets ?? [];
+  const middle = places.reduce((sum, b) => sum + b.position.x_m / places.length, 0);
   const endOf = (name: string) => {
-    const x = type?.brackets.find((b) => b.name === name)?.position.x_m;
-    return x === undefined ? 0 : Math.sign(x);
+    const x = places.find((b) => b.name === name)?.position.x_m;
+    return x === undefined ? 0 : Math.sign(x - middle);
   };
   const reference = (name: string) => {
     const same = brackets.filter((b) => endOf(b.name) === endOf(name));
@@ -40,7 +39,8 @@ export function summarise(
     const share = (f: number): SensorShare => ({ force_n: f, share: ref > 0 ? (f - ref) / ref : 0 });
     return { name: b.name, sum_n: b.force_a_n + b.force_b_n, a: share(b.force_a_n), b: share(b.force_b_n) };
   });
-  const worst = Math.max(...rows.flatMap((r) => [Math.abs(r.a.share), Math.abs(r.b.share)]));
+  // Two sensors a bracket: the mean of its shares is the bracket's own.
+  const worst = Math.max(...rows.map((r) => Math.abs(r.a.share + r.b.share) / 2));
   return {
     total_n: total,
     mean_n: total / (2 * brackets.length),
@@ -50,7 +50,7 @@ export function summarise(
   };
 }
 
-/** Distance of a sensor's two pins from the bracket's middle, along the body (Tang 2020, Fig. 5). */
+/** Half the distance between a bracket's two pins, along the body: ours, Tang 2020 does not give it. */
 export const kPinOffset_m = 0.25;
 
 /** Where the load's weight acts in the body frame; nothing without load or without known brackets. */

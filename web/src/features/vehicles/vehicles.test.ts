@@ -38,16 +38,20 @@ describe("load", () => {
     expect(centreOfLoad(forces(1, 1), type)).toBeUndefined();
     expect(centreOfLoad([{ name: "x", force_a_n: 5000, force_b_n: 5000 }], type)).toBeUndefined();
   });
-  it("compares a sensor with its own end, so that a load aft is balanced", () => {
+  it("compares a bracket with its own end, so that a load aft is balanced", () => {
     const summary = summarise(forces(1000, 1000, 1000, 1000, 3000, 3000, 3000, 3000), type);
 
     expect(summary).toMatchObject({ total_n: 16000, balanced: true });
   });
-  it("is not balanced with one sensor 6 % over its mean", () => {
-    const summary = summarise(forces(1060, 980, 980, 980, 1000, 1000, 1000, 1000), type);
+  it.each([
+    [1090, true],
+    [1110, false],
+  ])("with one bracket at %i of a mean of 1000 is balanced: %s", (force, balanced) => {
+    const other = 2000 - force;
+    const summary = summarise(forces(force, force, other, other, 1000, 1000, 1000, 1000), type);
 
-    expect(summary?.balanced).toBe(false);
-    expect(summary?.worst).toBeCloseTo(0.06, 12);
+    expect(summary?.balanced).toBe(balanced);
+    expect(summary?.worst).toBeCloseTo(Math.abs(force - 1000) / 1000, 12);
   });
   it("is unknown without readings", () => expect(summarise([], type)).toBeUndefined());
 });

@@ -27,6 +27,16 @@ describe("reasonText", () => {
     const text = reasonText({ code: "needs_person", params: { cause: "server_restarted" } }, t);
     expect(text).toContain(en.server_restarted);
   });
+  it("leaves out the sentence of a vehicle that says a code we know", () => {
+    const why = "no_marker_in_view: No camera sees a code. Drive on.";
+    const text = reasonText({ code: "stop_not_measured", params: { station: 7, why } }, t);
+    expect(text).toContain(en.no_marker_in_view);
+    expect(text).not.toContain("Drive on");
+  });
+  it("shows the words of a vehicle that says no code", () => {
+    const why = "Laser dirty: clean it";
+    expect(reasonText({ code: "stop_not_measured", params: { station: 7, why } }, t)).toContain(why);
+  });
   it("shows an unknown code with all it carries", () => {
     const text = reasonText({ code: "brand_new", params: { gap_m: 0.2 } }, t);
     expect(text).toContain("brand new");

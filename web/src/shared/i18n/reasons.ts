@@ -51,8 +51,9 @@ function shown(params: Params, t: Translate): Record<string, string> {
   for (const [name, value] of Object.entries(params)) {
     if (value === "") continue;
     const prefix = kCodes[name];
-    const named =
-      prefix !== undefined && typeof value === "string" ? words(t, `${prefix}${value}`, {}) : undefined;
+    // A vehicle says "code: its own sentence"; the sentence is for those who do not know the code.
+    const code = typeof value === "string" ? /^[a-z0-9_]+(?=$|: )/.exec(value)?.[0] : undefined;
+    const named = prefix !== undefined && code !== undefined ? words(t, `${prefix}${code}`, {}) : undefined;
     values[name] = named !== undefined && !named.includes("{{") ? named : paramText(name, value);
   }
   return values;

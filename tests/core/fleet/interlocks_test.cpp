@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "core/fleet/interlocks.hpp"
+#include "tests/core/fleet/fleet_world.hpp"
+
+// What has to be true of a platform and its load before it may leave where it stands (Tang 2020,
+// section 2). Each interlock keeps an order from starting, says why, and lets it go when it is
+// over.
+namespace pulseline::fleet::testing {
+namespace {
+
+const plant::VehicleId kV1("V1");
+constexpr double kGravity = 9.80665;
+
+/// The small hall, its carriers with four brackets and four wheels.
+plant::Plant with_brackets() {
+    plant::Plant plant = small_plant();
+    auto& type = plant.vehicle_types.front();
+    for (const double x_m : {1.0, -1.0}) {
+        for (const double y_m : {0.4, -0.4}) {
+            const std::string name =
+                std::string(x_m > 0 ? "front" : "back") + (y_m > 0 ? " left" : " right");
+            type.brackets.push_back({name, {x_m, y_m}});
+            type.wheels.push_back({name, {1.2 * x_m, 1.2 * y_m}, false, false, 0.2});
+        }
+    }
+    return plant;
+}
+
+class Interlocks : public ::testing::Test {
+protected:
+    Interlocks() : world(with_brackets()) {
+        world.connect_all();
+        load(400, 0, 0);
+        world.run(1);
+    }
+
+    /// Weight on the brackets, as a load with its centre there presses on them.
+    void load(double kg, double x_m, double y_m) {
+        auto& brackets = world.vehicle("V1").state.brackets;
+        brackets.clear();
+        for (const auto& bracket : world.plant.vehicle_types.front().brackets) {
+            const double along = (1 + x_m * bracket.position.x_m) / 2;
+            const double across = (1 + y_m * bracket.position.y_m / 0.16) / 2;
+            const double force_n = kg * kGravity * along * across;
+            brackets.push_back({bracket.name, force_n / 2, force_n / 2});
+        }
+    }
+
+    /// The order of V1 to station 2 stays where it is, for that reason; without it, it goes.
+    void expect_barred(const std::string& code, const std::function<void()>& mend) {
+        world.run(2);
+        const auto made = world.order("V1", {2});
+        ASSERT_TRUE(made) << made.error().what;
+        world.run(10);
+        const auto waiting = world.fleet->order(made->order.id);
+        EXPECT_EQ(waiting->reason.code, code);
+        EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+        mend();
+        world.run(120);
+        EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded)
+            << world.stored(made->order.id).reason.code;
+    }
+
+    World world;
+};
+
+TEST_F(Interlocks, WithAnEvenLoadItGoes) {
+    const auto made = world.order("V1", {2});
+    ASSERT_TRUE(made);
+    world.run(120);
+    EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded);
+}
+
+TEST_F(Interlocks, ALoadAftOfTheMiddleIsAnAircraftAndGoes) {
+    load(400, -0.5, 0);
+    const auto made = world.order("V1", {2});
+    ASSERT_TRUE(made);
+    world.run(120);
+    EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded)
+        << world.stored(made->order.id).reason.code;
+}
+
+TEST_F(Interlocks, ALoadBeyondWhatTheTypeCarriesStays) {
+    load(501, 0, 0);
+    expect_barred("load_too_heavy", [&] { load(499, 0, 0); });
+}
+
+TEST_F(Interlocks, ALoadThatLeansToOneSideStays) {
+    load(400, 0, 0.045);  // a ninth of the brackets' half distance: 11 % more on one side
+    expect_barred("load_unbalanced", [&] { load(400, 0, 0.035); });
+}
+
+TEST_F(Interlocks, ALoadOutsideTheWheelBaseStays) {
+    // All on the front end, which the brackets may and the wheels may not: they end before it.
+    for (auto& wheel : world.plant.vehicle_types.front().wheels) wheel.position.x_m *= 0.5;
+    World narrow(world.plant);
+    narrow.connect_all();
+    for (const auto& bracket : narrow.plant.vehicle_types.front().brackets) {
+        const double force_n = bracket.position.x_m > 0 ? 400 * kGravity / 2 : 0;
+        narrow.vehicle("V1").state.brackets.push_back(
+            {bracket.name, force_n / 2, force_n / 2});
+    }
+    narrow.run(2);
+    const auto made = narrow.order("V1", {2});
+    ASSERT_TRUE(made) << made.error().what;
+    narrow.run(10);
+    EXPECT_EQ(narrow.fleet->order(made->order.id)->reason.code, "load_outside_wheel_base");
+}
+
+TEST_F(Interlocks, AtAMeasuredStationBothCamerasHaveToSeeTheirCodes) {
+    const auto made = world.order("V1", {2});
+    ASSERT_TRUE(made);
+    world.run(120);
+    ASSERT_EQ(world.stored(made->order.id).state, JobState::kEnded);
+    world.vehicle("V1").sees_codes = false;
+    world.run(5);
+
+    const auto next = world.order("V1", {1});
+    ASSERT_TRUE(next) << next.error().what;
+    world.run(10);
+    EXPECT_EQ(world.fleet->order(next->order.id)->reason.code, "codes_not_seen");
+    world.vehicle("V1").sees_codes = true;
+    world.run(120);
+    EXPECT_EQ(world.stored(next->order.id).state, JobState::kEnded)
+        << world.stored(next->order.id).reason.code;
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing
