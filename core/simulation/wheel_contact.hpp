@@ -7,7 +7,7 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/kinematics/wheels.hpp"
-#include "core/simulation/drive_errors.hpp"
+#include "core/localisation/error_budget.hpp"
 
 namespace pulseline::simulation {
 

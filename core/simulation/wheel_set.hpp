@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "core/kinematics/wheels.hpp"
-#include "core/simulation/drive_errors.hpp"
+#include "core/localisation/error_budget.hpp"
+#include "core/simulation/drive_limits.hpp"
 #include "core/simulation/servo_axis.hpp"
 
 namespace pulseline::simulation {
