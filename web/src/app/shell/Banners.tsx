@@ -13,7 +13,8 @@ import {
   type Alarm,
 } from "@/shared/live";
 import { navigate } from "@/shared/router";
-import { Banner, Button } from "@/shared/ui";
+import { Banner, Button, goGuard } from "@/shared/ui";
+import { PauseBanner } from "./PauseBanner";
 
 /** A cut shorter than this is not worth a word: a page that just loaded, a reconnect. */
 const kGraceMs = 300;
@@ -48,6 +49,7 @@ export function Banners({ onResume }: { onResume: () => void }) {
       ) : (
         urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />
       )}
+      <PauseBanner onResume={onResume} />
       <WaitingBanner onResume={onResume} />
       <ClockBanner />
     </div>
@@ -126,7 +128,7 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
   const vehicles = useVehicles();
   const link = useLink();
   const may = useMayCommand();
-  const waiting = vehicles.filter((v) => v.needs_resume && !silent(v));
+  const waiting = vehicles.filter((v) => v.needs_resume && !v.paused && !silent(v));
   if (waiting.length === 0 || fleet?.paused) return null;
   const names = waiting.map((v) => v.name).join(", ");
   return (
@@ -136,7 +138,7 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
       what={<b>{t("resume.waits", { count: waiting.length, names })}</b>}
       todo={t("resume.why")}
       actions={
-        <Button onPress={onResume} disabled={!link.live || !may}>
+        <Button onPress={() => goGuard.takes(performance.now()) && onResume()} disabled={!link.live || !may}>
           {t("resume.action")}
         </Button>
       }

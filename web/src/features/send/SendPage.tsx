@@ -12,12 +12,13 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { useLocation } from "@/shared/router";
-import { Button, PanelFailed } from "@/shared/ui";
+import { PanelFailed } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { duration, number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { ChecksStep, useChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
+import { MoveBar } from "./MoveBar";
 import { MovePanel } from "./MovePanel";
 import { capitalise, moveWords } from "./moveWords";
 import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
@@ -221,7 +222,11 @@ export function SendPage() {
     <>
       <h1 className="sr-only">{t("title")}</h1>
       <div className={`sgrid ${orderId ? "moving" : ""}`} data-step={current}>
-        {orderId ? <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} /> : steps}
+        {orderId ? (
+          <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} onNew={start.done} />
+        ) : (
+          steps
+        )}
         <section className="card c3" aria-label={t("preview.title")}>
           <header className="stp">
             {!orderId && <i aria-hidden="true">5</i>}
@@ -255,17 +260,7 @@ export function SendPage() {
         </section>
       </div>
       {orderId ? (
-        <div className="card confirm">
-          <div className="grow say">
-            <strong>{order?.name ?? ""}</strong>
-            <span className="lab">
-              {order ? t("move.state", { state: t(`words:job.${order.state}`), by: order.created_by }) : ""}
-            </span>
-          </div>
-          <Button motion className="go" onPress={start.done}>
-            {t(progress.kind === "arrived" || progress.kind === "aborted" ? "start.next" : "move.back")}
-          </Button>
-        </div>
+        <MoveBar order={order} vehicle={mover} progress={progress} onNext={start.done} />
       ) : (
         <StartBar start={start} readiness={canStart} title={title} what={what} />
       )}

@@ -1,11 +1,10 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
+import { HeldBar, useRefusal } from "@/shared/commands";
 import {
-  useCommandsEnabled,
   useJobOrder,
   useLive,
-  useMayCommand,
   usePlant,
   useServerNow,
   useStations,
@@ -63,11 +62,9 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const stations = useStations();
   const allStops = useStopRecords();
   const stops = useMemo(() => allStops.filter((s) => s.vehicle === vehicle.id), [allStops, vehicle.id]);
-  const linkUp = useCommandsEnabled();
-  const mayCommand = useMayCommand();
   const answer = useAnswer();
   const [tab, setTab] = useState("loads");
-  const refused = !linkUp ? t("command.offline") : !mayCommand ? t("command.not_allowed") : undefined;
+  const refused = useRefusal();
   const heard = useHeard(vehicle);
   const { heard_s } = heard;
   const target = stations.find((s) => s.id === vehicle.leg?.station)?.state;
@@ -112,8 +109,9 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
         </div>
         <Chips vehicle={vehicle} />
         <div className="grow" />
-        <VehicleCommands vehicle={vehicle} order={order} refused={refused} />
+        <VehicleCommands vehicle={vehicle} order={order} />
       </div>
+      <HeldBar vehicle={vehicle} />
       {narrow ? (
         <>
           <div className="card whyl">
