@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
-import { useNow, usePlant } from "@/shared/live";
+import { useLinkLost, useNow, usePlant } from "@/shared/live";
 import { setLanguage, setTheme } from "@/shared/i18n/setup";
 import { useTheme } from "@/shared/i18n/useTheme";
 import { Link, useLocation } from "@/shared/router";
@@ -70,7 +70,7 @@ export function Shell({ children }: { children: ReactNode }) {
   const [resumeOpen, setResumeOpen] = useState(false);
   const current = path.split("/")[1] || "map";
   return (
-    <div className="app">
+    <div className="app" data-link={useLinkLost() ? "lost" : undefined}>
       <a className="skip btn" href="#page">
         {t("skip")}
       </a>

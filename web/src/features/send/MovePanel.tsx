@@ -3,7 +3,8 @@ import type { JobOrder, StopRecord, Vehicle } from "@/shared/api/types";
 import { HeldBar } from "@/shared/commands";
 import { Link } from "@/shared/router";
 import { Button, DeviationBar, StatusSymbol } from "@/shared/ui";
-import { degrees, millimetres, timeOfDay } from "@/shared/words/format";
+import { degrees, millimetres } from "@/shared/words/format";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { reached, type Milestone, type MoveProgress } from "./progress";
 
@@ -25,13 +26,14 @@ export function MovePanel({ order, vehicle, progress, orderId, onNew }: MovePane
   const name = order?.name ?? "";
   const vehicleName = order?.vehicle ? words.vehicle(order.vehicle) : (vehicle?.name ?? "");
   const done = reached(progress);
+  const expected = useExpected().clock(order?.expected_at);
   return (
     <section className="card move" aria-label={t("move.steps")}>
       <header>
         <h2>{t("move.title", { order: name, vehicle: vehicleName, number: step?.number ?? "" })}</h2>
         <span className="grow" />
-        {order?.expected_at && progress.kind !== "arrived" && (
-          <span className="cap nw">{t("move.expected", { time: timeOfDay(order.expected_at) })}</span>
+        {expected !== undefined && progress.kind !== "arrived" && progress.kind !== "aborted" && (
+          <span className="cap nw">{t("move.expected", { time: expected })}</span>
         )}
       </header>
       <div className="in">

@@ -3,7 +3,9 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
 import { HeldBar, useRefusal } from "@/shared/commands";
 import {
+  stale,
   useJobOrder,
+  useLinkLost,
   useLive,
   usePlant,
   useServerNow,
@@ -69,7 +71,9 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const { heard_s } = heard;
   const target = stations.find((s) => s.id === vehicle.leg?.station)?.state;
 
-  const loads = <LoadsCard vehicle={vehicle} stale={(heard_s ?? Infinity) >= kLate_s} heard_s={heard_s} />;
+  const lost = useLinkLost();
+  const old = lost || stale(vehicle) || (heard_s ?? Infinity) >= kLate_s;
+  const loads = <LoadsCard vehicle={vehicle} stale={old} heard_s={heard_s} />;
   const cameras =
     vehicle.cameras.length === 0 ? (
       <Card title={t("tabs.cameras")}>
@@ -89,7 +93,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const why = (
     <>
       {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
-      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} />
+      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
     </>
@@ -107,7 +111,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
           <h1>{vehicle.name}</h1>
           <span className="lab nw">{type?.name ?? vehicle.type}</span>
         </div>
-        <Chips vehicle={vehicle} />
+        <Chips vehicle={vehicle} stale={old} />
         <div className="grow" />
         <VehicleCommands vehicle={vehicle} order={order} />
       </div>
@@ -187,13 +191,13 @@ function LoadsCard({
   );
 }
 
-function Chips({ vehicle }: { vehicle: Vehicle }) {
+function Chips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
   const { t } = useTranslation(["vehicles", "words"]);
   const words = useWords();
   const loaded = vehicle.load_name !== "" || vehicle.load_kg > 0;
   const stopped = vehicle.e_stop !== undefined && vehicle.e_stop !== "" && vehicle.e_stop !== "NONE";
   return (
-    <div className="chips">
+    <div className={`chips ${stale ? "old" : ""}`}>
       <Chip symbol={activitySymbol(vehicle)}>
         {vehicle.link !== "live"
           ? t(`words:link.${vehicle.link}`)
@@ -221,7 +225,7 @@ function Chips({ vehicle }: { vehicle: Vehicle }) {
             <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
           </span>
           <span className={stopped || vehicle.field_violation ? "" : "gt-sm"}>
-            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : "c-ok"}>
+            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : stale ? "s-stale" : "c-ok"}>
               {stopped
                 ? t("chip.e_stop")
                 : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}

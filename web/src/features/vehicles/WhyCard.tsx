@@ -41,11 +41,13 @@ export function WhyCard({
   type,
   target,
   heard_s,
+  stale,
 }: {
   vehicle: Vehicle;
   type: VehicleType | undefined;
   target: StationState | undefined;
   heard_s: number | undefined;
+  stale: boolean;
 }) {
   const { t } = useTranslation("vehicles");
   const answer = useAnswer();
@@ -56,14 +58,14 @@ export function WhyCard({
         <StatusSymbol name={activitySymbol(vehicle)} />
         <span>{answer(vehicle)}</span>
       </p>
-      {whyRows(vehicle, type, target).map((row, i) => (
-        <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} />
+      {whyRows(vehicle, type, target, stale).map((row, i) => (
+        <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} stale={stale} />
       ))}
     </Card>
   );
 }
 
-function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
+function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stale: boolean }) {
   const { t } = useTranslation("vehicles");
   const words = useWords();
   const { name, value } = text();
@@ -74,6 +76,7 @@ function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
       value={value}
       ageS={row.kind === "station" ? undefined : ageS}
       critical={row.kind === "fault"}
+      stale={stale && row.kind !== "link"}
     />
   );
 

@@ -142,20 +142,31 @@ describe("why it stands", () => {
     fault,
   });
   it("puts what holds it on top", () => {
-    const rows = whyRows({ ...vehicle, needs_resume: true, wheels: [wheel(70)] }, type, undefined);
+    const rows = whyRows({ ...vehicle, needs_resume: true, wheels: [wheel(70)] }, type, undefined, false);
 
     expect(rows.map((r) => `${r.kind} ${r.result}`)).toEqual(["resume fail", "wheel note", "link pass"]);
   });
   it("does not call its own reservation taken", () => {
     const state = { station: "s", number: 7, occupied_by: "", reserved_by: "TP-01", ready: false };
 
-    expect(whyRows(vehicle, type, state).find((r) => r.kind === "station")?.result).toBe("pass");
+    expect(whyRows(vehicle, type, state, false).find((r) => r.kind === "station")?.result).toBe("pass");
     expect(
-      whyRows(vehicle, type, { ...state, reserved_by: "TP-02" }).find((r) => r.kind === "station")?.result,
+      whyRows(vehicle, type, { ...state, reserved_by: "TP-02" }, false).find((r) => r.kind === "station")
+        ?.result,
     ).toBe("note");
   });
+  it("passes no connection whose data is old, whatever the server said last", () => {
+    const link = (stale: boolean) => whyRows(vehicle, type, undefined, stale).find((r) => r.kind === "link");
+    expect(link(false)?.result).toBe("pass");
+    expect(link(true)?.result).toBe("note");
+  });
   it("calls silence and a wheel fault what they are", () => {
-    const rows = whyRows({ ...vehicle, link: "lost", wheels: [wheel(30, "encoder")] }, type, undefined);
+    const rows = whyRows(
+      { ...vehicle, link: "lost", wheels: [wheel(30, "encoder")] },
+      type,
+      undefined,
+      false,
+    );
 
     expect(rows.map((r) => r.result)).toEqual(["fail", "fail"]);
   });

@@ -20,11 +20,12 @@ export function whyRows(
   vehicle: Vehicle,
   type: VehicleType | undefined,
   target: StationState | undefined,
+  stale: boolean,
 ): WhyRow[] {
   const rows: WhyRow[] = [];
   rows.push({
     kind: "link",
-    result: vehicle.link === "live" ? "pass" : vehicle.link === "late" ? "note" : "fail",
+    result: vehicle.link === "late" ? "note" : vehicle.link !== "live" ? "fail" : stale ? "note" : "pass",
   });
   if (vehicle.needs_resume) rows.push({ kind: "resume", result: "fail" });
   for (const error of vehicle.errors)
