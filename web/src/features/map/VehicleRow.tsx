@@ -1,8 +1,9 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
 import { age, fixed, timeOfDay } from "@/shared/i18n/format";
-import { alarmOf, silent, stale, symbolOf, useJobOrder, useLink, useServerNow } from "@/shared/live";
+import { alarmOf, haltOf, silent, stale, symbolOf, useJobOrder, useLink, useServerNow } from "@/shared/live";
 import { StatusSymbol } from "@/shared/ui";
+import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { whatOf } from "./listRows";
@@ -32,16 +33,18 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
   const link = useLink();
   const lost = link.state.kind === "lost";
   const alarm = alarmOf(v);
-  const reason = v.needs_resume ? (v.needs_resume_reason ?? v.reason) : v.reason;
+  const alarmWords = useAlarmWords();
+  const seen = silent(v) && v.pose !== undefined;
   const why =
-    silent(v) && v.pose !== undefined
-      ? t("seen", { x: fixed(v.pose.x_m, 1), y: fixed(v.pose.y_m, 1), time: timeOfDay(v.last_heard_at) })
-      : reason === undefined || v.field_violation === true
-        ? alarm === undefined
-          ? ""
-          : `${v.name} ${t(`common:alarm.${alarm.kind}`, { type: alarm.type ?? "", age: age(silentS) })}`
-        : words.reason(reason);
-  const saysWhy = ["waiting", "paused", "moving"].includes(v.activity);
+    alarm !== undefined
+      ? seen
+        ? t("seen", { x: fixed(v.pose!.x_m, 1), y: fixed(v.pose!.y_m, 1), time: timeOfDay(v.last_heard_at) })
+        : alarmWords.todo(alarm)
+      : v.reason === undefined
+        ? ""
+        : words.reason(v.reason);
+  const head = alarm === undefined ? text : alarmWords.text(alarm, v);
+  const saysWhy = ["waiting", "paused", "moving"].includes(v.activity) && haltOf(v) !== "stopping";
   const old = lost || stale(v);
   return (
     <button
@@ -54,7 +57,7 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
     >
       <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
       <span className="id">{v.name}</span>
-      <span className="what">{!two && saysWhy && why !== "" ? why : text}</span>
+      <span className="what">{!two && saysWhy && why !== "" ? why : head}</span>
       <span className="when">
         {old ? age(lost ? link.ageS : silentS) : v.activity === "moving" ? left(v.leg?.expected_at) : ""}
       </span>

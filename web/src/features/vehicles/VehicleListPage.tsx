@@ -1,12 +1,12 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { useLinkLost, useLive, useVehicles } from "@/shared/live";
+import { symbolOf, useLinkLost, useLive, useVehicles } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
 import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { useHeard } from "./useHeard";
-import { activitySymbol, useAnswer } from "./WhyCard";
+import { useAnswer } from "./WhyCard";
 
 /** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
 export function VehicleListPage() {
@@ -69,7 +69,7 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
       </td>
       <td>
         <span className="row">
-          <StatusSymbol name={lost ? "s-stale" : activitySymbol(v)} />
+          <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
           {silent ? t(`words:link.${lost ? "lost" : v.link}`) : t(`words:activity.${v.activity}`)}
         </span>
       </td>

@@ -4,6 +4,7 @@ import type { Vehicle } from "@/shared/api/types";
 import { HeldBar, useRefusal } from "@/shared/commands";
 import {
   stale,
+  symbolOf,
   useJobOrder,
   useLinkLost,
   useLive,
@@ -28,7 +29,7 @@ import { PoseCard } from "./PoseCard";
 import { StopsCard } from "./StopsCard";
 import { useHeard } from "./useHeard";
 import { VehicleCommands } from "./VehicleCommands";
-import { activitySymbol, useAnswer, WhyCard } from "./WhyCard";
+import { useAnswer, WhyCard } from "./WhyCard";
 
 const kLate_s = 2;
 
@@ -119,7 +120,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
       {narrow ? (
         <>
           <div className="card whyl">
-            <StatusSymbol name={activitySymbol(vehicle)} />
+            <StatusSymbol name={symbolOf(vehicle)} />
             <b>{answer(vehicle)}</b>
             <span className="cap">{age(heard_s)}</span>
           </div>
@@ -198,7 +199,7 @@ function Chips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
   const stopped = vehicle.e_stop !== undefined && vehicle.e_stop !== "" && vehicle.e_stop !== "NONE";
   return (
     <div className={`chips ${stale ? "old" : ""}`}>
-      <Chip symbol={activitySymbol(vehicle)}>
+      <Chip symbol={symbolOf(vehicle)}>
         {vehicle.link !== "live"
           ? t(`words:link.${vehicle.link}`)
           : vehicle.at_station && vehicle.activity !== "moving"

@@ -1,31 +1,24 @@
 import { useTranslation } from "react-i18next";
 import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
-import { Card, CheckRow, StatusSymbol, type SymbolName } from "@/shared/ui";
+import { useHeldWords } from "@/shared/commands";
+import { alarmOf, symbolOf } from "@/shared/live";
+import { Card, CheckRow, StatusSymbol } from "@/shared/ui";
+import { faultText } from "@/shared/words/faults";
 import { age, fixed } from "@/shared/words/format";
+import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { useWords } from "@/shared/words/useWords";
 import { whyRows, type WhyRow } from "./whyRows";
 
-const symbolOf: Record<Vehicle["activity"], SymbolName> = {
-  standing: "s-stand",
-  moving: "s-moving",
-  measuring: "s-measure",
-  waiting: "s-wait",
-  paused: "s-wait",
-  blocked: "a-2",
-  charging: "s-charge",
-  unknown: "s-stale",
-};
-
-export function activitySymbol(vehicle: Vehicle): SymbolName {
-  return vehicle.link === "live" ? symbolOf[vehicle.activity] : "s-stale";
-}
-
-/** The one sentence that says why it stands, or what it does. */
+/** The most urgent thing about a vehicle, in one sentence: what is wrong with it, else why it stands or what it does. */
 export function useAnswer(): (vehicle: Vehicle) => string {
   const { t } = useTranslation("vehicles");
   const words = useWords();
+  const alarmWords = useAlarmWords();
+  const held = useHeldWords();
   return (vehicle) => {
-    if (vehicle.needs_resume && vehicle.needs_resume_reason) return words.reason(vehicle.needs_resume_reason);
+    const alarm = alarmOf(vehicle);
+    if (alarm !== undefined && alarm.priority !== "low") return alarmWords.text(alarm, vehicle);
+    if (vehicle.paused || vehicle.needs_resume) return held(vehicle);
     if (vehicle.activity === "moving" && vehicle.leg) {
       return vehicle.reason
         ? words.reason(vehicle.reason)
@@ -33,6 +26,15 @@ export function useAnswer(): (vehicle: Vehicle) => string {
     }
     if (vehicle.activity === "measuring") return t("why.measuring");
     return vehicle.reason ? words.reason(vehicle.reason) : t("why.no_reason");
+  };
+}
+
+/** What to do about it; undefined when nothing is wrong. */
+export function useTodo(): (vehicle: Vehicle) => string | undefined {
+  const words = useAlarmWords();
+  return (vehicle) => {
+    const alarm = alarmOf(vehicle);
+    return alarm && words.todo(alarm);
   };
 }
 
@@ -51,13 +53,15 @@ export function WhyCard({
 }) {
   const { t } = useTranslation("vehicles");
   const answer = useAnswer();
+  const todo = useTodo()(vehicle);
   const moving = vehicle.activity === "moving" || vehicle.activity === "measuring";
   return (
     <Card className="why" title={t(moving ? "why.title_moving" : "why.title", { vehicle: vehicle.name })}>
       <p className="ans1" role="status">
-        <StatusSymbol name={activitySymbol(vehicle)} />
+        <StatusSymbol name={symbolOf(vehicle)} />
         <span>{answer(vehicle)}</span>
       </p>
+      {todo !== undefined && <p className="todo">{todo}</p>}
       {whyRows(vehicle, type, target, stale).map((row, i) => (
         <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} stale={stale} />
       ))}
@@ -111,13 +115,13 @@ function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stal
         return {
           name: t("loads.wheel", { name: row.wheel.name }),
           value: row.wheel.fault
-            ? t("why.wheel_fault", { name: row.wheel.name, fault: row.wheel.fault })
-            : t("why.wheel_warm", { name: row.wheel.name, temperature: fixed(row.wheel.temperature_c, 0) }),
+            ? faultText(row.wheel.fault, t)
+            : t("why.warm", { temperature: fixed(row.wheel.temperature_c, 0) }),
         };
       case "wheels":
         return { name: t("why.wheels"), value: t("why.wheel_ok", { count: row.count }) };
       case "fault":
-        return { name: row.error.type, value: row.error.description };
+        return { name: t("why.fault"), value: faultText(row.error.type, t) };
     }
   }
 }

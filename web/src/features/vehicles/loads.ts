@@ -1,4 +1,5 @@
 import type { Vehicle, VehicleType } from "@/shared/api/types";
+import { kBracketBalance } from "@/shared/live/brackets";
 
 export type BracketReading = Vehicle["brackets"][number];
 
@@ -31,8 +32,13 @@ export function summarise(
     const x = type?.brackets.find((b) => b.name === name)?.position.x_m;
     return x === undefined ? 0 : Math.sign(x);
   };
+  const mean = total / brackets.length;
+  const isOff = (b: BracketReading) => Math.abs((b.force_a_n + b.force_b_n) / mean - 1) > kBracketBalance;
   const reference = (name: string) => {
-    const same = brackets.filter((b) => endOf(b.name) === endOf(name));
+    const ofEnd = brackets.filter((b) => endOf(b.name) === endOf(name));
+    // A bracket that is far off would make its sound neighbour look wrong.
+    const sound = ofEnd.filter((b) => !isOff(b));
+    const same = sound.length > 0 ? sound : ofEnd;
     return same.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0) / (2 * same.length);
   };
   const rows = brackets.map((b) => {

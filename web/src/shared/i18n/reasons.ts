@@ -1,4 +1,5 @@
 import type { Params, Reason } from "@/shared/api/types";
+import { faultText } from "@/shared/words/faults";
 import { length } from "@/shared/words/format";
 import { age, deg, fixed, kThin, mass } from "./format";
 
@@ -44,6 +45,8 @@ const kCodes: Readonly<Record<string, string>> = {
   motion_mode: "words:mode.",
   state: "words:job.",
   level: "words:integration.",
+  type: "faults:",
+  fault: "faults:",
 };
 
 function shown(params: Params, t: Translate): Record<string, string> {
@@ -52,7 +55,11 @@ function shown(params: Params, t: Translate): Record<string, string> {
     if (value === "") continue;
     const prefix = kCodes[name];
     const named =
-      prefix !== undefined && typeof value === "string" ? words(t, `${prefix}${value}`, {}) : undefined;
+      prefix === undefined || typeof value !== "string"
+        ? undefined
+        : prefix === "faults:"
+          ? faultText(value, t)
+          : words(t, `${prefix}${value}`, {});
     values[name] = named !== undefined && !named.includes("{{") ? named : paramText(name, value);
   }
   return values;
