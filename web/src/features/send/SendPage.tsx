@@ -21,7 +21,7 @@ import { ModeStep } from "./ModeStep";
 import { MoveBar } from "./MoveBar";
 import { MovePanel } from "./MovePanel";
 import { capitalise, moveWords } from "./moveWords";
-import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
+import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview";
 import { isLoaded } from "./PreviewGlyphs";
 import { PreviewMap } from "./PreviewMap";
 import { Measures } from "./PreviewPanel";
@@ -33,6 +33,7 @@ import { Step } from "./Step";
 import { usePreview, type PreviewQuestion } from "./usePreview";
 import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
+import { useWhyNot } from "./whyNot";
 import "./send.css";
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
@@ -64,7 +65,12 @@ export function SendPage() {
   const vehicle = useVehicle(vehicleId ?? (vehicles.length === 1 ? vehicles[0]?.id : undefined));
   const entry = lookUpStation(digits, plant, states, vehicle);
   const station = stationOf(entry);
-  const asks = vehicle !== undefined && station !== undefined && entry.kind !== "wrong_type" && linkUp;
+  const asks =
+    vehicle !== undefined &&
+    station !== undefined &&
+    entry.kind !== "wrong_type" &&
+    !isOnItsWay(vehicle) &&
+    linkUp;
   const question: PreviewQuestion | undefined = asks
     ? {
         key: previewKey({
@@ -87,7 +93,8 @@ export function SendPage() {
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
-  const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview });
+  const canStart = readiness({ vehicle, entry, mode, linkUp, mayCommand, preview });
+  const { why, instead } = useWhyNot(canStart);
 
   const body = useMemo<NewJobOrder | undefined>(
     () =>
@@ -198,6 +205,7 @@ export function SendPage() {
           <ModeStep
             preview={preview}
             step={step}
+            instead={instead}
             mode={mode}
             onLook={setLooked}
             onMode={(next) => {
@@ -211,7 +219,7 @@ export function SendPage() {
           {preview.kind === "failed" ? (
             <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={retry} />
           ) : (
-            <ChecksStep preview={preview} checks={data?.checks} />
+            <ChecksStep preview={preview} checks={data?.checks} instead={instead} />
           )}
         </Step>
       </div>
@@ -262,7 +270,7 @@ export function SendPage() {
       {orderId ? (
         <MoveBar order={order} vehicle={mover} progress={progress} onNext={start.done} />
       ) : (
-        <StartBar start={start} readiness={canStart} title={title} what={what} />
+        <StartBar start={start} readiness={canStart} title={title} what={what} why={why} />
       )}
     </>
   );
