@@ -59,7 +59,11 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
       <span className="id">{v.name}</span>
       <span className="what">{!two && saysWhy && why !== "" ? why : head}</span>
       <span className="when">
-        {old ? age(lost ? link.ageS : silentS) : v.activity === "moving" ? left(v.leg?.expected_at) : ""}
+        {old
+          ? age(lost ? link.ageS : silentS)
+          : v.activity === "moving" && haltOf(v) === "none"
+            ? left(v.leg?.expected_at)
+            : ""}
       </span>
       {two && <span className="why">{why}</span>}
     </button>

@@ -1,5 +1,6 @@
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
+import { Link } from "@/shared/router";
 import { Icon, StatusSymbol } from "@/shared/ui";
 import { useWords } from "@/shared/words/useWords";
 import type { Readiness } from "./preview";
@@ -46,6 +47,11 @@ export function StartBar({ start, readiness, title, what, why }: StartBarProps) 
   return (
     <div className="card confirm">
       <Say title={title} text={what} />
+      {readiness.kind === "on_its_way" && readiness.order !== undefined && (
+        <Link className="btn motion" to={`/orders/${readiness.order}`}>
+          {t("move.to_order")}
+        </Link>
+      )}
       {armed && (
         <button type="button" className="btn motion" onClick={start.cancel}>
           {t("start.cancel")}

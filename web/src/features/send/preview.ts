@@ -112,7 +112,7 @@ export type Readiness =
   | { kind: "not_allowed" }
   | { kind: "unknown_station"; number: string }
   | { kind: "wrong_type"; number: string }
-  | { kind: "on_its_way"; vehicle: string }
+  | { kind: "on_its_way"; vehicle: string; order: string | undefined }
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
   | { kind: "check"; check: Check }
@@ -134,7 +134,9 @@ export function readiness(input: {
   if (entry.kind === "empty") return { kind: "no_station" };
   if (entry.kind === "unknown") return { kind: "unknown_station", number: entry.digits };
   if (entry.kind === "wrong_type") return { kind: "wrong_type", number: String(entry.station.number) };
-  if (isOnItsWay(input.vehicle)) return { kind: "on_its_way", vehicle: input.vehicle.id };
+  if (isOnItsWay(input.vehicle)) {
+    return { kind: "on_its_way", vehicle: input.vehicle.id, order: input.vehicle.order };
+  }
   const { preview } = input;
   if (preview.kind === "failed") return { kind: "failed" };
   if (preview.kind !== "ready") return { kind: "waiting" };

@@ -2,6 +2,7 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { StatusSymbol } from "@/shared/ui";
 import { degrees, fixed, kilonewtons, mass, millimetres } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
 import { bracketKey, footCorner, onSheet, sheetOf, wheelState, type Sheet } from "./faceplate";
 import { centreOfLoad, kBalanceShare, kPinOffset_m, summarise, type SensorShare } from "./loads";
 
@@ -218,6 +219,7 @@ function WheelLabels({
   sheet: Sheet;
 }) {
   const { t } = useTranslation("vehicles");
+  const words = useWords();
   const row = sheet.height * 0.049;
   return (
     <>
@@ -256,7 +258,9 @@ function WheelLabels({
                 className={`wl ${state === "warm" ? "adv2" : "bad2"} ${inside ? side : ""}`}
                 style={inside ? { ...place, marginTop: 22 } : below}
               >
-                {state === "warm" ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) }) : w.fault}
+                {state === "warm"
+                  ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) })
+                  : words.fault(w.fault)}
               </span>
             )}
           </span>

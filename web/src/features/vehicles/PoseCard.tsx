@@ -16,6 +16,14 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now));
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
   const measured = basis.key === "stop" || basis.key === "codes";
+  // What has been driven since is reckoned, not measured.
+  const symbol = !vehicle.pose_known
+    ? "a-2"
+    : !measured
+      ? "a-3"
+      : basis.since === undefined
+        ? "c-ok"
+        : "s-stale";
   const deviation =
     vehicle.pose_known && vehicle.pose_deviation_m !== undefined
       ? t("pose.deviation", { length: length(vehicle.pose_deviation_m) })
@@ -53,7 +61,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
         />
       </div>
       <p className="basis" data-basis={basis.key}>
-        <StatusSymbol name={!vehicle.pose_known ? "a-2" : measured ? "c-ok" : "a-3"} />
+        <StatusSymbol name={symbol} />
         <span>
           {t(`pose.basis.${basis.key}`, basis.values)}
           {vehicle.pose_basis && vehicle.pose_known && `${t("join")}${since}`}

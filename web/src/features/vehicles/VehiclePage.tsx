@@ -1,7 +1,7 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { HeldBar, useRefusal } from "@/shared/commands";
+import { HeldBar, useHeldWords, useRefusal } from "@/shared/commands";
 import {
   stale,
   symbolOf,
@@ -66,6 +66,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const allStops = useStopRecords();
   const stops = useMemo(() => allStops.filter((s) => s.vehicle === vehicle.id), [allStops, vehicle.id]);
   const answer = useAnswer();
+  const held = useHeldWords();
   const [tab, setTab] = useState("loads");
   const refused = useRefusal();
   const heard = useHeard(vehicle);
@@ -93,6 +94,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
     );
   const why = (
     <>
+      {!narrow && <HeldBar vehicle={vehicle} />}
       {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
@@ -116,10 +118,10 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
         <div className="grow" />
         <VehicleCommands vehicle={vehicle} order={order} />
       </div>
-      <HeldBar vehicle={vehicle} />
       {narrow ? (
         <>
-          <div className="card whyl">
+          <HeldBar vehicle={vehicle} />
+          <div className="card whyl" hidden={answer(vehicle) === held(vehicle)}>
             <StatusSymbol name={symbolOf(vehicle)} />
             <b>{answer(vehicle)}</b>
             <span className="cap">{age(heard_s)}</span>

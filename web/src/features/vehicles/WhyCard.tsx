@@ -3,7 +3,6 @@ import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { useHeldWords } from "@/shared/commands";
 import { alarmOf, symbolOf } from "@/shared/live";
 import { Card, CheckRow, StatusSymbol } from "@/shared/ui";
-import { faultText } from "@/shared/words/faults";
 import { age, fixed } from "@/shared/words/format";
 import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { useWords } from "@/shared/words/useWords";
@@ -29,12 +28,12 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   };
 }
 
-/** What to do about it; undefined when nothing is wrong. */
+/** What to do about that; undefined when nothing is wrong. */
 export function useTodo(): (vehicle: Vehicle) => string | undefined {
   const words = useAlarmWords();
   return (vehicle) => {
     const alarm = alarmOf(vehicle);
-    return alarm && words.todo(alarm);
+    return alarm === undefined || alarm.priority === "low" ? undefined : words.todo(alarm);
   };
 }
 
@@ -113,15 +112,15 @@ function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stal
         };
       case "wheel":
         return {
-          name: t("loads.wheel", { name: row.wheel.name }),
+          name: t("loads.wheel", { name: words.wheel(row.wheel.name) }),
           value: row.wheel.fault
-            ? faultText(row.wheel.fault, t)
+            ? words.fault(row.wheel.fault)
             : t("why.warm", { temperature: fixed(row.wheel.temperature_c, 0) }),
         };
       case "wheels":
         return { name: t("why.wheels"), value: t("why.wheel_ok", { count: row.count }) };
       case "fault":
-        return { name: t("why.fault"), value: faultText(row.error.type, t) };
+        return { name: t("why.fault"), value: words.fault(row.error.type) };
     }
   }
 }

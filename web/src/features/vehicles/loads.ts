@@ -1,5 +1,5 @@
 import type { Vehicle, VehicleType } from "@/shared/api/types";
-import { kBracketBalance } from "@/shared/live/brackets";
+import { bracketFault } from "@/shared/live/brackets";
 
 export type BracketReading = Vehicle["brackets"][number];
 
@@ -32,12 +32,11 @@ export function summarise(
     const x = type?.brackets.find((b) => b.name === name)?.position.x_m;
     return x === undefined ? 0 : Math.sign(x);
   };
-  const mean = total / brackets.length;
-  const isOff = (b: BracketReading) => Math.abs((b.force_a_n + b.force_b_n) / mean - 1) > kBracketBalance;
+  const worst = bracketFault(brackets)?.bracket;
   const reference = (name: string) => {
     const ofEnd = brackets.filter((b) => endOf(b.name) === endOf(name));
     // A bracket that is far off would make its sound neighbour look wrong.
-    const sound = ofEnd.filter((b) => !isOff(b));
+    const sound = ofEnd.filter((b) => b.name !== worst);
     const same = sound.length > 0 ? sound : ofEnd;
     return same.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0) / (2 * same.length);
   };
@@ -46,13 +45,13 @@ export function summarise(
     const share = (f: number): SensorShare => ({ force_n: f, share: ref > 0 ? (f - ref) / ref : 0 });
     return { name: b.name, sum_n: b.force_a_n + b.force_b_n, a: share(b.force_a_n), b: share(b.force_b_n) };
   });
-  const worst = Math.max(...rows.flatMap((r) => [Math.abs(r.a.share), Math.abs(r.b.share)]));
+  const largest = Math.max(...rows.flatMap((r) => [Math.abs(r.a.share), Math.abs(r.b.share)]));
   return {
     total_n: total,
     mean_n: total / (2 * brackets.length),
     brackets: rows,
-    worst,
-    balanced: worst <= kBalanceShare,
+    worst: largest,
+    balanced: largest <= kBalanceShare,
   };
 }
 

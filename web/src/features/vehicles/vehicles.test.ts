@@ -49,6 +49,11 @@ describe("load", () => {
     expect(summary?.balanced).toBe(false);
     expect(summary?.worst).toBeCloseTo(0.06, 12);
   });
+  it("does not blame the sound bracket beside one that is 40 % over", () => {
+    const summary = summarise(forces(1400, 1400, 1000, 1000, 1000, 1000, 1000, 1000), type);
+
+    expect(summary?.brackets.map((b) => Math.round(b.a.share * 100))).toEqual([40, 0, 0, 0]);
+  });
   it("is unknown without readings", () => expect(summarise([], type)).toBeUndefined());
 });
 

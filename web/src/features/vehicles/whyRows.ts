@@ -48,7 +48,7 @@ export function whyRows(
     const balanced = load.total_n < 1000 ? "no_load" : load.balanced ? "balanced" : "unbalanced";
     rows.push({
       kind: "load",
-      result: bracketFault(vehicle) ? "fail" : balanced === "unbalanced" ? "note" : "pass",
+      result: bracketFault(vehicle.brackets) ? "fail" : balanced === "unbalanced" ? "note" : "pass",
       balanced,
       down: feetDown(vehicle.parking_feet),
     });

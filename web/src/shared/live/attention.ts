@@ -87,7 +87,7 @@ function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
   if (v.field_violation === true) yield { kind: "field", priority: "high" };
   const wheel = v.wheels.find((w) => w.fault !== "");
   if (wheel !== undefined) yield { kind: "wheel", priority: "high", wheel: wheel.name, fault: wheel.fault };
-  const bracket = bracketFault(v);
+  const bracket = bracketFault(v.brackets);
   if (bracket !== undefined) yield { kind: "bracket", priority: "high", ...bracket };
   if (v.claimed_pose !== undefined)
     yield {

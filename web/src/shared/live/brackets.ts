@@ -6,8 +6,10 @@ export const kBracketBalance = 0.1;
 const kLoad_n = 1000;
 
 /** The bracket that is farthest off the mean of all, when that is too far; `share` of the mean, signed. */
-export function bracketFault(v: Vehicle): { bracket: string; share: number } | undefined {
-  const sums = v.brackets.map((b) => ({ bracket: b.name, force: b.force_a_n + b.force_b_n }));
+export function bracketFault(
+  brackets: readonly Vehicle["brackets"][number][],
+): { bracket: string; share: number } | undefined {
+  const sums = brackets.map((b) => ({ bracket: b.name, force: b.force_a_n + b.force_b_n }));
   const total = sums.reduce((sum, b) => sum + b.force, 0);
   if (total < kLoad_n) return undefined;
   const mean = total / sums.length;

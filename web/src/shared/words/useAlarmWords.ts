@@ -15,8 +15,8 @@ export function useAlarmWords(): {
   const { t } = useTranslation("alarms");
   const words = useWords();
   const now = useServerNow(500);
-  const named = (of: string, name = "") =>
-    t(`${of}.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name });
+  const bracket = (name = "") =>
+    t(`bracket_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name });
   return {
     todo: (alarm) => t(`todo.${alarm.kind}`),
     text: (alarm, vehicle) => {
@@ -24,8 +24,8 @@ export function useAlarmWords(): {
       const more = (alarm.share ?? 0) > 0;
       return t(alarm.kind === "bracket" ? (more ? "bracket_over" : "bracket_under") : alarm.kind, {
         fault: alarm.fault === undefined ? "" : faultText(alarm.fault, t),
-        wheel: named("wheel_name", alarm.wheel),
-        bracket: named("bracket_name", alarm.bracket),
+        wheel: words.wheel(alarm.wheel ?? ""),
+        bracket: bracket(alarm.bracket),
         percent: fixed(Math.abs(alarm.share ?? 0) * 100, 0),
         limit: fixed(kBracketBalance * 100, 0),
         temperature: fixed(alarm.temperature_c, 0),

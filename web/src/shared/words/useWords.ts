@@ -14,6 +14,8 @@ export interface Words {
   problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
   vehicle: (id: string) => string;
   fault: (type: string) => string;
+  /** Name of a wheel in words, where it is one that wheels usually have. */
+  wheel: (name: string) => string;
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
@@ -55,6 +57,8 @@ export function useWords(): Words {
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
       fault: (type) => faultText(type, t),
+      wheel: (name) =>
+        t(`alarms:wheel_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name }),
       stationNumber: (id) => stations.get(id) ?? id,
       mode: (mode) => t(`words:mode.${mode}`),
       modeShort: (mode) => t(`words:mode_short.${mode}`),
