@@ -2,7 +2,7 @@ import { useCallback } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { JobOrder } from "@/shared/api/types";
-import { CancelOrder, CommandFailed, useRefusal } from "@/shared/commands";
+import { CancelOrder, CommandFailed, useOverdue, useRefusal } from "@/shared/commands";
 import { CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
@@ -30,7 +30,9 @@ function PauseOrder({ order }: { order: JobOrder }) {
     useCallback(() => call(api.POST("/api/v1/job-orders/{id}/pause", { params: { path: { id } } })), [id]),
   );
   const held = order.state === "Interrupted" || order.pause_requested;
-  const asked = useProgress(pause, held, order.vehicle ? words.vehicle(order.vehicle) : order.name);
+  const vehicle = order.vehicle ? words.vehicle(order.vehicle) : order.name;
+  const asked = useProgress(pause, held, vehicle);
+  const progress = useOverdue(pauseProgress(order, asked, t), vehicle);
   return (
     <div>
       <CommandButton
@@ -39,7 +41,7 @@ function PauseOrder({ order }: { order: JobOrder }) {
         primary={false}
         twoStep={false}
         direction="stop"
-        progress={pauseProgress(order, asked, t)}
+        progress={progress}
         disabledReason={refused}
         onRun={pause.run}
       />

@@ -7,6 +7,7 @@ import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
 import { CommandFailed } from "./CommandFailed";
 import { isOpen } from "./orderState";
+import { useOverdue } from "./useOverdue";
 import { useRefusal } from "./useRefusal";
 
 /** Cancels an order; done when the order itself says that it has ended. */
@@ -27,10 +28,11 @@ export function CancelOrder({ order, className }: { order: JobOrder | undefined;
   const open = order !== undefined && isOpen(order);
   const vehicle = order?.vehicle ? words.vehicle(order.vehicle) : (order?.name ?? "");
   const asked = useProgress(cancel, !open, vehicle);
-  const progress: CommandProgress =
+  const stored: CommandProgress =
     open && order.cancel_requested
       ? { kind: "under_way", title: t("cancelling"), small: t("until_stands", { vehicle }) }
       : asked;
+  const progress = useOverdue(stored, vehicle);
   return (
     <>
       <CommandFailed command={cancel} />

@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import { ApiProblem } from "@/shared/api";
-import { outcome } from "./outcome";
+import { outcome, overdue } from "./outcome";
 import type { Asked } from "./useCommand";
 
 const words = { what: "No answer", next: "Look" };
@@ -24,4 +24,11 @@ it("says after how long it was confirmed", () => {
     by: "TP-01",
     afterS: 1.4,
   });
+});
+
+it("lets nothing be under way for ever", () => {
+  const underWay = { kind: "under_way", title: "Cancelling", small: "" } as const;
+  expect(overdue(underWay, 0, 29_999, words)).toBe(underWay);
+  expect(overdue(underWay, 0, 30_000, words)).toEqual({ kind: "timed_out", ...words });
+  expect(overdue({ kind: "ready" }, 0, 60_000, words)).toEqual({ kind: "ready" });
 });
