@@ -1,8 +1,8 @@
 import { useTranslation } from "react-i18next";
 import { useHeldWords, useRefusal } from "@/shared/commands";
-import { dateTime } from "@/shared/words/format";
-import { fleetHalt, pausedSingly, useFleet, useServerNow, useVehicles } from "@/shared/live";
+import { fleetHalt, pausedSingly, useFleet, useServerNow, useVehicles, type FleetHalt } from "@/shared/live";
 import { Banner, Button, goGuard } from "@/shared/ui";
+import { dateTime } from "@/shared/words/format";
 
 /** On every page: who has the fleet or single vehicles stand, since when, and who of them still moves. */
 export function PauseBanner({ onResume }: { onResume: () => void }) {
@@ -13,26 +13,13 @@ export function PauseBanner({ onResume }: { onResume: () => void }) {
   const vehicles = useVehicles();
   const halt = fleetHalt(useFleet(), vehicles);
   const singly = pausedSingly(vehicles);
-  const [only] = singly;
-  if (halt === undefined && only === undefined) return null;
   const names = singly.map((v) => v.name).join(t("common:join"));
-  const lines = (): [string, string] => {
-    if (halt === undefined)
-      return singly.length === 1 && only !== undefined
-        ? [only.name, held(only)]
-        : [t("held.singly", { count: singly.length, names }), t("held.goes_on")];
-    const by = halt.by ?? t("commands:held.somebody");
-    const key = halt.at === undefined ? "held.fleet_plain" : "held.fleet";
-    const also = singly.length > 0 && halt.all ? t("held.also", { names }) : t("held.goes_on");
-    return [t(key, { by, time: dateTime(halt.at, now) }), `${progress(halt)} ${also}`];
+  const [first] = singly;
+  if (halt === undefined && first === undefined) return null;
+  const [what, more] = halt !== undefined ? ofFleet(halt) : ofSingle();
+  const resume = () => {
+    if (goGuard.takes(performance.now())) onResume();
   };
-  const progress = (h: NonNullable<typeof halt>) => {
-    const values = { moving: h.moving, unheard: h.unheard, total: h.total, held: h.held };
-    if (h.moving > 0) return t("held.moving", values);
-    if (!h.all) return t("held.some", values);
-    return t(h.unheard > 0 ? "held.unheard" : "held.stand", values);
-  };
-  const [what, more] = lines();
   return (
     <Banner
       priority="held"
@@ -40,13 +27,26 @@ export function PauseBanner({ onResume }: { onResume: () => void }) {
       what={<b>{what}</b>}
       todo={more}
       actions={
-        <Button
-          onPress={() => goGuard.takes(performance.now()) && onResume()}
-          disabled={refused !== undefined}
-        >
+        <Button onPress={resume} disabled={refused !== undefined}>
           {t("held.resume")}
         </Button>
       }
     />
   );
+
+  function ofFleet(h: FleetHalt): [string, string] {
+    const by = h.by ?? t("commands:held.somebody");
+    const who = t(h.at === undefined ? "held.fleet_plain" : "held.fleet", { by, time: dateTime(h.at, now) });
+    const also = singly.length > 0 ? t("held.also", { names }) : t("held.goes_on");
+    return [who, `${progress(h)} ${also}`];
+  }
+  function ofSingle(): [string, string] {
+    if (singly.length === 1 && first !== undefined) return [first.name, held(first)];
+    return [t("held.singly", { count: singly.length, names }), t("held.goes_on")];
+  }
+  function progress({ all, moving, unheard, total, held }: FleetHalt): string {
+    if (moving > 0) return t("held.moving", { moving, total });
+    if (!all) return t("held.some", { held, total });
+    return unheard > 0 ? t("held.unheard", { unheard, total }) : t("held.stand", { total });
+  }
 }
