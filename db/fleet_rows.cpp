@@ -226,7 +226,11 @@ void VehicleRow::set(const fleet::VehicleRecord& v) {
     needs_resume = v.needs_resume;
     needs_resume_code = v.needs_resume_reason.code;
     needs_resume_params = params_to_json(v.needs_resume_reason.params);
-    paused = v.paused;
+    const fleet::Pause pause = v.paused.value_or(fleet::Pause{});
+    paused = v.paused.has_value();
+    paused_by = pause.actor;
+    paused_ns = to_ns(pause.at);
+    paused_with_fleet = pause.with_fleet;
     last_stop = stored_id(v.last_stop);
     last_stop_station = v.last_stop_station.str();
     last_stop_inside = v.last_stop_inside;
@@ -251,7 +255,9 @@ fleet::VehicleRecord VehicleRow::get() const {
     if (v.has_leg) v.leg_data = leg_from_json(leg_data);
     v.needs_resume = needs_resume != 0;
     v.needs_resume_reason = {needs_resume_code, params_from_json(needs_resume_params)};
-    v.paused = paused != 0;
+    if (paused != 0) {
+        v.paused = fleet::Pause{paused_by, time_from_ns(paused_ns), paused_with_fleet != 0};
+    }
     read_id(last_stop, v.last_stop);
     v.last_stop_station = plant::StationId(last_stop_station);
     v.last_stop_inside = last_stop_inside != 0;

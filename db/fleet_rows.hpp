@@ -92,19 +92,21 @@ struct VehicleRow {
         "id, pose_known, x_m, y_m, heading_rad, at_station, leg, has_leg, leg_data, needs_resume, "
         "needs_resume_code, needs_resume_params, paused, last_stop, last_stop_station, "
         "last_stop_inside, integration, hall, claimed_hall, claimed_x_m, claimed_y_m, "
-        "claimed_heading_rad, in_doubt";
+        "claimed_heading_rad, in_doubt, paused_by, paused_ns, paused_with_fleet";
     std::string id, at_station, leg, leg_data, needs_resume_code, needs_resume_params, last_stop,
-        last_stop_station, integration, hall, claimed_hall;
+        last_stop_station, integration, hall, claimed_hall, paused_by;
     double x_m = 0, y_m = 0, heading_rad = 0;
     double claimed_x_m = 0, claimed_y_m = 0, claimed_heading_rad = 0;
     int pose_known = 0, has_leg = 0, needs_resume = 0, paused = 0, last_stop_inside = 0;
-    int in_doubt = 0;
+    int in_doubt = 0, paused_with_fleet = 0;
+    std::int64_t paused_ns = 0;
 
     auto fields() {
         return std::tie(id, pose_known, x_m, y_m, heading_rad, at_station, leg, has_leg, leg_data,
                         needs_resume, needs_resume_code, needs_resume_params, paused, last_stop,
                         last_stop_station, last_stop_inside, integration, hall, claimed_hall,
-                        claimed_x_m, claimed_y_m, claimed_heading_rad, in_doubt);
+                        claimed_x_m, claimed_y_m, claimed_heading_rad, in_doubt, paused_by,
+                        paused_ns, paused_with_fleet);
     }
     void set(const fleet::VehicleRecord& vehicle);
     fleet::VehicleRecord get() const;

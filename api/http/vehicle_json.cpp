@@ -61,6 +61,23 @@ Json camera_json(const plant::VehicleType* type, const CameraImages& images,
     return json;
 }
 
+Json basis_json(const fleet::PoseBasis& basis) {
+    Json json = {{"kind", fleet::to_string(basis.kind)},
+                 {"at", rfc3339(basis.at)},
+                 {"driven_m", basis.driven_m}};
+    if (!basis.station.empty()) json["station"] = basis.station.str();
+    if (!basis.actor.empty()) json["by"] = basis.actor;
+    return json;
+}
+
+/// Of pauses from before they were kept, nobody may know who and when.
+Json pause_json(const fleet::Pause& pause) {
+    Json json = Json::object();
+    if (!pause.actor.empty()) json["by"] = pause.actor;
+    if (pause.at != Time{}) json["at"] = rfc3339(pause.at);
+    return json;
+}
+
 }  // namespace
 
 Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
@@ -78,7 +95,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         {"pose_known", vehicle.pose_known},
         {"hall", vehicle.hall},
         {"at_station", vehicle.at_station.str()},
-        {"paused", vehicle.paused},
+        {"paused", vehicle.paused.has_value()},
         {"pause_confirmed", state.paused},
         {"needs_resume", vehicle.needs_resume},
         {"integration", fleet::to_string(vehicle.integration)},
@@ -97,6 +114,11 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         // Before the first state of a vehicle only the plant knows what it carries.
         {"load_kg", !vehicle.last_heard && known != nullptr ? known->load_kg : state.load_kg},
         {"load_name", known != nullptr ? known->load_name : ""}};
+    if (const auto& worst = vehicle.worst_bracket) {
+        json["worst_bracket"] = {{"bracket", worst->bracket},
+                                 {"share", worst->share},
+                                 {"limit", fleet::kBracketBalance}};
+    }
     if (vehicle.reason) json["reason"] = reason_json(*vehicle.reason);
     if (vehicle.last_heard) {
         json["last_heard_at"] = rfc3339(*vehicle.last_heard);
@@ -107,6 +129,16 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     if (vehicle.pose_at) json["pose_at"] = rfc3339(*vehicle.pose_at);
     if (!vehicle.order.empty()) json["order"] = vehicle.order.str();
     if (vehicle.leg) json["leg"] = leg_json(*vehicle.leg);
+    if (const auto& basis = vehicle.pose_basis) json["pose_basis"] = basis_json(*basis);
+    if (state.deviation_range_m > 0) json["pose_deviation_m"] = state.deviation_range_m;
+    if (!vehicle.made_way.empty()) {
+        json["made_way"] = list_json(vehicle.made_way, [](Time at) { return Json(rfc3339(at)); });
+    }
+    if (vehicle.paused) {
+        json["pause"] = pause_json(*vehicle.paused);
+        json["pause"]["with_fleet"] = vehicle.paused->with_fleet;
+        json["pause"]["stands"] = vehicle.stands_paused;
+    }
     if (!vehicle.needs_resume_reason.code.empty()) {
         json["needs_resume_reason"] = reason_json(vehicle.needs_resume_reason);
     }
@@ -123,6 +155,7 @@ Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet) {
          list_json(fleet.needs_resume, [](const plant::VehicleId& id) { return Json(id.str()); })},
         {"plant_revision", plant.revision},
         {"server_started_at", rfc3339(fleet.started)}};
+    if (fleet.pause) json["pause"] = pause_json(*fleet.pause);
     if (const auto& fault = fleet.store_fault) {
         json["read_only"] = {{"cause", fault->cause}, {"since", rfc3339(fault->since)}};
     }

@@ -49,7 +49,10 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     if (run.record.needs_resume) {
         return because("needs_person", {{"cause", run.record.needs_resume_reason.code}});
     }
-    if (run.record.paused) return because("vehicle_paused");
+    if (const auto& pause = run.record.paused) {
+        if (pause->actor.empty()) return because("vehicle_paused");
+        return because("vehicle_paused", {{"actor", pause->actor}});
+    }
     if (!run.record.pose_known) return because("pose_unknown");
     if (!is_automatic(run)) {
         return because("not_automatic", {{"operating_mode", run.state.operating_mode}});

@@ -135,7 +135,7 @@ void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
     const auto stand = [&](VehicleRun& run) {
         // It has not been told to go on, and is not now.
         if (is_asked(run, "stopPause")) {
-            run.record.paused = true;
+            run.record.paused = Pause{{}, now, false};
             fleet.store(run);
             pause_motion(fleet, run, "startPause", now);
         }

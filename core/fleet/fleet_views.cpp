@@ -42,7 +42,11 @@ FleetView Fleet::view(Time) const {
         ++view.vehicles_total;
         if (run.link == Link::kLive) ++view.vehicles_live;
         if (run.record.needs_resume) view.needs_resume.push_back(id);
-        if (!run.record.paused) view.paused = false;
+        const auto& pause = run.record.paused;
+        if (!pause) view.paused = false;
+        if (pause && pause->with_fleet && (!view.pause || view.pause->at < pause->at)) {
+            view.pause = pause;
+        }
     }
     return view;
 }

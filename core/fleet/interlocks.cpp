@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "core/fleet/state.hpp"
@@ -59,27 +60,39 @@ std::optional<Reason> unseen_codes(const FleetState& fleet, const VehicleRun& ru
 
 }  // namespace
 
-double bracket_unbalance(const VehicleRun& run) {
+std::optional<BracketShare> worst_bracket(const VehicleRun& run) {
     const auto& places = run.type->brackets;
-    if (places.empty() || !load_of(run).present) return 0;
+    const Load load = load_of(run);
+    if (places.empty() || !load.present) return std::nullopt;
     double middle_m = 0;
     for (const auto& place : places) {
         middle_m += place.position.x_m / static_cast<double>(places.size());
     }
-    std::map<bool, std::vector<double>> ends;  // whether in front of the middle -> forces
+    struct Force {
+        std::string bracket;
+        double force_n;
+    };
+    std::map<bool, std::vector<Force>> ends;  // whether in front of the middle
     for (const auto& reported : run.state.brackets) {
         const auto place = std::ranges::find(places, reported.name, &plant::Bracket::name);
         if (place == places.end()) continue;
-        ends[place->position.x_m > middle_m].push_back(reported.force_a_n + reported.force_b_n);
+        ends[place->position.x_m > middle_m].push_back(
+            {reported.name, reported.force_a_n + reported.force_b_n});
     }
-    double worst = 0;
-    for (const auto& [in_front, forces_n] : ends) {
-        double mean_n = 0;
-        for (const double force_n : forces_n)
-            mean_n += force_n / static_cast<double>(forces_n.size());
-        if (mean_n <= 0) continue;  // it all hangs on the other end
-        for (const double force_n : forces_n) {
-            worst = std::max(worst, std::abs(force_n - mean_n) / mean_n);
+    const double mean_n = load.force_n / static_cast<double>(run.state.brackets.size());
+    std::optional<BracketShare> worst;
+    std::pair<double, double> most{-1, -1};
+    for (const auto& [in_front, forces] : ends) {
+        double end_n = 0;
+        for (const Force& one : forces) end_n += one.force_n / static_cast<double>(forces.size());
+        if (end_n <= 0) continue;  // it all hangs on the other end
+        for (const Force& one : forces) {
+            const double share = one.force_n / end_n - 1;
+            const std::pair departs{std::round(1e6 * std::abs(share)),
+                                    std::abs(one.force_n - mean_n)};
+            if (departs <= most) continue;
+            most = departs;
+            worst = BracketShare{one.bracket, share};
         }
     }
     return worst;
@@ -99,8 +112,11 @@ std::optional<Reason> interlock(const FleetState& fleet, const VehicleRun& run) 
             "load_too_heavy",
             {{"load_kg", load.force_n / kGravity_mps2}, {"max_load_kg", run.type->max_load_kg}}};
     }
-    if (const double unbalance = bracket_unbalance(run); unbalance > kBracketBalance) {
-        return Reason{"load_unbalanced", {{"unbalance", unbalance}, {"limit", kBracketBalance}}};
+    if (const auto worst = worst_bracket(run); worst && std::abs(worst->share) > kBracketBalance) {
+        return Reason{"load_unbalanced",
+                      {{"bracket", worst->bracket},
+                       {"unbalance", std::abs(worst->share)},
+                       {"limit", kBracketBalance}}};
     }
     if (load.present && !inside_wheel_base(run, load.centre)) {
         return Reason{"load_outside_wheel_base",

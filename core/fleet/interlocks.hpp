@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/base/error.hpp"
 
@@ -16,11 +17,16 @@ struct VehicleRun;
 constexpr double kBracketBalance = 0.10;
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 
-/// Deviation of the worst bracket from the mean of its end, as a share of it; 0 without a load.
-double bracket_unbalance(const VehicleRun& run);
+/// The bracket that departs farthest from the mean of its end; of two that do so alike, the one
+/// farther from the mean of all. Nothing without a load.
+struct BracketShare {
+    std::string bracket;
+    double share = 0;  // of the mean of its end, signed
+};
+std::optional<BracketShare> worst_bracket(const VehicleRun& run);
 
 /// The first one that bars the drive: parking_feet_down {furthest_m}, load_too_heavy {load_kg,
-/// max_load_kg}, load_unbalanced {unbalance, limit}, load_outside_wheel_base {x_m, y_m},
+/// max_load_kg}, load_unbalanced {bracket, unbalance, limit}, load_outside_wheel_base {x_m, y_m},
 /// wheel_fault {wheel, fault}, codes_not_seen {found, cameras}. Nothing: it may drive.
 std::optional<Reason> interlock(const FleetState& fleet, const VehicleRun& run);
 

@@ -171,6 +171,14 @@ struct Whereabouts {
     friend bool operator==(const Whereabouts&, const Whereabouts&) = default;
 };
 
+/// A person's wish that a vehicle stands.
+struct Pause {
+    std::string actor;  // empty: nobody is known any more
+    Time at;
+    bool with_fleet = false;  // the whole fleet was paused; else this vehicle alone
+    friend bool operator==(const Pause&, const Pause&) = default;
+};
+
 /// What survives a restart about a vehicle.
 struct VehicleRecord {
     plant::VehicleId id;
@@ -186,7 +194,7 @@ struct VehicleRecord {
     Leg leg_data;
     bool needs_resume = false;  // a person must allow it to move again
     Reason needs_resume_reason;
-    bool paused = false;  // by a person, through the server
+    std::optional<Pause> paused;  // by a person, through the server
     Integration integration = Integration::kUtilise;
     StopRecordId last_stop;  // newest measured stop, empty before the first
     plant::StationId last_stop_station;

@@ -18,6 +18,7 @@ constexpr std::size_t kMostRestsTriedAfter = 2;
 /// Straight ahead or back before the way to a resting place: where it stands, others' floor may
 /// leave a vehicle no turn.
 constexpr std::array kFirst_m{0.0, 1.0, -1.0, 2.0, -2.0, 4.0, -4.0, 8.0, -8.0};
+constexpr std::size_t kAsidesKept = 3;
 constexpr Duration kLeaveAgain = std::chrono::seconds(2);
 
 struct WaitedFor {
@@ -112,6 +113,8 @@ void tell_leaving(FleetState& fleet, VehicleRun& run, Time now) {
     JobOrderId order;
     if (const VehicleRun* other = leaves_for(fleet, run)) {
         params.push_back({"other", other->record.id.str()});
+        if (run.made_way.size() == kAsidesKept) run.made_way.erase(run.made_way.begin());
+        run.made_way.push_back(now);
         const JobOrder* its = fleet.orders.of(other->record.id);
         // One whose order waits may itself be on its way aside.
         order = other->has_leg() ? other->leg().order : its ? its->id : JobOrderId();

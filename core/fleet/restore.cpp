@@ -73,6 +73,9 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
         bring_back(order.started, now);
         bring_back(order.ended, now);
     }
+    for (auto& vehicle : stored.vehicles) {
+        if (vehicle.paused) bring_back(vehicle.paused->at, now);
+    }
     for (auto& key : stored.idempotency) bring_back(key.at, now);
     for (auto& closure : stored.closures) bring_back(closure.created, now);
     for (auto& schedule : stored.schedules) {

@@ -41,7 +41,8 @@ std::optional<Check> load_check(const VehicleRun& run) {
     if (run.state.brackets.empty()) return std::nullopt;
     double total_n = 0;
     for (const auto& bracket : run.state.brackets) total_n += bracket.force_a_n + bracket.force_b_n;
-    const double worst = bracket_unbalance(run);
+    const auto bracket = worst_bracket(run);
+    const double worst = bracket ? std::abs(bracket->share) : 0;
     const bool too_heavy = total_n > run.type->max_load_kg * kGravity;
     const auto result =
         too_heavy || worst > kBracketBalance ? Check::Result::kFail : Check::Result::kPass;

@@ -81,10 +81,12 @@ struct VehicleRun {
     struct Statement {
         Whereabouts where;
         Time at;
+        std::string actor;
     };
     std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
     std::optional<Time> claim_told;   // newest report that can follow the claim of its record
     bool claim_left = false;          // the newest report cannot
+    std::optional<PoseBasis> basis;   // of the pose, since this server has known it
     std::optional<Time> leg_started;
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
@@ -92,6 +94,9 @@ struct VehicleRun {
     int errors_told = 0;                // as events, in that minute
     std::optional<Reason> charge_wait;  // why it should charge and does not
     std::optional<Time> charge_retry;
+    /// When it went aside for others, the last three times: one that does so again and again gets
+    /// nowhere.
+    std::vector<Time> made_way;
 
     /// Outlines of the floor of the leg; they cost some milliseconds and change only with the base.
     struct Areas {

@@ -103,6 +103,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
     run.record.last_stop = stop.id;
     run.record.last_stop_station = station->id;
     run.record.last_stop_inside = stop.inside;
+    run.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
     fleet.changed_stations.insert(station->id);
     fleet.store(run);
     add_event(fleet, now, "stop.measured", stop.order, stop.leg, stop.vehicle, {},

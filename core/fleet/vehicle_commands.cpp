@@ -46,10 +46,11 @@ bool is_about_vehicle(const Reason& reason) {
                        [&](const char* code) { return reason.code == code; });
 }
 
-void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
+void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, bool with_fleet,
+           Time now) {
     if (run.record.paused) return;
     const plant::VehicleId& id = run.record.id;
-    run.record.paused = true;
+    run.record.paused = Pause{actor, now, with_fleet};
     fleet.store(run);
     fleet.out.fleet_changed = true;
     add_event(fleet, now, "vehicle.paused", {}, run.record.leg, id, actor);
@@ -95,7 +96,7 @@ Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::
     FleetState& fleet = input<&Fleet::pause_vehicle>(now, id, actor);
     VehicleRun* run = fleet.find(id);
     if (!run) return no_such_vehicle(id);
-    pause(fleet, *run, actor, now);
+    pause(fleet, *run, actor, false, now);
     return view_of(fleet, *run, now);
 }
 
@@ -132,7 +133,7 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
     Action action;
     action.type = "initPosition";
     action.init_position = InitPosition{pose, stated.hall, {}};
-    run->stated = VehicleRun::Statement{stated, now};
+    run->stated = VehicleRun::Statement{stated, now, actor};
     add_event(fleet, now, "vehicle.init_position", {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
     send_action(fleet, *run, std::move(action), now);
@@ -143,7 +144,7 @@ void Fleet::pause_fleet(const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::pause_fleet>(now, actor);
     add_event(fleet, now, "fleet.paused", {}, {}, {}, actor);
     fleet.out.fleet_changed = true;
-    for (auto& [id, run] : fleet.vehicles) pause(fleet, run, actor, now);
+    for (auto& [id, run] : fleet.vehicles) pause(fleet, run, actor, true, now);
 }
 
 Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
@@ -181,7 +182,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         add_event(fleet, now, "vehicle.resumed", {}, run.record.leg, id, actor,
                   {{"cause", run.record.needs_resume ? run.record.needs_resume_reason.code
                                                      : std::string("vehicle_paused")}});
-        const bool was_paused = std::exchange(run.record.paused, false);
+        const bool was_paused = std::exchange(run.record.paused, std::nullopt).has_value();
         run.record.needs_resume = false;
         run.record.needs_resume_reason = {};
         run.connection_refused = false;

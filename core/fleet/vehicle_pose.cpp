@@ -118,8 +118,20 @@ void note_seen(VehicleRun& run, Time now) {
     run.seen->speed_mps = std::max(run.seen->speed_mps, speed_mps);
 }
 
+/// Of a pose that was not known before: what it can rest on, seen from here.
+PoseBasis basis_of(const FleetState& fleet, const VehicleRun& run, const Pose2& told, Time now) {
+    const auto by_codes = pose_from_codes(fleet, run, run.state.cameras);
+    const bool seen = by_codes && is_near(*by_codes, told);
+    return {seen ? PoseBasis::Kind::kCodes : PoseBasis::Kind::kVehicle, {}, {}, now, 0};
+}
+
 void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
     const bool was_known = run.record.pose_known;
+    if (!was_known || !run.basis) {
+        run.basis = basis_of(fleet, run, told.pose, now);
+    } else if (moves(run.state)) {
+        run.basis->driven_m += geometry::distance(run.record.pose.position(), told.pose.position());
+    }
     run.record.pose = told.pose;
     run.record.pose_known = true;
     note_seen(run, now);
@@ -265,7 +277,9 @@ void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, T
         state.pose->heading_rad = wrap(state.pose->heading_rad);
         const Whereabouts where = told_by(fleet, run);
         if (is_as_stated(run, where, now)) {
+            const std::string actor = run.stated->actor;
             end_doubt(fleet, run, now);
+            run.basis = PoseBasis{PoseBasis::Kind::kStatement, {}, actor, now, 0};
         } else if (is_in_doubt(run)) {
             follow_claim(fleet, run, where, now);
         } else if (can_be_at(fleet, run, where, now)) {

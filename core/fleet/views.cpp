@@ -78,6 +78,12 @@ LegView leg_view(const VehicleRun& run, Time now) {
     return view;
 }
 
+/// A report of before the pause, or of one that is still braking, does not count.
+bool stands_paused(const VehicleRun& run) {
+    return run.record.paused && run.state.paused && !run.state.driving &&
+           !is_asked(run, "startPause");
+}
+
 /// Beside its line it says why.
 std::optional<Reason> detour(const VehicleRun& run) {
     const bool goes_round =
@@ -161,6 +167,20 @@ const char* to_string(Link link) {
     return "never";
 }
 
+const char* to_string(PoseBasis::Kind kind) {
+    switch (kind) {
+        case PoseBasis::Kind::kVehicle:
+            return "vehicle";
+        case PoseBasis::Kind::kCodes:
+            return "codes";
+        case PoseBasis::Kind::kStop:
+            return "stop";
+        case PoseBasis::Kind::kStatement:
+            return "statement";
+    }
+    return "vehicle";
+}
+
 const char* to_string(Activity activity) {
     switch (activity) {
         case Activity::kStanding:
@@ -228,6 +248,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
     view.reason = std::move(what.reason);
     view.last_heard = run.last_heard;
     view.pose_known = run.record.pose_known;
+    if (run.record.pose_known) view.pose_basis = run.basis;
     if (run.record.claim) {
         view.claimed_pose = run.record.claim->pose;
         if (has_stood(run.record)) view.pose = run.record.pose;
@@ -241,10 +262,13 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
         view.order = order->id;
     }
     if (with_leg && run.has_leg()) view.leg = leg_view(run, now);
+    view.worst_bracket = worst_bracket(run);
     view.paused = run.record.paused;
+    view.stands_paused = stands_paused(run);
     view.integration = run.record.integration;
     view.needs_resume = run.record.needs_resume;
     view.needs_resume_reason = run.record.needs_resume_reason;
+    view.made_way = run.made_way;
     view.state = run.state;
     return view;
 }

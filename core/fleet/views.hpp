@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/fleet/closures.hpp"
+#include "core/fleet/interlocks.hpp"
 #include "core/fleet/job_order.hpp"
 #include "core/planning/leg_planner.hpp"
 
@@ -44,6 +45,22 @@ struct LegView {
     std::optional<Time> expected;
 };
 
+/// What a pose that is known rests on.
+struct PoseBasis {
+    enum class Kind {
+        kVehicle,   // the vehicle's own word and no more
+        kCodes,     // surveyed codes that its cameras saw when it became known
+        kStop,      // a stop that was measured at a station
+        kStatement  // a person's word
+    };
+    Kind kind = Kind::kVehicle;
+    plant::StationId station;  // of the stop
+    std::string actor;         // of the statement
+    Time at;
+    double driven_m = 0;  // since then, by the vehicle's own reckoning
+};
+const char* to_string(PoseBasis::Kind kind);  // "stop"
+
 struct VehicleView {
     plant::VehicleId id;
     Link link = Link::kNever;
@@ -51,6 +68,7 @@ struct VehicleView {
     std::optional<Reason> reason;  // why it stands or waits
     std::optional<Time> last_heard;
     bool pose_known = false;
+    std::optional<PoseBasis> pose_basis;  // there while it is known
     std::optional<Pose2> pose;
     std::optional<Pose2> claimed_pose;  // where it says to be and cannot be; `pose`: where it was
     std::optional<Time> pose_at;
@@ -58,11 +76,15 @@ struct VehicleView {
     plant::StationId at_station;
     JobOrderId order;  // empty: none
     std::optional<LegView> leg;
-    bool paused = false;
+    std::optional<Pause> paused;
+    bool stands_paused =
+        false;  // it has itself reported, since it was told, to be paused and at rest
     Integration integration = Integration::kUtilise;
     bool needs_resume = false;
     Reason needs_resume_reason;
-    StateMessage state;  // as last reported; all defaults before the first
+    std::vector<Time> made_way;                 // newest last; see VehicleRun
+    std::optional<BracketShare> worst_bracket;  // there while it carries a load
+    StateMessage state;                         // as last reported; all defaults before the first
 };
 
 struct StationView {
@@ -87,7 +109,8 @@ struct ClockDifference {
 };
 
 struct FleetView {
-    bool paused = false;
+    bool paused = false;         // every vehicle is
+    std::optional<Pause> pause;  // of the whole fleet, the newest that holds a vehicle
     std::int64_t last_event_seq = 0;
     int vehicles_live = 0;
     int vehicles_total = 0;

@@ -143,7 +143,7 @@ public:
         v.at_station = plant::StationId("st01");
         v.needs_resume = true;
         v.needs_resume_reason = {"server_restarted", {{"at", std::int64_t{5}}}};
-        v.paused = true;
+        v.paused = fleet::Pause{"ann", at(7), true};
         v.integration = fleet::Integration::kNotice;
         v.last_stop = fleet::StopRecordId(ids_.next(at(0)));
         v.last_stop_station = plant::StationId("st01");

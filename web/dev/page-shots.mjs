@@ -77,6 +77,45 @@ async function sent67(ctx) {
 const vehicle = (first, id) => first.vehicles.find((v) => v.id === id);
 const send = "/send?vehicle=TP-01&station=7";
 const small = [1024, 768];
+const phone = [390, 844];
+/** The fleet paused 4 s ago, OM-03 by itself before that; `moving` still brake. */
+const pausedFleet = (moving) => (first) => {
+  const by = (name, agoS, with_fleet, stands) => ({
+    paused: true,
+    activity: stands ? "paused" : "moving",
+    pause: { by: name, at: new Date(Date.now() - agoS * 1000).toISOString(), with_fleet, stands },
+  });
+  for (const v of first.vehicles)
+    Object.assign(v, by("panel-2", 4, true, !moving.includes(v.id)), { reason: undefined });
+  Object.assign(vehicle(first, "OM-03"), by("m.weber", 900, false, true));
+  first.fleet.paused = true;
+  first.fleet.pause = { by: "panel-2", at: new Date(Date.now() - 4000).toISOString() };
+};
+const pausedAlone = (stands) => (first) => {
+  const at = new Date(Date.now() - 4000).toISOString();
+  Object.assign(vehicle(first, "TP-01"), {
+    paused: true,
+    activity: stands ? "paused" : "moving",
+    pause: { by: "panel-2", at, with_fleet: false, stands },
+  });
+};
+/** One alarm of each kind that has no picture elsewhere. */
+const alarmed = (first) => {
+  const tp = vehicle(first, "TP-01");
+  tp.brackets[0].force_a_n *= 1.4;
+  tp.brackets[0].force_b_n *= 1.4;
+  tp.wheels[4].fault = "servo_overload";
+  tp.e_stop = "MANUAL";
+  tp.pose_basis = {
+    kind: "stop",
+    station: "st05",
+    at: new Date(Date.now() - 400000).toISOString(),
+    driven_m: 12.3,
+  };
+  tp.pose_deviation_m = 0.031;
+  vehicle(first, "DL-02").reason = { code: "stop_not_measured", params: { station: 38, why: "" } };
+  vehicle(first, "OM-03").pose_known = false;
+};
 const shots = {
   "send-light": { path: send },
   "send-dark": { path: send, theme: "dark" },
@@ -172,6 +211,41 @@ const shots = {
   },
   "vehicle-late": { path: "/vehicles/MV-02" },
   "vehicle-list": { path: "/vehicles" },
+  "alarms-vehicle": { path: "/vehicles/TP-01", change: alarmed },
+  "alarms-vehicle-zh-dark": { path: "/vehicles/TP-01", change: alarmed, lang: "zh", theme: "dark" },
+  "alarms-vehicle-1024": { path: "/vehicles/TP-01", change: alarmed, size: small },
+  "alarms-map": { path: "/map", change: alarmed },
+  "alarms-map-zh-1024": { path: "/map", change: alarmed, lang: "zh", size: small },
+  "alarms-list": { path: "/vehicles", change: alarmed },
+  "pause-vehicle-stopping": { path: "/vehicles/TP-01", change: pausedAlone(false) },
+  "pause-vehicle-zh-dark": {
+    path: "/vehicles/TP-01",
+    change: pausedAlone(true),
+    lang: "zh",
+    theme: "dark",
+  },
+  "pause-vehicle-1024": { path: "/vehicles/TP-01", change: pausedAlone(true), size: small },
+  "pause-vehicle-390": { path: "/vehicles/TP-01", change: pausedAlone(true), size: phone },
+  "pause-fleet-map": { path: "/map", change: pausedFleet(["TP-02", "OM-01", "MV-02"]) },
+  "pause-fleet-1024": { path: "/orders", change: pausedFleet([]), size: small },
+  "pause-fleet-zh-dark-1024": {
+    path: "/map",
+    change: pausedFleet(["TP-02"]),
+    size: small,
+    lang: "zh",
+    theme: "dark",
+  },
+  "pause-fleet-resume": {
+    path: "/map",
+    change: pausedFleet([]),
+    act: (c) => c.page.getByRole("button", { name: "Resume…" }).click(),
+  },
+  "send-busy": {
+    path: "/send?vehicle=TP-02&station=7",
+    change: (f) =>
+      Object.assign(f.job_orders[0], { expected_at: new Date(Date.now() + 84000).toISOString() }),
+  },
+  "send-wrong-type": { path: "/send?vehicle=TP-01&station=15" },
   "record-light": { path: "/records/REC" },
   "record-dark": { path: "/records/REC", theme: "dark" },
   "record-zh": { path: "/records/REC", lang: "zh" },

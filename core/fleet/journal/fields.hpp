@@ -39,6 +39,7 @@ PULSELINE_LAST(fleet::StepPhase, kAfter)
 PULSELINE_LAST(fleet::JobMethod, kClear)
 PULSELINE_LAST(fleet::Link, kGone)
 PULSELINE_LAST(fleet::Activity, kUnknown)
+PULSELINE_LAST(fleet::PoseBasis::Kind, kStatement)
 
 namespace geometry {
 PULSELINE_FIELDS(Point2, x_m, y_m)
@@ -121,6 +122,7 @@ PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
                  released_nodes, passed_nodes, duration_s, attempt, actions_only, charges)
 PULSELINE_FIELDS(Whereabouts, pose, hall)
+PULSELINE_FIELDS(Pause, actor, at, with_fleet)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,
                  leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
                  last_stop_station, last_stop_inside)
@@ -150,9 +152,10 @@ PULSELINE_FIELDS(StoreFault, cause, since)
 PULSELINE_FIELDS(ClockDifference, ahead, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
-PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose,
-                 claimed_pose, pose_at, hall, at_station, order, leg, paused, integration,
-                 needs_resume, needs_resume_reason, state)
+PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
+PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
+                 claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,
+                 integration, needs_resume, needs_resume_reason, made_way, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

@@ -70,7 +70,7 @@ PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
 PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
                  next_try, in_vain_since, next_leave, idle_since)
 PULSELINE_FIELDS(VehicleRun::Seen, pose, at, moving, speed_mps)
-PULSELINE_FIELDS(VehicleRun::Statement, where, at)
+PULSELINE_FIELDS(VehicleRun::Statement, where, at, actor)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
 PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
@@ -83,13 +83,14 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
-           claim_told, claim_left, leg_started, foreign_since, actions, errors_from, errors_told,
-           charge_wait, charge_retry, areas, awaited_plan, newest_plan, swept] = it;
+           claim_told, claim_left, basis, leg_started, foreign_since, actions, errors_from,
+           errors_told, charge_wait, charge_retry, made_way, areas, awaited_plan, newest_plan,
+           swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
-          gave_up, cancelling, floor, seen, seen_before, stated, claim_told, claim_left,
+          gave_up, cancelling, floor, seen, seen_before, stated, claim_told, claim_left, basis,
           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
-          awaited_plan);
+          made_way, awaited_plan);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.

@@ -164,6 +164,9 @@ TEST(Vehicles, PauseInitPositionAndFleetPauseAreTaken) {
     const Answer paused = api.post("/api/v1/vehicles/V1/pause");
     EXPECT_EQ(paused.status, 202);
     EXPECT_EQ(paused.json()["paused"], true);
+    EXPECT_EQ(paused.json()["pause"]["with_fleet"], false);
+    EXPECT_EQ(paused.json()["pause"]["stands"], false) << "it has not answered yet";
+    EXPECT_FALSE(paused.json()["pause"]["by"].get<std::string>().empty());
     EXPECT_EQ(
         api.post("/api/v1/vehicles/V1/init-position", R"({"x_m":20,"y_m":20,"heading_rad":-6.283})")
             .status,

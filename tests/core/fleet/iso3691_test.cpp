@@ -189,6 +189,45 @@ TEST_F(Iso3691, WhoLetItGoOnIsWrittenDown) {
     EXPECT_EQ(acts, (std::vector<std::string>{"vehicle.paused ann V1", "vehicle.resumed bob V1"}));
 }
 
+TEST_F(Iso3691, WhoHadItStandIsShownAndKept) {
+    const Time singly = world.now;
+    ASSERT_TRUE(world.fleet->pause_vehicle(kV1, "ann", world.now));
+    world.run(1);
+    const Time both = world.now;
+    world.fleet->pause_fleet("bob", world.now);
+    world.run(1);
+    const auto holds = [&] {
+        EXPECT_EQ(view(kV1).paused, (Pause{"ann", singly, false})) << "it was paused before";
+        EXPECT_EQ(view(kV2).paused, (Pause{"bob", both, true}));
+        EXPECT_EQ(world.fleet->view(world.now).pause, (Pause{"bob", both, true}));
+        ASSERT_TRUE(view(kV2).reason);
+        EXPECT_EQ(*view(kV2).reason,
+                  (Reason{"vehicle_paused", {{"vehicle", "V2"}, {"actor", "bob"}}}));
+    };
+    holds();
+    world.crash_server();
+    world.run(1);
+    holds();
+    ASSERT_TRUE(world.fleet->resume_fleet({kV2}, "bob", world.now));
+    EXPECT_FALSE(world.fleet->view(world.now).pause) << "only the other one's own pause is left";
+}
+
+TEST_F(Iso3691, APausedVehicleStandsWhenItHasSaidSo) {
+    start();
+    world.vehicles_move = false;
+    v1().state.driving = true;
+    world.run(1);
+    ASSERT_TRUE(world.fleet->pause_vehicle(kV1, "ann", world.now));
+    EXPECT_FALSE(view().stands_paused) << "it has not even been told";
+    world.settle();
+    world.run(1);
+    ASSERT_TRUE(v1().state.paused);
+    EXPECT_FALSE(view().stands_paused) << "it brakes";
+    v1().state.driving = false;
+    world.run(1);
+    EXPECT_TRUE(view().stands_paused);
+}
+
 TEST_F(Iso3691, AResumeIsForTheVehiclesThatItNames) {
     world.fleet->pause_fleet("op", world.now);
     world.run(1);

@@ -26,6 +26,7 @@ TEST(MakingWay, AnIdleVehicleInABayLeavesItForAnother) {
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded);
     EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->at_station, plant::StationId("s2"));
     EXPECT_EQ(world.count_events("vehicle.makes_way"), 1);
+    EXPECT_EQ(world.fleet->vehicle(VehicleId("V2"), world.now)->made_way.size(), 1u);
 }
 
 TEST(MakingWay, OneThatMeasuredItsStopWhileItWasLostMakesWayAfterwards) {

@@ -368,6 +368,36 @@ TEST(ImpossibleStop, ThatItsPoseFollowsIsAJump) {
     EXPECT_EQ(world.only_order().reason.code, "pose_jumped");
 }
 
+TEST(PoseBasis, SaysWhatAKnownPoseRestsOnAndHowFarItHasDrivenSince) {
+    World world;
+    world.connect_all();
+    world.run(1);
+    const auto basis = [&] { return view(world).pose_basis.value_or(PoseBasis{}); };
+    EXPECT_EQ(basis().kind, PoseBasis::Kind::kCodes) << "its cameras stand over surveyed codes";
+
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(60);
+    EXPECT_EQ(basis().kind, PoseBasis::Kind::kStop);
+    EXPECT_EQ(basis().station, plant::StationId("s2"));
+    EXPECT_EQ(basis().at, world.store.stops.back().at);
+    EXPECT_EQ(basis().driven_m, 0);
+
+    ASSERT_TRUE(world.order("V1", {3}));
+    double furthest_m = 0;
+    for (int i = 0; i < 600 && basis().station == plant::StationId("s2"); ++i) {
+        furthest_m = std::max(furthest_m, basis().driven_m);
+        world.run(0.1);
+    }
+    EXPECT_NEAR(furthest_m, 12, 0.5) << "from the stop at station 2 to that at station 3";
+    EXPECT_EQ(basis().station, plant::StationId("s3"));
+
+    ASSERT_TRUE(world.fleet->init_position(kV1, {36, 20, 0}, "ann", world.now));
+    world.settle();
+    world.run(1);
+    EXPECT_EQ(basis().kind, PoseBasis::Kind::kStatement);
+    EXPECT_EQ(basis().actor, "ann");
+}
+
 TEST(PossibleStop, IsKeptWithItsHeadingWrapped) {
     World world;
     measure(world, {0.003, 0, 2 * kPi + 0.001});

@@ -1,6 +1,6 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import { alarms, useVehicles } from "@/shared/live";
+import { alarms, useLinkLost, useVehicles } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { StatusSymbol, type SymbolName } from "@/shared/ui";
 
@@ -14,9 +14,10 @@ const kRows = [
 export function AlarmCounts() {
   const { t } = useTranslation();
   const vehicles = useVehicles();
+  const lost = useLinkLost();
   const all = useMemo(() => alarms(vehicles), [vehicles]);
   return (
-    <div className="cell alarms" role="group" aria-label={t("alarms.label")}>
+    <div className={`cell alarms ${lost ? "old" : ""}`} role="group" aria-label={t("alarms.label")}>
       {kRows.map(({ priority, cls, symbol }) => {
         const count = all.filter((alarm) => alarm.priority === priority).length;
         const name = t(`alarms.${priority}`, { count });

@@ -9,11 +9,14 @@ import {
   useLink,
   useMayCommand,
   useServerNow,
+  useVehicle,
   useVehicles,
   type Alarm,
 } from "@/shared/live";
 import { navigate } from "@/shared/router";
-import { Banner, Button } from "@/shared/ui";
+import { Banner, Button, goGuard } from "@/shared/ui";
+import { useAlarmWords } from "@/shared/words/useAlarmWords";
+import { PauseBanner } from "./PauseBanner";
 
 /** A cut shorter than this is not worth a word: a page that just loaded, a reconnect. */
 const kGraceMs = 300;
@@ -36,7 +39,9 @@ export function Banners({ onResume }: { onResume: () => void }) {
   const link = useLink();
   const vehicles = useVehicles();
   const all = useMemo(() => alarms(vehicles), [vehicles]);
-  const urgent = all.find((alarm) => alarm.priority !== "low");
+  // Who waits for a person has a banner of its own, with the button that answers it.
+  const shown = all.filter((alarm) => alarm.priority !== "low" && alarm.kind !== "person");
+  const [urgent] = shown;
   const readOnly = useFleet()?.read_only;
   const lost = useShownAfter(link.state.kind === "lost", kGraceMs);
   return (
@@ -46,8 +51,9 @@ export function Banners({ onResume }: { onResume: () => void }) {
       ) : readOnly ? (
         <ReadOnly since={readOnly.since} cause={readOnly.cause} />
       ) : (
-        urgent && <AlarmBanner alarm={urgent} more={all.filter((a) => a.priority !== "low").length - 1} />
+        urgent && <AlarmBanner alarm={urgent} more={shown.length - 1} />
       )}
+      <PauseBanner onResume={onResume} />
       <WaitingBanner onResume={onResume} />
       <ClockBanner />
     </div>
@@ -92,24 +98,20 @@ function ReadOnly({ since, cause }: Fault) {
 
 function AlarmBanner({ alarm, more }: { alarm: Alarm; more: number }) {
   const { t } = useTranslation();
-  const vehicle = useVehicles().find((v) => v.id === alarm.vehicle);
-  const now = useServerNow(500);
-  const silentFor =
-    vehicle?.last_heard_at === undefined ? undefined : (now - Date.parse(vehicle.last_heard_at)) / 1000;
-  const params = { type: alarm.type ?? "", age: age(silentFor) };
-  const todo =
-    alarm.kind === "field" || alarm.kind === "silent" ? t(`alarm.todo_${alarm.kind}`) : t("alarm.todo_error");
+  const words = useAlarmWords();
+  const vehicle = useVehicle(alarm.vehicle);
   return (
     <Banner
       priority={alarm.priority}
       what={
         <>
-          <b>{vehicle?.name ?? alarm.vehicle}</b> {t(`alarm.${alarm.kind}`, params)}
+          <b>{vehicle?.name ?? alarm.vehicle}</b>
+          {t("alarm.colon")}
+          {words.text(alarm, vehicle)}
           {more > 0 && <span className="lab"> {t("alarm.more", { count: more })}</span>}
         </>
       }
-      todo={todo}
-      {...(alarm.kind === "silent" && { age: age(silentFor) })}
+      todo={words.todo(alarm)}
       actions={
         <Button onPress={() => navigate(`/map?vehicle=${encodeURIComponent(alarm.vehicle)}`)}>
           {t("alarm.show")}
@@ -126,7 +128,7 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
   const vehicles = useVehicles();
   const link = useLink();
   const may = useMayCommand();
-  const waiting = vehicles.filter((v) => v.needs_resume && !silent(v));
+  const waiting = vehicles.filter((v) => v.needs_resume && !v.paused && !silent(v));
   if (waiting.length === 0 || fleet?.paused) return null;
   const names = waiting.map((v) => v.name).join(", ");
   return (
@@ -136,7 +138,7 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
       what={<b>{t("resume.waits", { count: waiting.length, names })}</b>}
       todo={t("resume.why")}
       actions={
-        <Button onPress={onResume} disabled={!link.live || !may}>
+        <Button onPress={() => goGuard.takes(performance.now()) && onResume()} disabled={!link.live || !may}>
           {t("resume.action")}
         </Button>
       }

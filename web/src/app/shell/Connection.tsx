@@ -18,7 +18,7 @@ export function Connection() {
         <strong>
           {word} {link.ageS === undefined ? "" : age(link.ageS)}
         </strong>
-        <span className="cap">
+        <span className={`cap ${link.state.kind === "lost" ? "old" : ""}`}>
           {fleet && t("link.vehicles", { live: fleet.vehicles_live, total: fleet.vehicles_total })}
         </span>
       </div>

@@ -1,120 +1,99 @@
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { api, ApiProblem, call, type Vehicle } from "@/shared/api";
-import { silent, useCommandsEnabled, useFleet, useVehicles } from "@/shared/live";
-import { Button, CommandButton, type CommandProgress } from "@/shared/ui";
-import { useWords } from "@/shared/words/useWords";
+import { api, call, type Vehicle } from "@/shared/api";
+import { CommandFailed, useHeldWords, useRefusal } from "@/shared/commands";
+import { silent, useVehicles } from "@/shared/live";
+import { Button, CommandButton } from "@/shared/ui";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
+import { resumeGroups, tickedAtFirst } from "./resumeGroups";
 
-const kConfirmMs = 10_000;
-
-/** Lists who waits, and why; the person names the vehicles they have looked at and lets them move again. */
+/** Lists who stands by whose word; the person ticks the vehicles they have looked at and lets them go. */
 export function ResumePanel({ onClose }: { onClose: () => void }) {
   const { t } = useTranslation();
-  const words = useWords();
-  const fleet = useFleet();
-  const enabled = useCommandsEnabled();
-  const waiting = useVehicles().filter((v) => v.needs_resume || v.paused);
-  const [left, setLeft] = useState<ReadonlySet<string>>(new Set());
-  const [sent, setSent] = useState<readonly string[]>();
-  const [progress, setProgress] = useState<CommandProgress>({ kind: "ready" });
-  const [sentAt, setSentAt] = useState(0);
-  const chosen = waiting.filter((v) => !left.has(v.id) && !silent(v));
-  const still = waiting.filter((v) => sent?.includes(v.id)).length;
+  const held = useHeldWords();
+  const refused = useRefusal();
+  const vehicles = useVehicles();
+  const groups = resumeGroups(vehicles);
+  const all = groups.flatMap((g) => g.vehicles);
+  const [changed, setChanged] = useState<ReadonlySet<string>>(new Set());
+  const [sent, setSent] = useState<readonly string[]>([]);
+  const isTicked = (v: Vehicle) => !silent(v) && changed.has(v.id) !== tickedAtFirst(v);
+  const chosen = all.filter(isTicked);
+  const resume = useCommand(() => {
+    const names = chosen.map((v) => v.id);
+    setSent(names);
+    return call(api.POST("/api/v1/fleet/resume", { body: { vehicles: names } }));
+  });
+  const still = all.some((v) => sent.includes(v.id));
+  const progress = useProgress(resume, !still, t("resume.vehicles"));
 
+  const panel = useRef<HTMLElement>(null);
   useEffect(() => {
-    if (progress.kind !== "accepted" || sent === undefined) return;
-    if (still === 0 && fleet?.paused !== true) {
-      setProgress({
-        kind: "confirmed",
-        by: t("resume.vehicles"),
-        afterS: (performance.now() - sentAt) / 1000,
-      });
-      return;
-    }
-    const timer = setTimeout(
-      () => setProgress({ kind: "timed_out", what: t("resume.failed"), next: t("reasons:no_answer") }),
-      kConfirmMs,
-    );
-    return () => clearTimeout(timer);
-  }, [progress.kind, sent, still, fleet?.paused, sentAt, t]);
-
+    const opener = document.activeElement;
+    panel.current?.focus();
+    return () => {
+      if (opener instanceof HTMLElement) opener.focus();
+    };
+  }, []);
   useEffect(() => {
     if (progress.kind !== "confirmed") return;
     const timer = setTimeout(onClose, 1500);
     return () => clearTimeout(timer);
   }, [progress.kind, onClose]);
 
-  const run = async () => {
-    const names = chosen.map((v) => v.id);
-    setSent(names);
-    setSentAt(performance.now());
-    setProgress({ kind: "requested", atMs: performance.now() });
-    try {
-      await call(api.POST("/api/v1/fleet/resume", { body: { vehicles: names } }));
-      setProgress({ kind: "accepted", waitingFor: t("resume.vehicles") });
-    } catch (error) {
-      const problem =
-        error instanceof ApiProblem ? error : new ApiProblem({ status: 0, code: "unexpected_answer" });
-      setProgress({ kind: "timed_out", what: t("resume.failed"), next: words.problem(problem) });
-    }
-  };
-
-  const why = (v: Vehicle) =>
-    silent(v)
-      ? t("resume.silent")
-      : v.needs_resume_reason !== undefined
-        ? words.reason(v.needs_resume_reason)
-        : t("resume.paused_by");
   const toggle = (id: string) =>
-    setLeft((old) => {
+    setChanged((old) => {
       const next = new Set(old);
       if (!next.delete(id)) next.add(id);
       return next;
     });
-  const names = chosen.length > 3 ? `${chosen.length}` : chosen.map((v) => v.name).join(", ");
+  const names = chosen.length > 3 ? `${chosen.length}` : chosen.map((v) => v.name).join(t("join"));
   return (
     <aside
+      ref={panel}
+      tabIndex={-1}
       className="note resume"
       aria-label={t("resume.title")}
       onKeyDown={(event) => event.key === "Escape" && onClose()}
     >
       <h2>{t("resume.title")}</h2>
       <p className="lab">
-        {waiting.length === 0 && progress.kind === "ready" ? t("resume.none") : t("resume.why")}
+        {all.length === 0 && progress.kind === "ready" ? t("resume.none") : t("resume.why")}
       </p>
-      <ul>
-        {waiting.map((v) => (
-          <li key={v.id}>
-            <label>
-              <input
-                type="checkbox"
-                checked={!left.has(v.id) && !silent(v)}
-                disabled={silent(v)}
-                onChange={() => toggle(v.id)}
-              />
-              <span>
-                <b>{v.name}</b>
-                <span className="why">{why(v)}</span>
-              </span>
-            </label>
-          </li>
+      <div className="groups">
+        {groups.map(({ group, vehicles: rows }) => (
+          <fieldset key={group}>
+            <legend>{t(`resume.group.${group}`)}</legend>
+            {rows.map((v) => (
+              <label key={v.id}>
+                <input
+                  type="checkbox"
+                  checked={isTicked(v)}
+                  disabled={silent(v)}
+                  onChange={() => toggle(v.id)}
+                />
+                <span>
+                  <b>{v.name}</b>
+                  <span className="why">{silent(v) ? t("resume.silent") : held(v)}</span>
+                </span>
+              </label>
+            ))}
+          </fieldset>
         ))}
-      </ul>
+      </div>
+      <CommandFailed command={resume} />
       <div className="foot">
         <Button onPress={onClose}>{t("resume.close")}</Button>
         <CommandButton
           label={chosen.length === 0 ? t("resume.action") : t("resume.run", { names })}
           icon="play"
           primary={false}
+          direction="go"
           progress={progress}
           disabledReason={
-            !enabled
-              ? t("pause.offline")
-              : progress.kind === "ready" && chosen.length === 0
-                ? t("resume.choose")
-                : undefined
+            refused ?? (progress.kind === "ready" && chosen.length === 0 ? t("resume.choose") : undefined)
           }
-          onRun={() => void run()}
+          onRun={resume.run}
         />
       </div>
     </aside>

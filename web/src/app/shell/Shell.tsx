@@ -1,6 +1,6 @@
 import { useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
-import { useFleet, useNow, usePlant } from "@/shared/live";
+import { useLinkLost, useNow, usePlant } from "@/shared/live";
 import { setLanguage, setTheme } from "@/shared/i18n/setup";
 import { useTheme } from "@/shared/i18n/useTheme";
 import { Link, useLocation } from "@/shared/router";
@@ -67,11 +67,10 @@ export function Shell({ children }: { children: ReactNode }) {
   const { t } = useTranslation();
   const { path } = useLocation();
   const plant = usePlant().data;
-  const fleet = useFleet();
   const [resumeOpen, setResumeOpen] = useState(false);
   const current = path.split("/")[1] || "map";
   return (
-    <div className="app">
+    <div className="app" data-link={useLinkLost() ? "lost" : undefined}>
       <a className="skip btn" href="#page">
         {t("skip")}
       </a>
@@ -102,7 +101,7 @@ export function Shell({ children }: { children: ReactNode }) {
         <ThemeToggle />
         <LanguageChoice />
         <UserMenu />
-        <PauseFleet paused={fleet?.paused ?? false} onResume={() => setResumeOpen((open) => !open)} />
+        <PauseFleet />
       </header>
       <nav className="rail" aria-label={t("nav.label")}>
         {kScreens.map(({ name, icon }) => (

@@ -1,10 +1,11 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { JobOrder } from "@/shared/api/types";
-import { timeOfDay } from "@/shared/i18n/format";
-import { useJobOrders, useVehicle } from "@/shared/live";
+import { useJobOrders, useLinkLost, useServerNow, useVehicle } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Icon, StatusSymbol, type SymbolName } from "@/shared/ui";
+import { expectedIn } from "@/shared/words/expected";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { openOrders, orderProgress } from "./listRows";
 
@@ -14,6 +15,8 @@ function OrderCard({ order }: { order: JobOrder }) {
   const { t } = useTranslation("map");
   const words = useWords();
   const vehicle = useVehicle(order.vehicle || undefined);
+  const expected = useExpected();
+  const when = expectedIn(order.expected_at, useServerNow(500));
   const last = order.steps[order.steps.length - 1];
   const now = order.steps[order.current_step];
   const runs = order.state === "Running" && order.reason === undefined;
@@ -24,8 +27,10 @@ function OrderCard({ order }: { order: JobOrder }) {
       ? words.reason(order.reason)
       : now?.state === "measuring"
         ? t("orders.measuring")
-        : order.expected_at !== undefined
-          ? t("orders.ready_at", { mode, time: timeOfDay(order.expected_at) })
+        : when.kind !== "none"
+          ? when.kind === "late"
+            ? t("orders.late", { mode, late: expected.clock(order.expected_at) })
+            : t("orders.ready_at", { mode, time: expected.clock(order.expected_at) })
           : order.vehicle === ""
             ? t("orders.waits")
             : t("orders.driving", { mode });
@@ -57,8 +62,9 @@ export function OrderStrip() {
   const { t } = useTranslation("map");
   const orders = useJobOrders();
   const open = useMemo(() => openOrders(orders), [orders]);
+  const lost = useLinkLost();
   return (
-    <section className="strip gt-sm" aria-label={t("orders.title")}>
+    <section className={`strip gt-sm ${lost ? "old" : ""}`} aria-label={t("orders.title")}>
       <header>
         <b>{t("orders.title")}</b>
         <span className="cap">

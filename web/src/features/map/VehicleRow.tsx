@@ -1,8 +1,10 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { age, duration, fixed, timeOfDay } from "@/shared/i18n/format";
-import { alarmOf, silent, symbolOf, useJobOrder, useServerNow } from "@/shared/live";
+import { age, fixed, timeOfDay } from "@/shared/i18n/format";
+import { alarmOf, haltOf, silent, stale, symbolOf, useJobOrder, useLink, useServerNow } from "@/shared/live";
 import { StatusSymbol } from "@/shared/ui";
+import { useAlarmWords } from "@/shared/words/useAlarmWords";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { whatOf } from "./listRows";
 
@@ -27,33 +29,41 @@ export function VehicleRow({ vehicle: v, numberOf, selected, two, onSelect }: Ve
       ? t("what.with", { load: v.load_name, what: plain })
       : plain.charAt(0).toUpperCase() + plain.slice(1);
   const silentS = v.last_heard_at === undefined ? undefined : (now - Date.parse(v.last_heard_at)) / 1000;
-  const leftS = v.leg?.expected_at === undefined ? undefined : (Date.parse(v.leg.expected_at) - now) / 1000;
+  const { left } = useExpected();
+  const link = useLink();
+  const lost = link.state.kind === "lost";
   const alarm = alarmOf(v);
-  const reason = v.needs_resume ? (v.needs_resume_reason ?? v.reason) : v.reason;
+  const alarmWords = useAlarmWords();
+  const seen = silent(v) && v.pose !== undefined;
   const why =
-    silent(v) && v.pose !== undefined
-      ? t("seen", { x: fixed(v.pose.x_m, 1), y: fixed(v.pose.y_m, 1), time: timeOfDay(v.last_heard_at) })
-      : reason === undefined || v.field_violation === true
-        ? alarm === undefined
-          ? ""
-          : `${v.name} ${t(`common:alarm.${alarm.kind}`, { type: alarm.type ?? "", age: age(silentS) })}`
-        : words.reason(reason);
-  const saysWhy = ["waiting", "paused", "moving"].includes(v.activity);
-  const old = silent(v) || v.link === "late";
+    alarm !== undefined
+      ? seen
+        ? t("seen", { x: fixed(v.pose!.x_m, 1), y: fixed(v.pose!.y_m, 1), time: timeOfDay(v.last_heard_at) })
+        : alarmWords.todo(alarm)
+      : v.reason === undefined
+        ? ""
+        : words.reason(v.reason);
+  const head = alarm === undefined ? text : alarmWords.text(alarm, v);
+  const saysWhy = ["waiting", "paused", "moving"].includes(v.activity) && haltOf(v) !== "stopping";
+  const old = lost || stale(v);
   return (
     <button
       type="button"
-      className={`veh ${selected ? "sel" : ""} ${two ? "two" : ""}`}
+      className={`veh ${selected ? "sel" : ""} ${two ? "two" : ""} ${old ? "old" : ""}`}
       aria-pressed={selected}
       data-vehicle={v.id}
       data-alarm={alarm?.priority ?? "none"}
       onClick={onSelect}
     >
-      <StatusSymbol name={symbolOf(v)} />
+      <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
       <span className="id">{v.name}</span>
-      <span className="what">{!two && saysWhy && why !== "" ? why : text}</span>
+      <span className="what">{!two && saysWhy && why !== "" ? why : head}</span>
       <span className="when">
-        {old ? age(silentS) : leftS !== undefined && v.activity === "moving" ? duration(leftS) : ""}
+        {old
+          ? age(lost ? link.ageS : silentS)
+          : v.activity === "moving" && haltOf(v) === "none"
+            ? left(v.leg?.expected_at)
+            : ""}
       </span>
       {two && <span className="why">{why}</span>}
     </button>

@@ -73,8 +73,8 @@ it.each<[Partial<Vehicle>, string]>([
   [{ at_station: "st04" }, "at"],
   [{}, "between"],
   [{ link: "never" }, "never"],
-  [{ link: "lost" }, "no_data"],
-  [{ needs_resume: true }, "needs_ok"],
+  [{ paused: true, pause: { with_fleet: true, stands: false }, activity: "moving" }, "stopping"],
+  [{ paused: true, pause: { with_fleet: true, stands: true }, activity: "paused" }, "paused"],
   [{ activity: "charging", at_station: "st38" }, "charging"],
   [{ activity: "charging" }, "charging_between"],
 ])("says what %j does", (over, key) => expect(whatOf(vehicle("A", over), numberOf).key).toBe(key));

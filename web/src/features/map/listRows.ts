@@ -1,5 +1,6 @@
 import type { JobOrder, Station, Vehicle } from "@/shared/api/types";
 import { alarmOf, groupOf, onFeet, type Group, kGroups } from "@/shared/live/attention";
+import { haltOf } from "@/shared/live/pause";
 
 export interface GroupedRows {
   group: Group;
@@ -44,11 +45,7 @@ export function whatOf(
   const at = v.at_station ? numberOf(v.at_station) : undefined;
   const to = v.leg && numberOf(v.leg.station);
   if (v.link === "never") return { key: "never", values: {} };
-  if (v.link === "lost" || v.link === "gone") return { key: "no_data", values: {} };
-  if (v.link === "late") return { key: "late", values: {} };
-  if (v.errors.some((e) => e.fatal)) return { key: "fault", values: {} };
-  if (v.needs_resume) return { key: "needs_ok", values: {} };
-  if (v.activity === "blocked") return { key: "blocked", values: {} };
+  if (haltOf(v) === "stopping") return { key: "stopping", values: {} };
   if (v.activity === "paused") return { key: "paused", values: {} };
   if (v.activity === "measuring") return { key: "measuring", values: { station: to ?? at ?? "" } };
   if (to !== undefined) {

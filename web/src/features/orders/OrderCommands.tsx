@@ -1,78 +1,75 @@
-import { useCallback, useEffect } from "react";
+import { useCallback } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { JobOrder } from "@/shared/api/types";
-import { useCommandsEnabled, useMayCommand } from "@/shared/live";
-import { CommandButton, type CommandProgress } from "@/shared/ui";
-import { useCommand } from "@/shared/ui/useCommand";
+import { CancelOrder, CommandFailed, useOverdue, useRefusal } from "@/shared/commands";
+import { CommandButton } from "@/shared/ui";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
-import { actionsOf } from "./orderLook";
+import { actionsOf, pauseProgress } from "./orderLook";
 
-type Method = "pause" | "resume" | "cancel";
-
-function send(method: Method, id: string): Promise<unknown> {
-  const params = { path: { id } };
-  switch (method) {
-    case "pause":
-      return call(api.POST("/api/v1/job-orders/{id}/pause", { params }));
-    case "resume":
-      return call(api.POST("/api/v1/job-orders/{id}/resume", { params }));
-    case "cancel":
-      return call(api.POST("/api/v1/job-orders/{id}/cancel", { params }));
-  }
-}
-
-/** Pause, resume, cancel; each two-step, each shown as done only when the server's order says so. */
+/** Pause, cancel, resume; each shown as done only when the server's order says so. */
 export function OrderCommands({ order }: { order: JobOrder }) {
   const can = actionsOf(order);
-  const anything = can.pause || can.resume || can.cancel || order.pause_requested || order.cancel_requested;
-  if (!anything) return null;
+  if (!can.pause && !can.resume && !can.cancel) return null;
   return (
     <div className="ocmds">
-      {(can.pause || (order.pause_requested && !can.resume)) && (
-        <OrderCommand order={order} method="pause" requested={order.pause_requested} />
-      )}
-      {can.resume && <OrderCommand order={order} method="resume" requested={false} />}
-      {(can.cancel || order.cancel_requested) && (
-        <OrderCommand order={order} method="cancel" requested={order.cancel_requested} />
-      )}
+      {can.pause && <PauseOrder order={order} />}
+      <CancelOrder order={order} />
+      {can.resume && <ResumeOrder order={order} />}
     </div>
   );
 }
 
-function OrderCommand({ order, method, requested }: { order: JobOrder; method: Method; requested: boolean }) {
+function PauseOrder({ order }: { order: JobOrder }) {
   const { t } = useTranslation("orders");
   const words = useWords();
-  const linkUp = useCommandsEnabled();
-  const mayCommand = useMayCommand();
-  const { asked, run, reset } = useCommand(useCallback(() => send(method, order.id), [method, order.id]));
-  const { revision } = order;
-  // The order itself has changed: what was asked for is in it now.
-  useEffect(() => reset(), [revision, reset]);
+  const refused = useRefusal();
+  const { id } = order;
+  const pause = useCommand(
+    useCallback(() => call(api.POST("/api/v1/job-orders/{id}/pause", { params: { path: { id } } })), [id]),
+  );
+  const held = order.state === "Interrupted" || order.pause_requested;
   const vehicle = order.vehicle ? words.vehicle(order.vehicle) : order.name;
-  const progress: CommandProgress =
-    asked.kind === "requested"
-      ? { kind: "requested", atMs: asked.atMs }
-      : requested || asked.kind === "stored"
-        ? { kind: "accepted", waitingFor: vehicle }
-        : { kind: "ready" };
+  const asked = useProgress(pause, held, vehicle);
+  const progress = useOverdue(pauseProgress(order, asked, t), vehicle);
   return (
     <div>
       <CommandButton
-        label={t(`command.${method}`)}
+        label={t("command.pause")}
+        icon="pause"
         primary={false}
+        twoStep={false}
+        direction="stop"
         progress={progress}
-        disabledReason={!linkUp ? t("command.offline") : !mayCommand ? t("command.not_allowed") : undefined}
-        onRun={run}
+        disabledReason={refused}
+        onRun={pause.run}
       />
-      {asked.kind === "failed" && (
-        <p className="lab" role="alert">
-          {t("command.failed", {
-            detail: words.problem(asked.problem),
-            request: asked.problem.requestId.slice(0, 8),
-          })}
-        </p>
-      )}
+      <CommandFailed command={pause} />
+    </div>
+  );
+}
+
+function ResumeOrder({ order }: { order: JobOrder }) {
+  const { t } = useTranslation("orders");
+  const refused = useRefusal();
+  const { id } = order;
+  const resume = useCommand(
+    useCallback(() => call(api.POST("/api/v1/job-orders/{id}/resume", { params: { path: { id } } })), [id]),
+  );
+  const progress = useProgress(resume, order.state === "Running", order.name);
+  return (
+    <div>
+      <CommandButton
+        label={t("command.resume")}
+        icon="play"
+        primary={false}
+        direction="go"
+        progress={progress}
+        disabledReason={refused}
+        onRun={resume.run}
+      />
+      <CommandFailed command={resume} />
     </div>
   );
 }

@@ -4,10 +4,11 @@ import { useServerNow, useStopRecords } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Card, StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { OrderCommands } from "./OrderCommands";
 import { OrderFields, StepActions } from "./OrderFields";
-import { doneSteps, stateSymbol } from "./orderLook";
+import { doneSteps, isOpen, stateSymbol } from "./orderLook";
 
 /** One order: state and why, its stations with their stops, its times. */
 export function OrderDetail({ order }: { order: JobOrder }) {
@@ -17,6 +18,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
   const stops = useStopRecords();
   const vehicle = order.vehicle || order.wanted_vehicle;
   const done = doneSteps(order);
+  const expected = useExpected();
   return (
     <Card
       className="odetail"
@@ -112,7 +114,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
         <dt>{t("detail.started")}</dt>
         <dd>{dateTime(order.started_at, now)}</dd>
         <dt>{t("detail.expected")}</dt>
-        <dd>{dateTime(order.expected_at, now)}</dd>
+        <dd>{(isOpen(order) && expected.clock(order.expected_at)) || "\u2013"}</dd>
         <dt>{t("detail.ended")}</dt>
         <dd>{dateTime(order.ended_at, now)}</dd>
         <dt>{t("detail.priority")}</dt>

@@ -3,7 +3,8 @@ import type { JobOrder } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
-import { dateTime, timeOfDay } from "@/shared/words/format";
+import { dateTime } from "@/shared/words/format";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { isOpen, stateSymbol } from "./orderLook";
 
@@ -41,6 +42,7 @@ export function OrderTable({
 function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now: number }) {
   const { t } = useTranslation(["orders", "words"]);
   const words = useWords();
+  const expected = useExpected();
   const to = `/orders/${order.id}`;
   const vehicle = order.vehicle || order.wanted_vehicle;
   return (
@@ -69,7 +71,7 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
       </td>
       <td>{vehicle ? words.vehicle(vehicle) : t("any_vehicle")}</td>
       <td className="wrap">{order.reason ? words.reason(order.reason) : ""}</td>
-      <td className="n">{order.expected_at && isOpen(order) ? timeOfDay(order.expected_at) : "\u2013"}</td>
+      <td className="n">{(isOpen(order) && expected.clock(order.expected_at)) || "\u2013"}</td>
       <td className="n">{dateTime(order.created_at, now)}</td>
     </tr>
   );

@@ -1,5 +1,8 @@
 import type { JobOrder, JobState } from "@/shared/api/types";
-import type { SymbolName } from "@/shared/ui";
+import { isOpen } from "@/shared/commands/orderState";
+import type { CommandProgress, SymbolName } from "@/shared/ui";
+
+export { isOpen };
 
 /** Every state has its own shape, so that the table reads in greyscale. */
 export const stateSymbol: Record<JobState, SymbolName> = {
@@ -10,10 +13,6 @@ export const stateSymbol: Record<JobState, SymbolName> = {
   Ended: "c-ok",
   Aborted: "c-no",
 };
-
-export function isOpen(order: Pick<JobOrder, "state">): boolean {
-  return order.state !== "Ended" && order.state !== "Aborted";
-}
 
 /** Open ones first (running, interrupted, waiting), then the newest. */
 export function sortOrders(orders: readonly JobOrder[]): JobOrder[] {
@@ -42,13 +41,29 @@ export function doneSteps(order: JobOrder): number {
   return order.steps.filter((s) => s.state === "done").length;
 }
 
-/** What a person may do with an order now. */
+/** A person has asked for the pause of this order, and it holds. */
+const isPaused = (order: JobOrder) =>
+  order.state === "Interrupted" && order.reason?.code === "paused_by_person";
+
+/** What a person may do with an order now. Pause keeps its place while the order is paused. */
 export function actionsOf(order: JobOrder): { pause: boolean; resume: boolean; cancel: boolean } {
   const open = isOpen(order);
   const held = order.state === "Interrupted" || order.state === "NotAllowedToStart";
   return {
-    pause: open && !held && !order.pause_requested && !order.cancel_requested,
+    pause: open && (isPaused(order) || (!held && !order.cancel_requested)),
     resume: open && held && !order.cancel_requested,
-    cancel: open && !order.cancel_requested,
+    cancel: open,
   };
+}
+
+/** What Pause of an order shows: never what would let it go on. */
+export function pauseProgress(
+  order: JobOrder,
+  asked: CommandProgress,
+  t: (key: string) => string,
+): CommandProgress {
+  if (isPaused(order)) return { kind: "holds", title: t("command.paused"), small: t("command.pause_holds") };
+  if (order.pause_requested)
+    return { kind: "under_way", title: t("command.stopping"), small: t("command.pausing") };
+  return asked;
 }

@@ -49,8 +49,9 @@ describe("orders", () => {
     ["AllowedToStart", {}, "pause cancel"],
     ["Interrupted", {}, "resume cancel"],
     ["NotAllowedToStart", {}, "resume cancel"],
-    ["Running", { pause_requested: true }, "cancel"],
-    ["Running", { cancel_requested: true }, ""],
+    ["Running", { pause_requested: true }, "pause cancel"],
+    ["Running", { cancel_requested: true }, "cancel"],
+    ["Interrupted", { reason: { code: "paused_by_person", params: {} } }, "pause resume cancel"],
     ["Ended", {}, ""],
     ["Aborted", {}, ""],
   ])("%s %o allows: %s", (state, over, what) => {

@@ -8,11 +8,21 @@ import { countChecks, sortChecks, type Preview } from "./preview";
 /** Checks that a person may get hurt by. */
 const critical = new Set<Check["code"]>(["safety", "clearance"]);
 
-export function ChecksStep({ preview, checks }: { preview: Preview; checks: readonly Check[] | undefined }) {
+export function ChecksStep({
+  preview,
+  checks,
+  instead,
+}: {
+  preview: Preview;
+  checks: readonly Check[] | undefined;
+  /** Why there are no checks, when it is not that nothing has been chosen yet. */
+  instead: string | undefined;
+}) {
   const { t } = useTranslation("send");
   const text = useCheckText();
   if (!checks) {
-    return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "checks.wait")}</p>;
+    const wait = preview.kind === "loading" ? "checks.asking" : "checks.wait";
+    return <p className="lab pad-top">{instead ?? t(wait)}</p>;
   }
   return (
     <div
@@ -40,7 +50,11 @@ export function ChecksStep({ preview, checks }: { preview: Preview; checks: read
 export function useCheckText(): (check: Check) => string {
   const template = useTemplates("send");
   const words = useWords();
-  return (check) => checkWords(check, words.names, template, words.reason);
+  return (check) => {
+    const { fault } = check.params;
+    const params = typeof fault === "string" ? { ...check.params, fault: words.fault(fault) } : check.params;
+    return checkWords({ ...check, params }, words.names, template, words.reason);
+  };
 }
 
 /** "9 of 9 pass, 1 note" */

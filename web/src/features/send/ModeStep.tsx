@@ -22,16 +22,19 @@ export const modeIcon: Record<MotionMode, ModeIconName> = {
 export interface ModeStepProps {
   preview: Preview;
   step: StepPreview | undefined;
+  /** Why there are no modes, when it is not that nothing has been chosen yet. */
+  instead: string | undefined;
   mode: MotionMode;
   onMode: (mode: MotionMode) => void;
   /** The mode under the pointer or the focus: the map shows its area. */
   onLook: (mode: MotionMode | undefined) => void;
 }
 
-export function ModeStep({ preview, step, mode, onMode, onLook }: ModeStepProps) {
+export function ModeStep({ preview, step, instead, mode, onMode, onLook }: ModeStepProps) {
   const { t } = useTranslation("send");
   if (!step) {
-    return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "mode.wait")}</p>;
+    const wait = preview.kind === "loading" ? "checks.asking" : "mode.wait";
+    return <p className="lab pad-top">{instead ?? t(wait)}</p>;
   }
   const options = sortOptions(step.options);
   const chosen = chosenOption(step, mode);

@@ -1,8 +1,10 @@
 import { useTranslation } from "react-i18next";
 import type { JobOrder, StopRecord, Vehicle } from "@/shared/api/types";
+import { HeldBar } from "@/shared/commands";
 import { Link } from "@/shared/router";
-import { DeviationBar, StatusSymbol } from "@/shared/ui";
-import { degrees, millimetres, timeOfDay } from "@/shared/words/format";
+import { Button, DeviationBar, StatusSymbol } from "@/shared/ui";
+import { degrees, millimetres } from "@/shared/words/format";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { reached, type Milestone, type MoveProgress } from "./progress";
 
@@ -13,23 +15,25 @@ export interface MovePanelProps {
   vehicle: Vehicle | undefined;
   progress: MoveProgress;
   orderId: string;
+  onNew: () => void;
 }
 
 /** The move under way, from the server's order and the vehicle's own reports only. */
-export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps) {
+export function MovePanel({ order, vehicle, progress, orderId, onNew }: MovePanelProps) {
   const { t } = useTranslation("send");
   const words = useWords();
   const step = order?.steps[Math.min(order.current_step, order.steps.length - 1)];
   const name = order?.name ?? "";
   const vehicleName = order?.vehicle ? words.vehicle(order.vehicle) : (vehicle?.name ?? "");
   const done = reached(progress);
+  const expected = useExpected().clock(order?.expected_at);
   return (
     <section className="card move" aria-label={t("move.steps")}>
       <header>
         <h2>{t("move.title", { order: name, vehicle: vehicleName, number: step?.number ?? "" })}</h2>
         <span className="grow" />
-        {order?.expected_at && progress.kind !== "arrived" && (
-          <span className="cap nw">{t("move.expected", { time: timeOfDay(order.expected_at) })}</span>
+        {expected !== undefined && progress.kind !== "arrived" && progress.kind !== "aborted" && (
+          <span className="cap nw">{t("move.expected", { time: expected })}</span>
         )}
       </header>
       <div className="in">
@@ -52,11 +56,15 @@ export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps)
           />
         )}
         {progress.kind === "arrived" && <Arrival stop={progress.stop} />}
+        {vehicle && <HeldBar vehicle={vehicle} />}
         <p className="lab next">{next()}</p>
         <div className="row links">
           <Link className="btn" to={`/orders/${orderId}`}>
             {t("move.to_order")}
           </Link>
+          {progress.kind !== "arrived" && progress.kind !== "aborted" && (
+            <Button onPress={onNew}>{t("move.back")}</Button>
+          )}
           {order?.vehicle && (
             <Link className="btn" to={`/vehicles/${encodeURIComponent(order.vehicle)}`}>
               {t("move.to_vehicle")}
@@ -79,6 +87,8 @@ export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps)
         return order?.reason ? words.reason(order.reason) : t("move.stored");
       case "assigned":
         return reason ? words.reason(reason) : t("move.assigned", { vehicle: vehicleName });
+      case "paused":
+        return order?.reason ? words.reason(order.reason) : t("move.paused");
       case "held":
         return reason ? t("move.held", { why: words.reason(reason) }) : t("move.held_plain");
       case "aborted":
@@ -92,7 +102,8 @@ export function MovePanel({ order, vehicle, progress, orderId }: MovePanelProps)
     }
   }
   function next(): string {
-    if (progress.kind === "held" || progress.kind === "paused") return t("move.next_held");
+    if (progress.kind === "held")
+      return t(vehicle?.paused || vehicle?.needs_resume ? "move.next_held" : "move.next_order");
     if (progress.kind === "aborted") return t("move.next_aborted");
     if (progress.kind === "arrived" && progress.stop && !progress.stop.inside) return t("move.next_outside");
     return "";

@@ -12,15 +12,16 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { useLocation } from "@/shared/router";
-import { Button, PanelFailed } from "@/shared/ui";
+import { PanelFailed } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { duration, number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { ChecksStep, useChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
+import { MoveBar } from "./MoveBar";
 import { MovePanel } from "./MovePanel";
 import { capitalise, moveWords } from "./moveWords";
-import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
+import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview";
 import { isLoaded } from "./PreviewGlyphs";
 import { PreviewMap } from "./PreviewMap";
 import { Measures } from "./PreviewPanel";
@@ -32,6 +33,7 @@ import { Step } from "./Step";
 import { usePreview, type PreviewQuestion } from "./usePreview";
 import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
+import { useWhyNot } from "./whyNot";
 import "./send.css";
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
@@ -63,7 +65,12 @@ export function SendPage() {
   const vehicle = useVehicle(vehicleId ?? (vehicles.length === 1 ? vehicles[0]?.id : undefined));
   const entry = lookUpStation(digits, plant, states, vehicle);
   const station = stationOf(entry);
-  const asks = vehicle !== undefined && station !== undefined && entry.kind !== "wrong_type" && linkUp;
+  const asks =
+    vehicle !== undefined &&
+    station !== undefined &&
+    entry.kind !== "wrong_type" &&
+    !isOnItsWay(vehicle) &&
+    linkUp;
   const question: PreviewQuestion | undefined = asks
     ? {
         key: previewKey({
@@ -86,7 +93,8 @@ export function SendPage() {
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
-  const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview });
+  const canStart = readiness({ vehicle, entry, mode, linkUp, mayCommand, preview });
+  const { why, instead } = useWhyNot(canStart);
 
   const body = useMemo<NewJobOrder | undefined>(
     () =>
@@ -197,6 +205,7 @@ export function SendPage() {
           <ModeStep
             preview={preview}
             step={step}
+            instead={instead}
             mode={mode}
             onLook={setLooked}
             onMode={(next) => {
@@ -210,7 +219,7 @@ export function SendPage() {
           {preview.kind === "failed" ? (
             <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={retry} />
           ) : (
-            <ChecksStep preview={preview} checks={data?.checks} />
+            <ChecksStep preview={preview} checks={data?.checks} instead={instead} />
           )}
         </Step>
       </div>
@@ -221,7 +230,11 @@ export function SendPage() {
     <>
       <h1 className="sr-only">{t("title")}</h1>
       <div className={`sgrid ${orderId ? "moving" : ""}`} data-step={current}>
-        {orderId ? <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} /> : steps}
+        {orderId ? (
+          <MovePanel order={order} vehicle={mover} progress={progress} orderId={orderId} onNew={start.done} />
+        ) : (
+          steps
+        )}
         <section className="card c3" aria-label={t("preview.title")}>
           <header className="stp">
             {!orderId && <i aria-hidden="true">5</i>}
@@ -255,19 +268,9 @@ export function SendPage() {
         </section>
       </div>
       {orderId ? (
-        <div className="card confirm">
-          <div className="grow say">
-            <strong>{order?.name ?? ""}</strong>
-            <span className="lab">
-              {order ? t("move.state", { state: t(`words:job.${order.state}`), by: order.created_by }) : ""}
-            </span>
-          </div>
-          <Button motion className="go" onPress={start.done}>
-            {t(progress.kind === "arrived" || progress.kind === "aborted" ? "start.next" : "move.back")}
-          </Button>
-        </div>
+        <MoveBar order={order} vehicle={mover} progress={progress} onNext={start.done} />
       ) : (
-        <StartBar start={start} readiness={canStart} title={title} what={what} />
+        <StartBar start={start} readiness={canStart} title={title} what={what} why={why} />
       )}
     </>
   );

@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "react";
 import { useTranslation } from "react-i18next";
+import { Link } from "@/shared/router";
 import { Icon, StatusSymbol } from "@/shared/ui";
 import { useWords } from "@/shared/words/useWords";
-import { useCheckText } from "./ChecksStep";
 import type { Readiness } from "./preview";
 import { armedLeft_s, kArmMs, kHoldMs } from "./startCommand";
 import type { Start } from "./useStart";
@@ -13,13 +13,14 @@ export interface StartBarProps {
   title: string;
   /** What the platform will do, in one sentence. */
   what: string;
+  /** Why it cannot be started now. */
+  why: string | undefined;
 }
 
 /** Command bar: what will happen, Cancel, arm with its ring, and Start at the right. */
-export function StartBar({ start, readiness, title, what }: StartBarProps) {
+export function StartBar({ start, readiness, title, what, why }: StartBarProps) {
   const { t } = useTranslation("send");
   const words = useWords();
-  const why = useWhyNot();
   const { command } = start;
   const ready = readiness.kind === "ready";
   if (command.kind === "unanswered") {
@@ -46,13 +47,18 @@ export function StartBar({ start, readiness, title, what }: StartBarProps) {
   return (
     <div className="card confirm">
       <Say title={title} text={what} />
+      {readiness.kind === "on_its_way" && readiness.order !== undefined && (
+        <Link className="btn motion" to={`/orders/${readiness.order}`}>
+          {t("move.to_order")}
+        </Link>
+      )}
       {armed && (
         <button type="button" className="btn motion" onClick={start.cancel}>
           {t("start.cancel")}
         </button>
       )}
       <ArmButton start={start} ready={ready} />
-      <GoButton start={start} readiness={readiness} why={why(readiness)} />
+      <GoButton start={start} readiness={readiness} why={why} />
     </div>
   );
 }
@@ -190,25 +196,4 @@ function GoButton({
       )}
     </button>
   );
-}
-
-/** The first thing that holds a start back, in words. */
-function useWhyNot(): (readiness: Readiness) => string | undefined {
-  const { t } = useTranslation("send");
-  const words = useWords();
-  const text = useCheckText();
-  return (r) => {
-    switch (r.kind) {
-      case "ready":
-        return undefined;
-      case "infeasible":
-        return t("start.infeasible", { mode: words.mode(r.option.mode) });
-      case "check":
-        return t("start.check", { name: t(`checks.name.${r.check.code}`), text: text(r.check) });
-      case "problem":
-        return words.reason(r.reason);
-      default:
-        return t(`start.${r.kind}`);
-    }
-  };
 }

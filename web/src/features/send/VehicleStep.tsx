@@ -1,19 +1,9 @@
 import { useTranslation } from "react-i18next";
 import type { Plant, Vehicle } from "@/shared/api/types";
-import { StatusSymbol, type SymbolName } from "@/shared/ui";
+import { symbolOf } from "@/shared/live";
+import { StatusSymbol } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-
-const activitySymbol: Record<Vehicle["activity"], SymbolName> = {
-  standing: "s-stand",
-  moving: "s-moving",
-  measuring: "s-measure",
-  waiting: "s-wait",
-  paused: "s-wait",
-  blocked: "a-2",
-  charging: "s-charge",
-  unknown: "s-stale",
-};
 
 /** Platforms first, then by name; a silent one stays in the list, marked. */
 export function sortForSending(vehicles: readonly Vehicle[], plant: Plant | undefined): Vehicle[] {
@@ -94,7 +84,6 @@ function VehicleRow({
 }) {
   const { t } = useTranslation(["send", "words"]);
   const place = usePlace();
-  const silent = vehicle.link !== "live";
   return (
     <button
       type="button"
@@ -103,11 +92,11 @@ function VehicleRow({
       className={`veh pick ${selected ? "sel" : ""}`}
       onClick={() => onSelect(vehicle.id)}
     >
-      <StatusSymbol name={silent ? "s-stale" : activitySymbol[vehicle.activity]} />
+      <StatusSymbol name={symbolOf(vehicle)} />
       <span className="id">{vehicle.name}</span>
       <span className="what">{place(vehicle)}</span>
       <span className="when">
-        {silent ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
+        {vehicle.link !== "live" ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
       </span>
     </button>
   );

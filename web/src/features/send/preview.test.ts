@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Check, DryRun, ModeOption, Vehicle } from "@/shared/api/types";
+import type { Check, Station, DryRun, ModeOption, Vehicle } from "@/shared/api/types";
 import {
   chosenOption,
   countChecks,
@@ -10,6 +10,7 @@ import {
   sortOptions,
   type Preview,
 } from "./preview";
+import type { StationEntry } from "./stationEntry";
 import { shownPreview } from "./usePreview";
 
 const check = (code: Check["code"], result: Check["result"]): Check => ({ code, result, params: {} });
@@ -106,7 +107,7 @@ describe("modes", () => {
 describe("readiness", () => {
   const ok = {
     vehicle,
-    station: 7,
+    entry: { kind: "free", station: { number: 7 } as Station } as StationEntry,
     mode: "auto" as const,
     linkUp: true,
     mayCommand: true,
@@ -116,6 +117,23 @@ describe("readiness", () => {
     ["ready", {}, "ready"],
     ["without a link", { linkUp: false }, "offline"],
     ["as a viewer", { mayCommand: false }, "not_allowed"],
+    ["without a station", { entry: { kind: "empty" } }, "no_station"],
+    ["to a station that is not there", { entry: { kind: "unknown", digits: "99" } }, "unknown_station"],
+    [
+      "to a station that is not for it, though nothing was asked",
+      { entry: { kind: "wrong_type", station: { number: 15 } as Station }, preview: { kind: "none" } },
+      "wrong_type",
+    ],
+    [
+      "while another has just sent it",
+      { vehicle: { id: "TP-01", leg: {}, activity: "moving" } as Vehicle, preview: { kind: "none" } },
+      "on_its_way",
+    ],
+    [
+      "while it waits for its own start",
+      { vehicle: { id: "TP-01", leg: {}, activity: "waiting" } as Vehicle },
+      "ready",
+    ],
     ["while it is asked again", { preview: { kind: "loading", last: data() } }, "waiting"],
     ["with a failed check", { preview: { kind: "ready", data: data({ checks: all() }) } }, "check"],
     [

@@ -1,5 +1,6 @@
 import type { Check, DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
 import type { Refusal } from "./startCommand";
+import type { StationEntry } from "./stationEntry";
 
 export type StepPreview = DryRun["steps"][number];
 
@@ -98,6 +99,10 @@ export function chosenOption(step: StepPreview | undefined, mode: MotionMode): M
   return step.options.find((o) => o.mode === mode);
 }
 
+/** While it drives, nothing that is worked out from where it stands is true for long. */
+export const isOnItsWay = (v: Vehicle) =>
+  v.leg !== undefined && (v.activity === "moving" || v.activity === "measuring");
+
 /** Whether Start may be armed, and if not, the first reason in the order a person would fix it. */
 export type Readiness =
   | { kind: "ready" }
@@ -105,6 +110,9 @@ export type Readiness =
   | { kind: "no_station" }
   | { kind: "offline" }
   | { kind: "not_allowed" }
+  | { kind: "unknown_station"; number: string }
+  | { kind: "wrong_type"; number: string }
+  | { kind: "on_its_way"; vehicle: string; order: string | undefined }
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
   | { kind: "check"; check: Check }
@@ -113,7 +121,7 @@ export type Readiness =
 
 export function readiness(input: {
   vehicle: Vehicle | undefined;
-  station: number | undefined;
+  entry: StationEntry;
   mode: MotionMode;
   linkUp: boolean;
   mayCommand: boolean;
@@ -122,7 +130,13 @@ export function readiness(input: {
   if (!input.linkUp) return { kind: "offline" };
   if (!input.mayCommand) return { kind: "not_allowed" };
   if (!input.vehicle) return { kind: "no_vehicle" };
-  if (input.station === undefined) return { kind: "no_station" };
+  const { entry } = input;
+  if (entry.kind === "empty") return { kind: "no_station" };
+  if (entry.kind === "unknown") return { kind: "unknown_station", number: entry.digits };
+  if (entry.kind === "wrong_type") return { kind: "wrong_type", number: String(entry.station.number) };
+  if (isOnItsWay(input.vehicle)) {
+    return { kind: "on_its_way", vehicle: input.vehicle.id, order: input.vehicle.order };
+  }
   const { preview } = input;
   if (preview.kind === "failed") return { kind: "failed" };
   if (preview.kind !== "ready") return { kind: "waiting" };

@@ -22,6 +22,7 @@ const leg = {
 };
 const vehicle = (over: Partial<Vehicle>): Vehicle =>
   ({ id: "TP-01", order: "o", activity: "moving", leg, ...over }) as Vehicle;
+const paused = (stands: boolean) => ({ paused: true, pause: { with_fleet: false, stands } });
 const stop = (id: string, at: string): StopRecord => ({ id, order: "o", at }) as StopRecord;
 
 describe("moveProgress", () => {
@@ -38,6 +39,8 @@ describe("moveProgress", () => {
       "measuring",
     ],
     ["paused", order({}), vehicle({ activity: "paused" }), "paused"],
+    ["told to stand, braking", order({ state: "Interrupted" }), vehicle(paused(false)), "stopping"],
+    ["told to stand, at rest", order({ state: "Interrupted" }), vehicle(paused(true)), "paused"],
     ["blocked", order({}), vehicle({ activity: "blocked" }), "held"],
     ["interrupted", order({ state: "Interrupted" }), vehicle({}), "held"],
     ["ended", order({ state: "Ended" }), vehicle({}), "arrived"],

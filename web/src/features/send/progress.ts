@@ -1,4 +1,5 @@
 import type { JobOrder, StopRecord, Vehicle } from "@/shared/api/types";
+import { haltOf } from "@/shared/live/pause";
 
 /** Where the started move is, read only from what the server holds and the vehicle reported. */
 export type MoveProgress =
@@ -7,6 +8,7 @@ export type MoveProgress =
   | { kind: "moving"; progress: number; granted: number; expectedAt: string | undefined }
   | { kind: "measuring" }
   | { kind: "held" }
+  | { kind: "stopping" }
   | { kind: "paused" }
   | { kind: "arrived"; stop: StopRecord | undefined }
   | { kind: "aborted" };
@@ -22,9 +24,11 @@ export function moveProgress(
   const stop = newestStop(order, stops);
   if (order.state === "Ended") return { kind: "arrived", stop };
   if (order.state === "Aborted") return { kind: "aborted" };
-  if (order.state === "Interrupted") return { kind: "held" };
   const own = vehicle && vehicle.order === order.id ? vehicle : undefined;
   const step = order.steps[order.current_step];
+  if (own && haltOf(own) === "stopping") return { kind: "stopping" };
+  if (own && haltOf(own) === "stands") return { kind: "paused" };
+  if (order.state === "Interrupted") return { kind: "held" };
   if (own?.activity === "paused" || own?.pause_confirmed) return { kind: "paused" };
   if (step?.state === "measuring" || own?.activity === "measuring") return { kind: "measuring" };
   if (own?.activity === "blocked") return { kind: "held" };
@@ -48,6 +52,7 @@ export function reached(progress: MoveProgress): Milestone[] {
     case "moving":
     case "measuring":
     case "held":
+    case "stopping":
     case "paused":
       return ["requested", "accepted", "confirmed"];
     case "arrived":

@@ -4,6 +4,7 @@ import { api, ApiProblem, call } from "@/shared/api";
 import type { JobOrder, NewJobOrder } from "@/shared/api/types";
 import { navigate, useLocation } from "@/shared/router";
 import { useJobOrder, useNow } from "@/shared/live";
+import { goGuard } from "@/shared/ui";
 import { startCommand, type StartCommand } from "./startCommand";
 
 export interface Start {
@@ -81,11 +82,13 @@ export function useStart(body: NewJobOrder | undefined): Start {
 
   const arm = useCallback(() => {
     const armed = bodyRef.current;
-    if (armed) dispatch({ kind: "arm", key: newKey(), body: armed, nowMs: performance.now() });
+    if (armed && goGuard.takes(performance.now()))
+      dispatch({ kind: "arm", key: newKey(), body: armed, nowMs: performance.now() });
   }, []);
   const hold = useCallback(() => {
     const held = bodyRef.current;
-    if (held) dispatch({ kind: "hold", key: newKey(), body: held, nowMs: performance.now() });
+    if (held && goGuard.takes(performance.now()))
+      dispatch({ kind: "hold", key: newKey(), body: held, nowMs: performance.now() });
   }, []);
   const start = useCallback(() => dispatch({ kind: "start", nowMs: performance.now() }), []);
   const cancel = useCallback(() => dispatch({ kind: "cancel" }), []);

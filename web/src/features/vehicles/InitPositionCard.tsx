@@ -2,10 +2,9 @@ import { useCallback, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { Plant, Pose, Vehicle } from "@/shared/api/types";
+import { CommandFailed } from "@/shared/commands";
 import { Card, CommandButton } from "@/shared/ui";
-import { useCommand } from "@/shared/ui/useCommand";
-import { useWords } from "@/shared/words/useWords";
-import { progressOf } from "./commandProgress";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { draftOf, emptyDraft, readDraft, type InitDraft } from "./initPosition";
 
 /** A person says where a vehicle stands that lost its position, or says one that cannot be. Nothing moves by it. */
@@ -20,11 +19,10 @@ export function InitPositionCard({
   refused: string | undefined;
 }) {
   const { t } = useTranslation("vehicles");
-  const words = useWords();
   const [draft, setDraft] = useState<InitDraft>(emptyDraft);
   const result = readDraft(draft, plant);
   const pose = result.kind === "pose" ? result.pose : undefined;
-  const { asked, run } = useCommand(
+  const command = useCommand(
     useCallback(
       () =>
         pose === undefined
@@ -38,6 +36,7 @@ export function InitPositionCard({
       [vehicle.id, pose],
     ),
   );
+  const progress = useProgress(command, vehicle.pose_known, vehicle.name);
   const set = (change: Partial<InitDraft>) => setDraft((d) => ({ ...d, ...change }));
   return (
     <Card className="init" title={t("init.title", { vehicle: vehicle.name })} summary={t("init.hint")}>
@@ -72,19 +71,12 @@ export function InitPositionCard({
         <CommandButton
           label={t("init.set")}
           primary={false}
-          progress={progressOf(asked, vehicle.name)}
+          progress={progress}
           disabledReason={refused ?? fault()}
-          onRun={run}
+          onRun={command.run}
         />
       </div>
-      {asked.kind === "failed" && (
-        <p className="lab" role="alert">
-          {t("failed", {
-            detail: words.problem(asked.problem),
-            request: asked.problem.requestId.slice(0, 8),
-          })}
-        </p>
-      )}
+      <CommandFailed command={command} />
     </Card>
   );
 

@@ -2,19 +2,17 @@ import { useCallback, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { Vehicle } from "@/shared/api/types";
+import { CommandFailed } from "@/shared/commands";
 import { CommandButton } from "@/shared/ui";
-import { useCommand } from "@/shared/ui/useCommand";
-import { useWords } from "@/shared/words/useWords";
-import { progressOf } from "./commandProgress";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { canApply, holdsFloor, levels, type Level } from "./integration";
 
 /** How far a vehicle takes part; takes it out and in again. */
 export function IntegrationCard({ vehicle, refused }: { vehicle: Vehicle; refused: string | undefined }) {
   const { t } = useTranslation("vehicles");
-  const words = useWords();
   const [wanted, setWanted] = useState<Level>(vehicle.integration);
   const [offFloor, setOffFloor] = useState(false);
-  const { asked, run } = useCommand(
+  const command = useCommand(
     useCallback(
       () =>
         call(
@@ -27,6 +25,7 @@ export function IntegrationCard({ vehicle, refused }: { vehicle: Vehicle; refuse
     ),
   );
   const leaves = holdsFloor(vehicle.integration) && !holdsFloor(wanted);
+  const progress = useProgress(command, vehicle.integration === wanted, vehicle.name);
   const may = canApply(vehicle.integration, wanted, offFloor);
   return (
     <details className="card integ" open={vehicle.integration !== "utilise"}>
@@ -51,18 +50,11 @@ export function IntegrationCard({ vehicle, refused }: { vehicle: Vehicle; refuse
       <CommandButton
         label={t("integration.apply")}
         primary={false}
-        progress={may === "same" ? { kind: "ready" } : progressOf(asked, vehicle.name)}
+        progress={progress}
         disabledReason={refused ?? (may === "yes" ? undefined : t(`integration.${may}`))}
-        onRun={run}
+        onRun={command.run}
       />
-      {asked.kind === "failed" && (
-        <p className="lab" role="alert">
-          {t("failed", {
-            detail: words.problem(asked.problem),
-            request: asked.problem.requestId.slice(0, 8),
-          })}
-        </p>
-      )}
+      <CommandFailed command={command} />
     </details>
   );
 }

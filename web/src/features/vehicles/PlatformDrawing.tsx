@@ -2,8 +2,9 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { StatusSymbol } from "@/shared/ui";
 import { degrees, fixed, kilonewtons, mass, millimetres } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
 import { bracketKey, footCorner, onSheet, sheetOf, wheelState, type Sheet } from "./faceplate";
-import { centreOfLoad, kBalanceShare, kPinOffset_m, summarise, type SensorShare } from "./loads";
+import { centreOfLoad, kBandShare, kPinOffset_m, summarise, type SensorShare } from "./loads";
 
 export interface PlatformDrawingProps {
   vehicle: Vehicle;
@@ -157,7 +158,7 @@ function Centre({ vehicle, type }: { vehicle: Vehicle; type: VehicleType | undef
 
 function Forces({ vehicle, type, sheet }: { vehicle: Vehicle; type: VehicleType | undefined; sheet: Sheet }) {
   const { t } = useTranslation("vehicles");
-  const summary = summarise(vehicle.brackets, type);
+  const summary = summarise(vehicle, type);
   if (!summary) return null;
   return (
     <>
@@ -184,20 +185,20 @@ function Forces({ vehicle, type, sheet }: { vehicle: Vehicle; type: VehicleType 
   );
 }
 
-/** Force of one pin against the mean of its end: the band is +-5 %, the bar +-20 %. */
+/** Force of one pin against the mean of its end: the band is +-10 %, the bar +-20 %. */
 function Sensor({ name, sensor }: { name: string; sensor: SensorShare }) {
   const kScale = 0.2;
   const x = 50 + 50 * Math.max(-1, Math.min(1, sensor.share / kScale));
-  const off = Math.abs(sensor.share) > kBalanceShare;
+  const off = Math.abs(sensor.share) > kBandShare;
   return (
     <div className={`sb ${off ? "off" : ""}`}>
       <i>{name}</i>
       <svg viewBox="0 0 100 14" preserveAspectRatio="none" aria-hidden="true">
         <rect y="5" width="100" height="4" fill="var(--surface-3)" />
         <rect
-          x={50 - (50 * kBalanceShare) / kScale}
+          x={50 - (50 * kBandShare) / kScale}
           y="1.5"
-          width={(100 * kBalanceShare) / kScale}
+          width={(100 * kBandShare) / kScale}
           height="11"
           fill="var(--band)"
         />
@@ -218,6 +219,7 @@ function WheelLabels({
   sheet: Sheet;
 }) {
   const { t } = useTranslation("vehicles");
+  const words = useWords();
   const row = sheet.height * 0.049;
   return (
     <>
@@ -256,7 +258,9 @@ function WheelLabels({
                 className={`wl ${state === "warm" ? "adv2" : "bad2"} ${inside ? side : ""}`}
                 style={inside ? { ...place, marginTop: 22 } : below}
               >
-                {state === "warm" ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) }) : w.fault}
+                {state === "warm"
+                  ? t("loads.servo", { temperature: fixed(w.temperature_c, 0) })
+                  : words.fault(w.fault)}
               </span>
             )}
           </span>
@@ -288,7 +292,7 @@ function LoadLabels({
   sheet: Sheet;
 }) {
   const { t } = useTranslation("vehicles");
-  const summary = summarise(vehicle.brackets, type);
+  const summary = summarise(vehicle, type);
   const centre = centreOfLoad(vehicle.brackets, type);
   if (type?.brackets.length === 0) return null;
   if (!summary) {

@@ -1,7 +1,9 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { Card, Value } from "@/shared/ui";
-import { age, fixed, heading, millimetres } from "@/shared/words/format";
+import { Card, StatusSymbol, Value } from "@/shared/ui";
+import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import { poseWords } from "./poseBasis";
 import type { Heard } from "./useHeard";
 
 export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Heard; now: number }) {
@@ -10,11 +12,27 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const ageS = heard.pose_s ?? "never";
   const atMs = heard.pose_s === undefined ? undefined : now - heard.pose_s * 1000;
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
+  const words = useWords();
+  const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now));
+  const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
+  const measured = basis.key === "stop" || basis.key === "codes";
+  // What has been driven since is reckoned, not measured.
+  const symbol = !vehicle.pose_known
+    ? "a-2"
+    : !measured
+      ? "a-3"
+      : basis.since === undefined
+        ? "c-ok"
+        : "s-stale";
+  const deviation =
+    vehicle.pose_known && vehicle.pose_deviation_m !== undefined
+      ? t("pose.deviation", { length: length(vehicle.pose_deviation_m) })
+      : undefined;
   return (
     <Card
       className="pose"
       title={t("pose.title")}
-      summary={t(vehicle.pose_known ? "pose.confirmed" : "pose.unknown")}
+      summary={deviation}
       right={ageS === "never" ? undefined : age(ageS)}
     >
       <div className="pvs">
@@ -42,6 +60,13 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
           {...shared}
         />
       </div>
+      <p className="basis" data-basis={basis.key}>
+        <StatusSymbol name={symbol} />
+        <span>
+          {t(`pose.basis.${basis.key}`, basis.values)}
+          {vehicle.pose_basis && vehicle.pose_known && `${t("join")}${since}`}
+        </span>
+      </p>
     </Card>
   );
 }

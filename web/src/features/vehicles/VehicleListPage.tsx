@@ -1,12 +1,12 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { useLive, useVehicles } from "@/shared/live";
+import { symbolOf, useLinkLost, useLive, useVehicles } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
 import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { useHeard } from "./useHeard";
-import { activitySymbol, useAnswer } from "./WhyCard";
+import { useAnswer } from "./WhyCard";
 
 /** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
 export function VehicleListPage() {
@@ -57,10 +57,11 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
   const words = useWords();
   const answer = useAnswer();
   const { heard_s } = useHeard(v);
-  const silent = v.link !== "live";
+  const lost = useLinkLost();
+  const silent = lost || v.link !== "live";
   const to = `/vehicles/${encodeURIComponent(v.id)}`;
   return (
-    <tr className={`go ${silent ? "silent" : ""}`} onClick={() => navigate(to)}>
+    <tr className={`go ${silent ? "old" : ""}`} onClick={() => navigate(to)}>
       <td className="b">
         <Link className="cell-link" to={to} onClick={(event) => event.stopPropagation()}>
           {v.name}
@@ -68,8 +69,8 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
       </td>
       <td>
         <span className="row">
-          <StatusSymbol name={activitySymbol(v)} />
-          {silent ? t(`words:link.${v.link}`) : t(`words:activity.${v.activity}`)}
+          <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
+          {silent ? t(`words:link.${lost ? "lost" : v.link}`) : t(`words:activity.${v.activity}`)}
         </span>
       </td>
       <td>

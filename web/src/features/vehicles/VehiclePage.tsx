@@ -1,11 +1,13 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
+import { HeldBar, useHeldWords, useRefusal } from "@/shared/commands";
 import {
-  useCommandsEnabled,
+  stale,
+  symbolOf,
   useJobOrder,
+  useLinkLost,
   useLive,
-  useMayCommand,
   usePlant,
   useServerNow,
   useStations,
@@ -27,7 +29,7 @@ import { PoseCard } from "./PoseCard";
 import { StopsCard } from "./StopsCard";
 import { useHeard } from "./useHeard";
 import { VehicleCommands } from "./VehicleCommands";
-import { activitySymbol, useAnswer, WhyCard } from "./WhyCard";
+import { useAnswer, WhyCard } from "./WhyCard";
 
 const kLate_s = 2;
 
@@ -63,16 +65,17 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const stations = useStations();
   const allStops = useStopRecords();
   const stops = useMemo(() => allStops.filter((s) => s.vehicle === vehicle.id), [allStops, vehicle.id]);
-  const linkUp = useCommandsEnabled();
-  const mayCommand = useMayCommand();
   const answer = useAnswer();
+  const held = useHeldWords();
   const [tab, setTab] = useState("loads");
-  const refused = !linkUp ? t("command.offline") : !mayCommand ? t("command.not_allowed") : undefined;
+  const refused = useRefusal();
   const heard = useHeard(vehicle);
   const { heard_s } = heard;
   const target = stations.find((s) => s.id === vehicle.leg?.station)?.state;
 
-  const loads = <LoadsCard vehicle={vehicle} stale={(heard_s ?? Infinity) >= kLate_s} heard_s={heard_s} />;
+  const lost = useLinkLost();
+  const old = lost || stale(vehicle) || (heard_s ?? Infinity) >= kLate_s;
+  const loads = <LoadsCard vehicle={vehicle} stale={old} heard_s={heard_s} />;
   const cameras =
     vehicle.cameras.length === 0 ? (
       <Card title={t("tabs.cameras")}>
@@ -91,8 +94,9 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
     );
   const why = (
     <>
+      {!narrow && <HeldBar vehicle={vehicle} />}
       {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
-      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} />
+      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
     </>
@@ -110,14 +114,15 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
           <h1>{vehicle.name}</h1>
           <span className="lab nw">{type?.name ?? vehicle.type}</span>
         </div>
-        <Chips vehicle={vehicle} />
+        <Chips vehicle={vehicle} stale={old} />
         <div className="grow" />
-        <VehicleCommands vehicle={vehicle} order={order} refused={refused} />
+        <VehicleCommands vehicle={vehicle} order={order} />
       </div>
       {narrow ? (
         <>
-          <div className="card whyl">
-            <StatusSymbol name={activitySymbol(vehicle)} />
+          <HeldBar vehicle={vehicle} />
+          <div className="card whyl" hidden={answer(vehicle) === held(vehicle)}>
+            <StatusSymbol name={symbolOf(vehicle)} />
             <b>{answer(vehicle)}</b>
             <span className="cap">{age(heard_s)}</span>
           </div>
@@ -162,7 +167,7 @@ function LoadsCard({
 }) {
   const { t } = useTranslation("vehicles");
   const type = usePlant().data?.vehicle_types.find((v) => v.id === vehicle.type);
-  const summary = summarise(vehicle.brackets, type);
+  const summary = summarise(vehicle, type);
   const parts: string[] = [];
   if (summary) {
     parts.push(
@@ -189,14 +194,14 @@ function LoadsCard({
   );
 }
 
-function Chips({ vehicle }: { vehicle: Vehicle }) {
+function Chips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
   const { t } = useTranslation(["vehicles", "words"]);
   const words = useWords();
   const loaded = vehicle.load_name !== "" || vehicle.load_kg > 0;
   const stopped = vehicle.e_stop !== undefined && vehicle.e_stop !== "" && vehicle.e_stop !== "NONE";
   return (
-    <div className="chips">
-      <Chip symbol={activitySymbol(vehicle)}>
+    <div className={`chips ${stale ? "old" : ""}`}>
+      <Chip symbol={symbolOf(vehicle)}>
         {vehicle.link !== "live"
           ? t(`words:link.${vehicle.link}`)
           : vehicle.at_station && vehicle.activity !== "moving"
@@ -223,7 +228,7 @@ function Chips({ vehicle }: { vehicle: Vehicle }) {
             <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
           </span>
           <span className={stopped || vehicle.field_violation ? "" : "gt-sm"}>
-            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : "c-ok"}>
+            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : stale ? "s-stale" : "c-ok"}>
               {stopped
                 ? t("chip.e_stop")
                 : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}

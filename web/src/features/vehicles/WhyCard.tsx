@@ -1,31 +1,23 @@
 import { useTranslation } from "react-i18next";
 import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
-import { Card, CheckRow, StatusSymbol, type SymbolName } from "@/shared/ui";
+import { useHeldWords } from "@/shared/commands";
+import { alarmOf, symbolOf } from "@/shared/live";
+import { Card, CheckRow, StatusSymbol } from "@/shared/ui";
 import { age, fixed } from "@/shared/words/format";
+import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { useWords } from "@/shared/words/useWords";
 import { whyRows, type WhyRow } from "./whyRows";
 
-const symbolOf: Record<Vehicle["activity"], SymbolName> = {
-  standing: "s-stand",
-  moving: "s-moving",
-  measuring: "s-measure",
-  waiting: "s-wait",
-  paused: "s-wait",
-  blocked: "a-2",
-  charging: "s-charge",
-  unknown: "s-stale",
-};
-
-export function activitySymbol(vehicle: Vehicle): SymbolName {
-  return vehicle.link === "live" ? symbolOf[vehicle.activity] : "s-stale";
-}
-
-/** The one sentence that says why it stands, or what it does. */
+/** The most urgent thing about a vehicle, in one sentence: what is wrong with it, else why it stands or what it does. */
 export function useAnswer(): (vehicle: Vehicle) => string {
   const { t } = useTranslation("vehicles");
   const words = useWords();
+  const alarmWords = useAlarmWords();
+  const held = useHeldWords();
   return (vehicle) => {
-    if (vehicle.needs_resume && vehicle.needs_resume_reason) return words.reason(vehicle.needs_resume_reason);
+    const alarm = alarmOf(vehicle);
+    if (alarm !== undefined && alarm.priority !== "low") return alarmWords.text(alarm, vehicle);
+    if (vehicle.paused || vehicle.needs_resume) return held(vehicle);
     if (vehicle.activity === "moving" && vehicle.leg) {
       return vehicle.reason
         ? words.reason(vehicle.reason)
@@ -36,34 +28,47 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   };
 }
 
+/** What to do about that; undefined when nothing is wrong. */
+export function useTodo(): (vehicle: Vehicle) => string | undefined {
+  const words = useAlarmWords();
+  return (vehicle) => {
+    const alarm = alarmOf(vehicle);
+    return alarm === undefined || alarm.priority === "low" ? undefined : words.todo(alarm);
+  };
+}
+
 export function WhyCard({
   vehicle,
   type,
   target,
   heard_s,
+  stale,
 }: {
   vehicle: Vehicle;
   type: VehicleType | undefined;
   target: StationState | undefined;
   heard_s: number | undefined;
+  stale: boolean;
 }) {
   const { t } = useTranslation("vehicles");
   const answer = useAnswer();
+  const todo = useTodo()(vehicle);
   const moving = vehicle.activity === "moving" || vehicle.activity === "measuring";
   return (
     <Card className="why" title={t(moving ? "why.title_moving" : "why.title", { vehicle: vehicle.name })}>
       <p className="ans1" role="status">
-        <StatusSymbol name={activitySymbol(vehicle)} />
+        <StatusSymbol name={symbolOf(vehicle)} />
         <span>{answer(vehicle)}</span>
       </p>
-      {whyRows(vehicle, type, target).map((row, i) => (
-        <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} />
+      {todo !== undefined && <p className="todo">{todo}</p>}
+      {whyRows(vehicle, type, target, stale).map((row, i) => (
+        <Row key={`${row.kind}${i}`} row={row} ageS={heard_s} stale={stale} />
       ))}
     </Card>
   );
 }
 
-function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
+function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stale: boolean }) {
   const { t } = useTranslation("vehicles");
   const words = useWords();
   const { name, value } = text();
@@ -74,6 +79,7 @@ function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
       value={value}
       ageS={row.kind === "station" ? undefined : ageS}
       critical={row.kind === "fault"}
+      stale={stale && row.kind !== "link"}
     />
   );
 
@@ -106,15 +112,15 @@ function Row({ row, ageS }: { row: WhyRow; ageS: number | undefined }) {
         };
       case "wheel":
         return {
-          name: t("loads.wheel", { name: row.wheel.name }),
+          name: t("loads.wheel", { name: words.wheel(row.wheel.name) }),
           value: row.wheel.fault
-            ? t("why.wheel_fault", { name: row.wheel.name, fault: row.wheel.fault })
-            : t("why.wheel_warm", { name: row.wheel.name, temperature: fixed(row.wheel.temperature_c, 0) }),
+            ? words.fault(row.wheel.fault)
+            : t("why.warm", { temperature: fixed(row.wheel.temperature_c, 0) }),
         };
       case "wheels":
         return { name: t("why.wheels"), value: t("why.wheel_ok", { count: row.count }) };
       case "fault":
-        return { name: row.error.type, value: row.error.description };
+        return { name: t("why.fault"), value: words.fault(row.error.type) };
     }
   }
 }

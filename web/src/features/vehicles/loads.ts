@@ -1,9 +1,10 @@
 import type { Vehicle, VehicleType } from "@/shared/api/types";
+import { bracketFault } from "@/shared/live/brackets";
 
 export type BracketReading = Vehicle["brackets"][number];
 
-/** How far a bracket may differ from the mean of its end; beyond it the server lets nobody drive (core/fleet/interlocks.hpp). */
-export const kBalanceShare = 0.1;
+/** Half-width of the band around a pin's bar, as a share of the mean of its end. */
+export const kBandShare = 0.1;
 
 export interface LoadSummary {
   total_n: number;
@@ -17,11 +18,12 @@ export interface SensorShare {
   share: number; // (force - reference) / reference
 }
 
-/** Each bracket is compared with the mean of its end (front or back): a load aft of the middle is normal, one that leans is not. */
+/** The forces beside the mean of their end; whether they are balanced is the server's word, which bars the drive by it. */
 export function summarise(
-  brackets: readonly BracketReading[],
+  vehicle: Pick<Vehicle, "brackets" | "worst_bracket">,
   type: VehicleType | undefined,
 ): LoadSummary | undefined {
+  const { brackets } = vehicle;
   if (brackets.length === 0) return undefined;
   const total = brackets.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0);
   const places = type?.brackets ?? [];
@@ -30,8 +32,12 @@ export function summarise(
     const x = places.find((b) => b.name === name)?.position.x_m;
     return x === undefined ? 0 : Math.sign(x - middle);
   };
+  const fault = bracketFault(vehicle);
   const reference = (name: string) => {
-    const same = brackets.filter((b) => endOf(b.name) === endOf(name));
+    const ofEnd = brackets.filter((b) => endOf(b.name) === endOf(name));
+    // A bracket that is far off would make its sound neighbour look wrong.
+    const sound = ofEnd.filter((b) => b.name !== fault?.bracket);
+    const same = sound.length > 0 ? sound : ofEnd;
     return same.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0) / (2 * same.length);
   };
   const rows = brackets.map((b) => {
@@ -39,14 +45,12 @@ export function summarise(
     const share = (f: number): SensorShare => ({ force_n: f, share: ref > 0 ? (f - ref) / ref : 0 });
     return { name: b.name, sum_n: b.force_a_n + b.force_b_n, a: share(b.force_a_n), b: share(b.force_b_n) };
   });
-  // Two sensors a bracket: the mean of its shares is the bracket's own.
-  const worst = Math.max(...rows.map((r) => Math.abs(r.a.share + r.b.share) / 2));
   return {
     total_n: total,
     mean_n: total / (2 * brackets.length),
     brackets: rows,
-    worst,
-    balanced: worst <= kBalanceShare,
+    worst: Math.abs(vehicle.worst_bracket?.share ?? 0),
+    balanced: fault === undefined,
   };
 }
 

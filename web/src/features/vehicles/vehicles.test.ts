@@ -38,22 +38,30 @@ describe("load", () => {
     expect(centreOfLoad(forces(1, 1), type)).toBeUndefined();
     expect(centreOfLoad([{ name: "x", force_a_n: 5000, force_b_n: 5000 }], type)).toBeUndefined();
   });
+  const loaded = (share: number, ...n: number[]) => ({
+    brackets: forces(...n),
+    worst_bracket: { bracket: type.brackets[0]!.name, share, limit: 0.1 },
+  });
   it("compares a bracket with its own end, so that a load aft is balanced", () => {
-    const summary = summarise(forces(1000, 1000, 1000, 1000, 3000, 3000, 3000, 3000), type);
+    const summary = summarise(loaded(0, 1000, 1000, 1000, 1000, 3000, 3000, 3000, 3000), type);
 
     expect(summary).toMatchObject({ total_n: 16000, balanced: true });
+    expect(summary?.brackets.map((b) => b.a.share)).toEqual([0, 0, 0, 0]);
   });
   it.each([
-    [1090, true],
-    [1110, false],
-  ])("with one bracket at %i of a mean of 1000 is balanced: %s", (force, balanced) => {
-    const other = 2000 - force;
-    const summary = summarise(forces(force, force, other, other, 1000, 1000, 1000, 1000), type);
+    [0.09, true],
+    [-0.11, false],
+  ])("with a bracket %d off by the server's word is balanced: %s", (share, balanced) => {
+    const summary = summarise(loaded(share, 1000, 1000, 1000, 1000, 1000, 1000, 1000, 1000), type);
 
-    expect(summary?.balanced).toBe(balanced);
-    expect(summary?.worst).toBeCloseTo(Math.abs(force - 1000) / 1000, 12);
+    expect(summary).toMatchObject({ balanced, worst: Math.abs(share) });
   });
-  it("is unknown without readings", () => expect(summarise([], type)).toBeUndefined());
+  it("does not blame the sound bracket beside one that is 40 % over", () => {
+    const summary = summarise(loaded(0.17, 1400, 1400, 1000, 1000, 1000, 1000, 1000, 1000), type);
+
+    expect(summary?.brackets.map((b) => Math.round(b.a.share * 100))).toEqual([40, 0, 0, 0]);
+  });
+  it("is unknown without readings", () => expect(summarise({ brackets: [] }, type)).toBeUndefined());
 });
 
 describe("drawing", () => {
@@ -146,20 +154,31 @@ describe("why it stands", () => {
     fault,
   });
   it("puts what holds it on top", () => {
-    const rows = whyRows({ ...vehicle, needs_resume: true, wheels: [wheel(70)] }, type, undefined);
+    const rows = whyRows({ ...vehicle, needs_resume: true, wheels: [wheel(70)] }, type, undefined, false);
 
     expect(rows.map((r) => `${r.kind} ${r.result}`)).toEqual(["resume fail", "wheel note", "link pass"]);
   });
   it("does not call its own reservation taken", () => {
     const state = { station: "s", number: 7, occupied_by: "", reserved_by: "TP-01", ready: false };
 
-    expect(whyRows(vehicle, type, state).find((r) => r.kind === "station")?.result).toBe("pass");
+    expect(whyRows(vehicle, type, state, false).find((r) => r.kind === "station")?.result).toBe("pass");
     expect(
-      whyRows(vehicle, type, { ...state, reserved_by: "TP-02" }).find((r) => r.kind === "station")?.result,
+      whyRows(vehicle, type, { ...state, reserved_by: "TP-02" }, false).find((r) => r.kind === "station")
+        ?.result,
     ).toBe("note");
   });
+  it("passes no connection whose data is old, whatever the server said last", () => {
+    const link = (stale: boolean) => whyRows(vehicle, type, undefined, stale).find((r) => r.kind === "link");
+    expect(link(false)?.result).toBe("pass");
+    expect(link(true)?.result).toBe("note");
+  });
   it("calls silence and a wheel fault what they are", () => {
-    const rows = whyRows({ ...vehicle, link: "lost", wheels: [wheel(30, "encoder")] }, type, undefined);
+    const rows = whyRows(
+      { ...vehicle, link: "lost", wheels: [wheel(30, "encoder")] },
+      type,
+      undefined,
+      false,
+    );
 
     expect(rows.map((r) => r.result)).toEqual(["fail", "fail"]);
   });

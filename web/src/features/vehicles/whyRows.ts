@@ -1,4 +1,6 @@
 import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
+import { bracketFault } from "@/shared/live/brackets";
+import { faultKey } from "@/shared/words/faults";
 import { feetDown, wheelState } from "./faceplate";
 import { summarise } from "./loads";
 
@@ -8,7 +10,12 @@ export type WhyRow =
   | { kind: "resume"; result: "fail" }
   | { kind: "order"; result: "pass" | "note" }
   | { kind: "station"; result: "pass" | "note"; state: StationState }
-  | { kind: "load"; result: "pass" | "note"; balanced: "balanced" | "unbalanced" | "no_load"; down: boolean }
+  | {
+      kind: "load";
+      result: "pass" | "note" | "fail";
+      balanced: "balanced" | "unbalanced" | "no_load";
+      down: boolean;
+    }
   | { kind: "wheel"; result: "note" | "fail"; wheel: Vehicle["wheels"][number] }
   | { kind: "wheels"; result: "pass"; count: number }
   | { kind: "fault"; result: "note" | "fail"; error: Vehicle["errors"][number] };
@@ -20,26 +27,28 @@ export function whyRows(
   vehicle: Vehicle,
   type: VehicleType | undefined,
   target: StationState | undefined,
+  stale: boolean,
 ): WhyRow[] {
   const rows: WhyRow[] = [];
   rows.push({
     kind: "link",
-    result: vehicle.link === "live" ? "pass" : vehicle.link === "late" ? "note" : "fail",
+    result: vehicle.link === "late" ? "note" : vehicle.link !== "live" ? "fail" : stale ? "note" : "pass",
   });
   if (vehicle.needs_resume) rows.push({ kind: "resume", result: "fail" });
-  for (const error of vehicle.errors)
+  // A wheel has a line of its own.
+  for (const error of vehicle.errors.filter((e) => faultKey(e.type) !== "wheel_fault"))
     rows.push({ kind: "fault", result: error.fatal ? "fail" : "note", error });
   if (target) {
     const other = (target.occupied_by || target.reserved_by) !== vehicle.id;
     const taken = (target.occupied_by !== "" || target.reserved_by !== "") && other;
     rows.push({ kind: "station", result: taken ? "note" : "pass", state: target });
   }
-  const load = summarise(vehicle.brackets, type);
+  const load = summarise(vehicle, type);
   if (load) {
     const balanced = load.total_n < 1000 ? "no_load" : load.balanced ? "balanced" : "unbalanced";
     rows.push({
       kind: "load",
-      result: balanced === "unbalanced" ? "note" : "pass",
+      result: bracketFault(vehicle) ? "fail" : balanced === "unbalanced" ? "note" : "pass",
       balanced,
       down: feetDown(vehicle.parking_feet),
     });

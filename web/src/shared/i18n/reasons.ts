@@ -1,4 +1,5 @@
 import type { Params, Reason } from "@/shared/api/types";
+import { faultText } from "@/shared/words/faults";
 import { length } from "@/shared/words/format";
 import { age, deg, fixed, kThin, mass } from "./format";
 
@@ -39,21 +40,39 @@ export function paramText(name: string, value: string | number | boolean): strin
 // Parameters that are themselves codes: the cause of needs_person, the motion mode, a state.
 const kCodes: Readonly<Record<string, string>> = {
   cause: "reasons:",
-  why: "reasons:",
   mode: "words:mode.",
   motion_mode: "words:mode.",
   state: "words:job.",
   level: "words:integration.",
+  type: "faults:",
+  fault: "faults:",
 };
+
+/** A vehicle's "code: prose in its own language": the code has words here, or it is left out. */
+function whyText(value: string, t: Translate): string | undefined {
+  const code = /^([a-z][a-z0-9_]*)(: |$)/.exec(value);
+  if (code === null) return value;
+  const text = words(t, `reasons:${code[1]}`, {});
+  if (text !== undefined && !text.includes("{{")) return text;
+  return code[2] === "" ? value.replaceAll("_", " ") : undefined;
+}
 
 function shown(params: Params, t: Translate): Record<string, string> {
   const values: Record<string, string> = {};
   for (const [name, value] of Object.entries(params)) {
     if (value === "") continue;
+    if (name === "why" && typeof value === "string") {
+      const why = whyText(value, t);
+      if (why !== undefined) values[name] = why;
+      continue;
+    }
     const prefix = kCodes[name];
-    // A vehicle says "code: its own sentence"; the sentence is for those who do not know the code.
-    const code = typeof value === "string" ? /^[a-z0-9_]+(?=$|: )/.exec(value)?.[0] : undefined;
-    const named = prefix !== undefined && code !== undefined ? words(t, `${prefix}${code}`, {}) : undefined;
+    const named =
+      prefix === undefined || typeof value !== "string"
+        ? undefined
+        : prefix === "faults:"
+          ? faultText(value, t)
+          : words(t, `${prefix}${value}`, {});
     values[name] = named !== undefined && !named.includes("{{") ? named : paramText(name, value);
   }
   return values;

@@ -88,6 +88,11 @@ export function useLink(): LinkInfo {
   return { state, ageS, live: state.kind === "live" };
 }
 
+/** The browser's link is down: everything on the screen is old. Does not re-render with the clock. */
+export function useLinkLost(): boolean {
+  return useLive((s) => s.link.kind === "lost");
+}
+
 /** True while commands may be given. Does not re-render with the clock. */
 export function useCommandsEnabled(): boolean {
   return useLive((s) => s.link.kind === "live" && s.ready);

@@ -3,3 +3,4 @@ export { useNow } from "./clock";
 export { liveStore, type LivePose, type LinkState } from "./store";
 export { useMayCommand, useSession } from "./session";
 export * from "./attention";
+export * from "./pause";

@@ -2,8 +2,14 @@ import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { StatusSymbol, type SymbolName } from "./Icon";
 
-export type Priority = "critical" | "high" | "low";
-export const prioritySymbol: Record<Priority, SymbolName> = { critical: "a-1", high: "a-2s", low: "a-3" };
+/** `held`: no alarm, but a state that a person has made and that a person ends. */
+export type Priority = "critical" | "high" | "low" | "held";
+export const prioritySymbol: Record<Priority, SymbolName> = {
+  critical: "a-1",
+  high: "a-2s",
+  low: "a-3",
+  held: "s-wait",
+};
 
 export interface BannerProps {
   priority: Priority;
@@ -19,7 +25,7 @@ export interface BannerProps {
 export function Banner({ priority, what, todo, age, actions, word }: BannerProps) {
   const { t } = useTranslation();
   return (
-    <div className={`banner ${priority}`} role="alert">
+    <div className={`banner ${priority}`} role={priority === "held" ? "status" : "alert"}>
       <div className="pri">
         <StatusSymbol name={prioritySymbol[priority]} />
         <span>{word ?? t(`priority.${priority}`)}</span>

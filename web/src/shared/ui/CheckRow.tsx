@@ -12,6 +12,8 @@ export interface CheckRowProps {
   ageS?: number | undefined;
   /** A failed check that may hurt somebody is critical, else high. */
   critical?: boolean;
+  /** What it says is too old to be believed: nothing passes any more. */
+  stale?: boolean;
 }
 
 const kOrder: Record<CheckResult, number> = { fail: 0, note: 1, pass: 2 };
@@ -20,11 +22,12 @@ export function sortChecks<T extends { result: CheckResult }>(checks: readonly T
   return [...checks].sort((a, b) => kOrder[a.result] - kOrder[b.result]);
 }
 
-export function CheckRow({ result, name, value, ageS, critical }: CheckRowProps) {
-  const symbol = result === "pass" ? "c-ok" : result === "note" ? "a-3" : critical ? "a-1" : "a-2";
+export function CheckRow({ result, name, value, ageS, critical, stale }: CheckRowProps) {
+  const symbol =
+    result === "pass" ? (stale ? "s-stale" : "c-ok") : result === "note" ? "a-3" : critical ? "a-1" : "a-2";
   const wash = result === "pass" ? "" : result === "note" ? "warn" : critical ? "crit" : "fail";
   return (
-    <div className={`chk ${wash}`} data-result={result}>
+    <div className={`chk ${wash} ${stale ? "old" : ""}`} data-result={result} data-stale={stale}>
       <StatusSymbol name={symbol} className={result === "pass" ? "quiet" : ""} />
       <b>{name}</b>
       <span className="v">{value}</span>

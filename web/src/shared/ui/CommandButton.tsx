@@ -3,7 +3,8 @@ import { useTranslation } from "react-i18next";
 import { useNow } from "@/shared/live/clock";
 import { age } from "@/shared/words/format";
 import "./CommandButton.css";
-import { kArmMs, kHoldMs, press, type CommandProgress } from "./command";
+import { kArmMs, kHoldMs, press, type CommandProgress, type Direction } from "./command";
+import { goGuard } from "./goGuard";
 import { Icon, StatusSymbol, type IconName } from "./Icon";
 
 export interface CommandButtonProps {
@@ -17,6 +18,7 @@ export interface CommandButtonProps {
   /** Arm, then press again within 8 s; or hold 1.5 s. Off only for what moves nothing. */
   twoStep?: boolean;
   primary?: boolean;
+  direction?: Direction;
   className?: string;
 }
 
@@ -41,7 +43,17 @@ function Ring({ part }: { part?: number }) {
  * double tap is one command. Enter and Space press it, Escape disarms.
  */
 export function CommandButton(props: CommandButtonProps) {
-  const { label, icon, progress, disabledReason, onRun, twoStep = true, primary = true, className } = props;
+  const {
+    label,
+    icon,
+    progress,
+    disabledReason,
+    onRun,
+    twoStep = true,
+    primary = true,
+    direction,
+    className,
+  } = props;
   const { t } = useTranslation();
   const [armedAt, setArmedAt] = useState<number>();
   const [holding, setHolding] = useState(false);
@@ -73,7 +85,8 @@ export function CommandButton(props: CommandButtonProps) {
       heldToRun.current = false;
       return;
     }
-    if (disabled) return;
+    if (direction === "stop") goGuard.stopPressed(performance.now());
+    if (disabled || (direction === "go" && !goGuard.takes(performance.now()))) return;
     const what = press(progress, armedAt, lastRun.current, performance.now(), twoStep);
     if (what.kind === "arm") setArmedAt(performance.now());
     if (what.kind === "run") run();
@@ -89,6 +102,7 @@ export function CommandButton(props: CommandButtonProps) {
     holdTimer.current = setTimeout(() => {
       setHolding(false);
       heldToRun.current = true;
+      if (direction === "go" && !goGuard.takes(performance.now())) return;
       run();
     }, kHoldMs);
   };
@@ -168,6 +182,20 @@ export function CommandButton(props: CommandButtonProps) {
           title: t("command.confirmed"),
           small: t("command.confirmed_by", { name: progress.by, time: age(progress.afterS) }),
           mark: <StatusSymbol name="c-ok" className="gk" />,
+        };
+      case "under_way":
+        return {
+          className: "waiting",
+          title: progress.title,
+          small: progress.small,
+          mark: <Ring part={0.66} />,
+        };
+      case "holds":
+        return {
+          className: "confirmed",
+          title: progress.title,
+          small: progress.small,
+          mark: icon === undefined ? <StatusSymbol name="c-ok" className="gk" /> : <Icon name={icon} />,
         };
       case "timed_out":
         return {

@@ -4,12 +4,17 @@ export type CommandProgress =
   | { kind: "requested"; atMs: number } // performance.now()
   | { kind: "accepted"; waitingFor: string }
   | { kind: "confirmed"; by: string; afterS: number }
+  /** Takes no press: what was asked for is under way, or holds. */
+  | { kind: "under_way" | "holds"; title: string; small: string }
   | { kind: "timed_out"; what: string; next: string };
 
 export const kArmMs = 8000;
 export const kHoldMs = 1500;
 /** A second press this soon is the same tap, not a decision. */
 export const kDoubleTapMs = 400;
+
+/** What the command is for: a guard that spans all of them keeps the two apart (goGuard). */
+export type Direction = "stop" | "go";
 
 /** What a press does, given the state the button is in. Pure, so that taps can be tested. */
 export type Press = { kind: "arm" } | { kind: "run" } | { kind: "none" };

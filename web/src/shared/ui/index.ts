@@ -6,6 +6,7 @@ export { Chip } from "./Chip";
 export { CommandButton, type CommandButtonProps } from "./CommandButton";
 export { DeviationBar } from "./DeviationBar";
 export { type CommandProgress } from "./command";
+export { goGuard } from "./goGuard";
 export {
   Icon,
   ModeIcon,

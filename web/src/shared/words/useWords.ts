@@ -4,6 +4,7 @@ import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason } from "@/shared/api/types";
 import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
 import { usePlant } from "@/shared/live";
+import { faultText } from "./faults";
 import { named, type Names, type Template } from "./words";
 
 export interface Words {
@@ -12,6 +13,9 @@ export interface Words {
   /** A problem in words: by its code when that is known, else the server's own sentence. */
   problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
   vehicle: (id: string) => string;
+  fault: (type: string) => string;
+  /** Name of a wheel in words, where it is one that wheels usually have. */
+  wheel: (name: string) => string;
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
@@ -52,6 +56,9 @@ export function useWords(): Words {
       reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
+      fault: (type) => faultText(type, t),
+      wheel: (name) =>
+        t(`alarms:wheel_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name }),
       stationNumber: (id) => stations.get(id) ?? id,
       mode: (mode) => t(`words:mode.${mode}`),
       modeShort: (mode) => t(`words:mode_short.${mode}`),

@@ -1,0 +1,37 @@
+import { expect, it } from "vitest";
+import type { Vehicle } from "@/shared/api/types";
+import { poseWords } from "./poseBasis";
+
+type Basis = NonNullable<Vehicle["pose_basis"]>;
+const said = (pose_basis: Basis | undefined, pose_known = true) =>
+  poseWords(
+    { pose_known, ...(pose_basis && { pose_basis }) } as Vehicle,
+    (station) => station.slice(2),
+    (at) => at.slice(11, 19),
+  );
+const at = "2026-11-24T20:15:03Z";
+
+it.each<[string, ReturnType<typeof said>, [string, object, string | undefined]]>([
+  ["not known", said(undefined, false), ["unknown", {}, undefined]],
+  [
+    "measured, and still there",
+    said({ kind: "stop", station: "st27", at, driven_m: 0.01 }),
+    ["stop", { number: "27", time: "20:15:03" }, undefined],
+  ],
+  [
+    "measured 12 m ago",
+    said({ kind: "stop", station: "st27", at, driven_m: 12.34 }),
+    ["stop", { number: "27", time: "20:15:03" }, "12.34\u00a0m"],
+  ],
+  ["seen by codes", said({ kind: "codes", at, driven_m: 0 }), ["codes", { time: "20:15:03" }, undefined]],
+  [
+    "said by a person",
+    said({ kind: "statement", by: "ann", at, driven_m: 3 }),
+    ["statement", { by: "ann", time: "20:15:03" }, "3.00\u00a0m"],
+  ],
+  [
+    "the vehicle's own word",
+    said({ kind: "vehicle", at, driven_m: 240 }),
+    ["vehicle", { time: "20:15:03" }, "240\u00a0m"],
+  ],
+])("%s", (_, { key, values, since }, expected) => expect([key, values, since]).toEqual(expected));
