@@ -261,6 +261,7 @@ export function dryRun(model, first, body) {
         start,
         chosen: "linear",
         options,
+        alternatives: [],
         expected_deviation: {
           stops: 28,
           mean_m: 0.0044,

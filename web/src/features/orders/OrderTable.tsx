@@ -69,8 +69,12 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
       </td>
       <td>{vehicle ? words.vehicle(vehicle) : t("any_vehicle")}</td>
       <td className="wrap">{order.reason ? words.reason(order.reason) : ""}</td>
-      <td className="n">{order.expected_at && isOpen(order) ? timeOfDay(order.expected_at) : "\u2013"}</td>
-      <td className="n">{dateTime(order.created_at, now)}</td>
+      <td className="n" data-label={t("col.expected")}>
+        {order.expected_at && isOpen(order) ? timeOfDay(order.expected_at) : "\u2013"}
+      </td>
+      <td className="n" data-label={t("col.created")}>
+        {dateTime(order.created_at, now)}
+      </td>
     </tr>
   );
 }

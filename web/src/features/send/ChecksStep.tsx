@@ -1,9 +1,10 @@
 import { useTranslation } from "react-i18next";
 import type { Check } from "@/shared/api/types";
-import { CheckRow } from "@/shared/ui";
+import { CheckRow, StatusSymbol } from "@/shared/ui";
 import { useTemplates, useWords } from "@/shared/words/useWords";
 import { checkWords } from "./checkWords";
-import { countChecks, sortChecks, type Preview } from "./preview";
+import { useNarrow } from "@/shared/ui/useNarrow";
+import { countChecks, foldChecks, type Preview } from "./preview";
 
 /** Checks that a person may get hurt by. */
 const critical = new Set<Check["code"]>(["safety", "clearance"]);
@@ -11,9 +12,21 @@ const critical = new Set<Check["code"]>(["safety", "clearance"]);
 export function ChecksStep({ preview, checks }: { preview: Preview; checks: readonly Check[] | undefined }) {
   const { t } = useTranslation("send");
   const text = useCheckText();
+  const narrow = useNarrow();
   if (!checks) {
     return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "checks.wait")}</p>;
   }
+  const { rows, folded } = foldChecks(checks, narrow);
+  const row = (check: Check) => (
+    <CheckRow
+      key={check.code}
+      result={check.result}
+      name={t(`checks.name.${check.code}`)}
+      value={text(check)}
+      ageS={check.age_s}
+      critical={critical.has(check.code)}
+    />
+  );
   return (
     <div
       className="checks"
@@ -22,16 +35,17 @@ export function ChecksStep({ preview, checks }: { preview: Preview; checks: read
       tabIndex={0}
       aria-busy={preview.kind === "loading"}
     >
-      {sortChecks(checks).map((check) => (
-        <CheckRow
-          key={check.code}
-          result={check.result}
-          name={t(`checks.name.${check.code}`)}
-          value={text(check)}
-          ageS={check.age_s}
-          critical={critical.has(check.code)}
-        />
-      ))}
+      {rows.map(row)}
+      {folded.length > 0 && (
+        <details className="folded">
+          <summary>
+            <StatusSymbol name="c-ok" />
+            <b>{t("checks.folded", { count: folded.length })}</b>
+            <span className="lab">{folded.map((c) => t(`checks.name.${c.code}`)).join(t("words.join"))}</span>
+          </summary>
+          {folded.map(row)}
+        </details>
+      )}
     </div>
   );
 }

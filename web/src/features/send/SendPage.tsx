@@ -33,6 +33,7 @@ import { usePreview, type PreviewQuestion } from "./usePreview";
 import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
 import "./send.css";
+import "./send-narrow.css";
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
 export function SendPage() {

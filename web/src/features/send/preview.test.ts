@@ -3,6 +3,7 @@ import type { Check, DryRun, ModeOption, Vehicle } from "@/shared/api/types";
 import {
   chosenOption,
   countChecks,
+  foldChecks,
   NewestOnly,
   previewKey,
   readiness,
@@ -88,6 +89,11 @@ describe("checks", () => {
   const all = [check("link", "pass"), check("wheels", "note"), check("safety", "fail")];
   it("puts fails on top and leaves the rest in the server's order", () => {
     expect(sortChecks(all).map((c) => c.code)).toEqual(["safety", "link", "wheels"]);
+  });
+  it("folds only what passed, and only where there is little room", () => {
+    expect(foldChecks(all, false)).toEqual({ rows: sortChecks(all), folded: [] });
+    const { rows, folded } = foldChecks(all, true);
+    expect([rows.map((c) => c.code), folded.map((c) => c.code)]).toEqual([["safety", "wheels"], ["link"]]);
   });
   it("counts a note as passed", () =>
     expect(countChecks(all)).toEqual({ pass: 2, note: 1, fail: 1, total: 3 }));

@@ -51,6 +51,16 @@ export function sortChecks(checks: readonly Check[]): Check[] {
   return [...fails, ...rest];
 }
 
+/** On a small screen the passed ones stand in one line that opens, so that no failed one is below the edge. */
+export function foldChecks(checks: readonly Check[], narrow: boolean): { rows: Check[]; folded: Check[] } {
+  const sorted = sortChecks(checks);
+  if (!narrow) return { rows: sorted, folded: [] };
+  return {
+    rows: sorted.filter((c) => c.result !== "pass"),
+    folded: sorted.filter((c) => c.result === "pass"),
+  };
+}
+
 export function worst(checks: readonly Check[]): Check["result"] | undefined {
   return checks.reduce<Check["result"] | undefined>(
     (w, c) => (w === undefined || order[c.result] < order[w] ? c.result : w),

@@ -78,7 +78,6 @@ export function VehicleCommands({
         />
       )}
       <CommandButton
-        className="gt-sm"
         label={t("command.withdraw")}
         primary={false}
         progress={

@@ -209,26 +209,20 @@ function Chips({ vehicle }: { vehicle: Vehicle }) {
       {!vehicle.pose_known && <Chip symbol="a-2">{t("chip.pose_unknown")}</Chip>}
       {vehicle.link !== "never" && (
         <>
-          <span className="gt-sm">
-            <Chip>
-              {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
-            </Chip>
-          </span>
+          <Chip>
+            {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
+          </Chip>
           <Chip>
             {loaded
               ? [vehicle.load_name, mass(vehicle.load_kg)].filter(Boolean).join(", ")
               : t("chip.no_load")}
           </Chip>
-          <span className="gt-sm">
-            <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
-          </span>
-          <span className={stopped || vehicle.field_violation ? "" : "gt-sm"}>
-            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : "c-ok"}>
-              {stopped
-                ? t("chip.e_stop")
-                : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
-            </Chip>
-          </span>
+          <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
+          <Chip symbol={stopped || vehicle.field_violation ? "a-2" : "c-ok"}>
+            {stopped
+              ? t("chip.e_stop")
+              : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
+          </Chip>
         </>
       )}
     </div>

@@ -65,6 +65,10 @@ const kNoOverlays: MapOverlays = {};
 const kKeyPanPx = 60;
 const kKeyZoom = 1.25;
 const kMargins: Margins = { left: 52, top: 36, right: 24, bottom: 34 };
+/** On a phone the room is the hall's: no rulers. */
+const kPhonePx = 560;
+const kPhoneMargins: Margins = { left: 10, top: 10, right: 10, bottom: 10 };
+const marginsOf = (size: Size): Margins => (size.width < kPhonePx ? kPhoneMargins : kMargins);
 const kAgeTickMs = 250;
 
 /** Map of one hall, drawn to scale. Poses go from the store to the canvas without React. */
@@ -93,7 +97,11 @@ export function MapView(props: MapViewProps) {
   const palette = useRef<Palette>(undefined);
   const frame = useRef(0);
 
-  const allOn = useMemo(() => ({ ...allLayers, ...layers }), [layers]);
+  const phone = size !== undefined && size.width < kPhonePx;
+  const allOn = useMemo(
+    () => ({ ...allLayers, ...layers, ...(phone && { rulers: false }) }),
+    [layers, phone],
+  );
   const now = useRef({ model, size, overlays, selected, follow, layers: allOn, t });
   now.current = { model, size, overlays, selected, follow, layers: allOn, t };
 
@@ -104,7 +112,7 @@ export function MapView(props: MapViewProps) {
     if (canvas.current === null || m === undefined || s === undefined) return;
     renderer.current ??= new CanvasRenderer(canvas.current);
     palette.current ??= readPalette(canvas.current);
-    if (view.current === undefined || isFitted.current) view.current = fitted(m.box, s, kMargins);
+    if (view.current === undefined || isFitted.current) view.current = fitted(m.box, s, marginsOf(s));
     const followed =
       f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
     if (followed !== undefined) {
@@ -211,7 +219,7 @@ export function MapView(props: MapViewProps) {
     show: (points, roomM = 3) => {
       const b = boxOf(points);
       const wide = { minX: b.minX - roomM, minY: b.minY - roomM, maxX: b.maxX + roomM, maxY: b.maxY + roomM };
-      change((_, s) => fitted(wide, s, kMargins));
+      change((_, s) => fitted(wide, s, marginsOf(s)));
     },
   }));
 
