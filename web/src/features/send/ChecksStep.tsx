@@ -1,15 +1,21 @@
 import { useTranslation } from "react-i18next";
-import type { Check } from "@/shared/api/types";
 import { CheckRow, StatusSymbol } from "@/shared/ui";
 import { useTemplates, useWords } from "@/shared/words/useWords";
 import { checkWords } from "./checkWords";
+import type { ShownCheck } from "./floorCheck";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { countChecks, foldChecks, type Preview } from "./preview";
 
 /** Checks that a person may get hurt by. */
-const critical = new Set<Check["code"]>(["safety", "clearance"]);
+const critical = new Set<ShownCheck["code"]>(["safety", "clearance"]);
 
-export function ChecksStep({ preview, checks }: { preview: Preview; checks: readonly Check[] | undefined }) {
+export function ChecksStep({
+  preview,
+  checks,
+}: {
+  preview: Preview;
+  checks: readonly ShownCheck[] | undefined;
+}) {
   const { t } = useTranslation("send");
   const text = useCheckText();
   const narrow = useNarrow();
@@ -17,7 +23,7 @@ export function ChecksStep({ preview, checks }: { preview: Preview; checks: read
     return <p className="lab pad-top">{t(preview.kind === "loading" ? "checks.asking" : "checks.wait")}</p>;
   }
   const { rows, folded } = foldChecks(checks, narrow);
-  const row = (check: Check) => (
+  const row = (check: ShownCheck) => (
     <CheckRow
       key={check.code}
       result={check.result}
@@ -51,14 +57,14 @@ export function ChecksStep({ preview, checks }: { preview: Preview; checks: read
 }
 
 /** A check in words of the language shown. */
-export function useCheckText(): (check: Check) => string {
+export function useCheckText(): (check: ShownCheck) => string {
   const template = useTemplates("send");
   const words = useWords();
   return (check) => checkWords(check, words.names, template, words.reason);
 }
 
 /** "9 of 9 pass, 1 note" */
-export function useChecksSummary(): (checks: readonly Check[] | undefined) => string | undefined {
+export function useChecksSummary(): (checks: readonly ShownCheck[] | undefined) => string | undefined {
   const { t } = useTranslation("send");
   return (checks) => {
     if (!checks) return undefined;

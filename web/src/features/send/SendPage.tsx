@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import type { MotionMode, NewJobOrder } from "@/shared/api/types";
 import {
   useCommandsEnabled,
+  useClosures,
   useLive,
   useMayCommand,
   usePlant,
@@ -19,6 +20,7 @@ import { useWords } from "@/shared/words/useWords";
 import { ChecksStep, useChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
 import { MovePanel } from "./MovePanel";
+import { floorCheck } from "./floorCheck";
 import { capitalise, moveWords } from "./moveWords";
 import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
 import { isLoaded } from "./PreviewGlyphs";
@@ -87,7 +89,10 @@ export function SendPage() {
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
-  const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview });
+  const closures = useClosures();
+  const floor = floorCheck(feasible, closures);
+  const checks = data && [...data.checks, ...(floor ? [floor] : [])];
+  const canStart = readiness({ vehicle, station: station?.number, mode, linkUp, mayCommand, preview, floor });
 
   const body = useMemo<NewJobOrder | undefined>(
     () =>
@@ -207,11 +212,11 @@ export function SendPage() {
             }}
           />
         </Step>
-        <Step number={4} title={t("checks.title")} right={summary(data?.checks)} open={current === 4}>
+        <Step number={4} title={t("checks.title")} right={summary(checks)} open={current === 4}>
           {preview.kind === "failed" ? (
             <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={retry} />
           ) : (
-            <ChecksStep preview={preview} checks={data?.checks} />
+            <ChecksStep preview={preview} checks={checks} />
           )}
         </Step>
       </div>

@@ -135,6 +135,11 @@ describe("readiness", () => {
       "failed",
     ],
   ])("%s", (_, change, kind) => expect(readiness({ ...ok, ...change }).kind).toBe(kind));
+  it("holds the move that leads over closed floor", () => {
+    const floor = { code: "floor", result: "fail", params: {} } as const;
+    expect(readiness({ ...ok, floor })).toEqual({ kind: "check", check: floor });
+    expect(readiness({ ...ok, floor: { ...floor, result: "pass" } }).kind).toBe("ready");
+  });
   it("names the infeasible mode before its check", () => {
     expect(readiness({ ...ok, mode: "auto", preview: { kind: "ready", data: data() } }).kind).toBe("ready");
     expect(readiness({ ...ok, mode: "self_rotation" as never }).kind).toBe("infeasible");

@@ -19,7 +19,7 @@ import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { CameraCard } from "./CameraCard";
 import { feetDown } from "./faceplate";
-import { InitPositionCard } from "./InitPositionCard";
+import { ElsewhereCard } from "./ElsewhereCard";
 import { IntegrationCard } from "./IntegrationCard";
 import { summarise } from "./loads";
 import { PlatformDrawing } from "./PlatformDrawing";
@@ -91,7 +91,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
     );
   const why = (
     <>
-      {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
+      <ElsewhereCard key={vehicle.id} vehicle={vehicle} plant={plant} refused={refused} />
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />

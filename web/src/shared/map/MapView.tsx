@@ -55,8 +55,8 @@ export interface MapViewProps {
   follow?: string | undefined;
   onFollowEnd?: () => void;
   onPick?: (picked: Picked) => void;
-  /** What a press means where a vehicle stands on a station. */
-  prefer?: "vehicle" | "station";
+  /** What a press means where a vehicle stands on a station; "point" takes the bare floor. */
+  prefer?: "vehicle" | "station" | "point";
   label?: string;
   ref?: Ref<MapHandle>;
 }
@@ -133,6 +133,7 @@ export function MapView(props: MapViewProps) {
         vehicles: state.vehicles,
         stations: state.stations,
         poses,
+        closures: state.closures,
         linkLost: state.link.kind === "lost",
       },
       words: {
@@ -244,7 +245,7 @@ export function MapView(props: MapViewProps) {
     <div className="mapbox" ref={box}>
       <canvas
         ref={canvas}
-        className={`canvas ${prefer === "station" && onPick ? "picks" : ""}`}
+        className={`canvas ${prefer !== "vehicle" && onPick ? "picks" : ""}`}
         tabIndex={0}
         role="application"
         lang={i18n.language === "zh" ? "zh-CN" : "en"}

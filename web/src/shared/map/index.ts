@@ -7,3 +7,5 @@ export {
   type Picked,
 } from "./MapView";
 export { MapControls } from "./MapControls";
+export { closurePlace } from "./drawClosures";
+export { hallModel, type HallModel, type Lane } from "./scene";
