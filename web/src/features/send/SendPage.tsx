@@ -23,8 +23,8 @@ import { MovePanel } from "./MovePanel";
 import { floorCheck } from "./floorCheck";
 import { capitalise, moveWords } from "./moveWords";
 import { chosenOption, previewKey, readiness, sortOptions } from "./preview";
-import { isLoaded } from "./PreviewGlyphs";
 import { PreviewMap } from "./PreviewMap";
+import { isLoaded } from "./previewOverlays";
 import { Measures } from "./PreviewPanel";
 import { moveProgress } from "./progress";
 import { StartBar } from "./StartBar";
@@ -36,6 +36,8 @@ import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
 import "./send.css";
 import "./send-narrow.css";
+
+const kNone: readonly never[] = [];
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
 export function SendPage() {
@@ -135,9 +137,8 @@ export function SendPage() {
   const current = openStep ?? (!vehicle ? 1 : !station ? 2 : 4);
   const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
   const unreachable = noWay ? step.options.find((o) => o.reason)?.reason : undefined;
-  const target = orderId
-    ? order?.steps[Math.min(order.current_step, order.steps.length - 1)]?.number
-    : station?.number;
+  const target = order?.steps[Math.min(order.current_step, order.steps.length - 1)]?.number;
+  const shownStation = orderId ? plant?.stations.find((s) => s.number === target) : station;
 
   const title =
     vehicle && station
@@ -243,12 +244,10 @@ export function SendPage() {
           {plant && streamReady ? (
             <PreviewMap
               plant={plant}
-              vehicles={allVehicles}
-              states={states}
               vehicle={orderId ? mover : vehicle}
-              target={target}
+              station={shownStation}
               option={orderId ? undefined : feasible}
-              options={orderId ? [] : leadThere}
+              options={orderId ? kNone : leadThere}
               looked={looked}
               leg={orderId ? mover?.leg : undefined}
               picking={(picking || !station) && !orderId}

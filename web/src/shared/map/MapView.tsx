@@ -12,7 +12,7 @@ import { useTranslation } from "react-i18next";
 import type { Plant } from "@/shared/api/types";
 import { useTheme } from "@/shared/i18n/useTheme";
 import { liveStore } from "@/shared/live/store";
-import { boxOf, type MetricPoint } from "@/shared/math/geometry";
+import { boxOf, type Box, type MetricPoint } from "@/shared/math/geometry";
 import "./map.css";
 import { readPalette, type Palette } from "./palette";
 import { Picker, type Picked } from "./pick";
@@ -49,6 +49,8 @@ export interface MapViewProps {
   hall?: string;
   layers?: Partial<MapLayers>;
   overlays?: MapOverlays;
+  /** What is shown while the person has not moved the map; the whole hall by default. */
+  about?: readonly MetricPoint[];
   /** Vehicle drawn in blue, with its route. */
   selected?: string | undefined;
   /** Keeps this vehicle in the middle until the person moves the map. */
@@ -71,6 +73,22 @@ const kPhoneMargins: Margins = { left: 10, top: 10, right: 10, bottom: 10 };
 const marginsOf = (size: Size): Margins => (size.width < kPhonePx ? kPhoneMargins : kMargins);
 const kAgeTickMs = 250;
 
+const kRoom = 0.12;
+const kLeastM = 12;
+
+/** The view that nobody has changed: the whole hall, or what the page is about with some room round it. */
+function home(hall: Box, about: readonly MetricPoint[] | undefined, size: Size): View {
+  if (about === undefined || about.length === 0) return fitted(hall, size, marginsOf(size));
+  const b = boxOf(about);
+  const x = Math.max(kRoom * (b.maxX - b.minX), (kLeastM - (b.maxX - b.minX)) / 2);
+  const y = Math.max(kRoom * (b.maxY - b.minY), (kLeastM - (b.maxY - b.minY)) / 2);
+  return fitted(
+    { minX: b.minX - x, maxX: b.maxX + x, minY: b.minY - y, maxY: b.maxY + y },
+    size,
+    marginsOf(size),
+  );
+}
+
 /** Map of one hall, drawn to scale. Poses go from the store to the canvas without React. */
 export function MapView(props: MapViewProps) {
   const {
@@ -80,6 +98,7 @@ export function MapView(props: MapViewProps) {
     overlays = kNoOverlays,
     selected,
     follow,
+    about,
     prefer = "vehicle",
     onPick,
     onFollowEnd,
@@ -102,8 +121,8 @@ export function MapView(props: MapViewProps) {
     () => ({ ...allLayers, ...layers, ...(phone && { rulers: false }) }),
     [layers, phone],
   );
-  const now = useRef({ model, size, overlays, selected, follow, layers: allOn, t });
-  now.current = { model, size, overlays, selected, follow, layers: allOn, t };
+  const now = useRef({ model, size, overlays, selected, follow, about, layers: allOn, t });
+  now.current = { model, size, overlays, selected, follow, about, layers: allOn, t };
 
   const draw = useRef(() => {});
   draw.current = () => {
@@ -112,7 +131,7 @@ export function MapView(props: MapViewProps) {
     if (canvas.current === null || m === undefined || s === undefined) return;
     renderer.current ??= new CanvasRenderer(canvas.current);
     palette.current ??= readPalette(canvas.current);
-    if (view.current === undefined || isFitted.current) view.current = fitted(m.box, s, marginsOf(s));
+    if (view.current === undefined || isFitted.current) view.current = home(m.box, now.current.about, s);
     const followed =
       f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
     if (followed !== undefined) {
@@ -177,9 +196,11 @@ export function MapView(props: MapViewProps) {
     request.current();
   }, [theme]);
   useEffect(() => request.current());
+  const place = about && JSON.stringify(boxOf(about));
   useEffect(() => {
     isFitted.current = true;
-  }, [model]);
+    request.current();
+  }, [model, place]);
 
   const change = (next: (v: View, s: Size) => View, ends = true) => {
     const { size: s, model: m } = now.current;

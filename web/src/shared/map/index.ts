@@ -8,4 +8,5 @@ export {
 } from "./MapView";
 export { MapControls } from "./MapControls";
 export { closurePlace } from "./drawClosures";
+export type { Dimension, SweptArea } from "./scene";
 export { hallModel, type HallModel, type Lane } from "./scene";

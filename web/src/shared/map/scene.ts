@@ -15,14 +15,33 @@ import type {
 import { boxOf, type Box } from "@/shared/math/geometry";
 import type { LivePose } from "@/shared/live/store";
 
+export interface SweptArea {
+  rings: readonly Ring[];
+  look: "chosen" | "looked" | "other";
+  /** Tells the outlines of the others apart. */
+  dash: readonly number[];
+}
+
+/** Where the line of a dimension and its two extension lines run, and what it says. */
+export interface Dimension {
+  from: Point;
+  to: Point;
+  extensions: readonly (readonly Point[])[];
+  text: string;
+}
+
 /** What a page lays over the hall: the preview of a move. */
 export interface MapOverlays {
-  /** Outline of platform and load all along the move. */
-  swept?: readonly Ring[];
+  /** Outlines of platform and load all along the move, one a way to drive it; the chosen one last. */
+  areas?: readonly SweptArea[];
   /** The line the vehicle's centre takes. */
   path?: readonly Point[];
-  /** Outline of a vehicle of `type` where the move ends. */
-  ghost?: { pose: Pose; type: string };
+  /** Outline of a vehicle of `type`, with its load if it carries one, where the move ends. */
+  ghost?: { pose: Pose; type: string; loaded?: boolean };
+  /** A length beside a straight drive. */
+  dimension?: Dimension;
+  /** Arc of a turn on the spot and its angle in words. */
+  turn?: { points: readonly Point[]; text: string };
   /** Station the move leads to. */
   target?: string;
   /** Places to point out, e.g. where the clearance is least. */
