@@ -46,9 +46,8 @@ function hand(page) {
 }
 /** Arms a command and presses again once a second press counts. */
 async function twice(me, page, name) {
-  await me.press(page.getByRole("button", { name }));
-  await page.locator("[data-state=armed]").waitFor();
-  await page.getByText(/[67] s/).first().waitFor();
+  await me.press(page.locator("button.cmd", { hasText: name }));
+  await page.locator("[data-state=armed]").getByText(/[1-7] s/).waitFor();
   await me.press(page.locator("[data-state=armed]"));
 }
 
@@ -57,14 +56,14 @@ test("an area is closed in five presses, bars the way in Send, and is reopened",
   const me = hand(page);
   await page.locator("canvas.canvas").waitFor();
   await me.press(page.getByRole("button", { name: "Close floor" }));
-  await me.pressMap(13, 24);
-  await me.pressMap(18, 29);
-  await twice(me, page, /^Close this floor/);
+  await me.pressMap(12, 28);
+  await me.pressMap(18, 23);
+  await twice(me, page, "Close this floor");
   const closed = await until("the floor is closed", async () => (await client.get("/api/v1/traffic")).closures[0], { timeout_s: 5, every_ms: 50 });
   assert.ok(me.presses <= 5, `${me.presses} presses`);
   const xs = closed.outline.map((p) => p.x_m);
   const ys = closed.outline.map((p) => p.y_m);
-  for (const [got, want] of [[Math.min(...xs), 13], [Math.max(...xs), 18], [Math.min(...ys), 24], [Math.max(...ys), 29]]) {
+  for (const [got, want] of [[Math.min(...xs), 12], [Math.max(...xs), 18], [Math.min(...ys), 23], [Math.max(...ys), 28]]) {
     assert.ok(Math.abs(got - want) < 0.5, `${got} is where ${want} was pressed`);
   }
   const row = page.locator(".closures li", { hasText: "Work" });
@@ -84,7 +83,7 @@ test("an area is closed in five presses, bars the way in Send, and is reopened",
   await picture(other, "send-floor-1920");
   await other.context().close();
 
-  await twice(me, page, /^Reopen/);
+  await twice(me, page, "Reopen");
   await page.getByText("No floor is closed.").waitFor();
   assert.deepEqual((await client.get("/api/v1/traffic")).closures, []);
   assert.deepEqual(page.errors, []);
@@ -102,7 +101,7 @@ test("a lane is closed with both its directions in four presses", async () => {
   await me.press(page.getByRole("button", { name: "Close floor" }));
   await me.pressMap((far.a.x_m + far.b.x_m) / 2, (far.a.y_m + far.b.y_m) / 2);
   await page.getByText(/1 lane is marked/).waitFor();
-  await twice(me, page, /^Close this floor/);
+  await twice(me, page, "Close this floor");
   const closed = await until("the lane is closed", async () => (await client.get("/api/v1/traffic")).closures[0], { timeout_s: 5, every_ms: 50 });
   assert.equal(me.presses, 4);
   assert.ok(closed.edges.includes(far.id));
@@ -123,7 +122,7 @@ test("a vehicle is told on the map that it stands at a station, in four presses,
   const station = system.plant.station(18);
   await me.pressMap(station.pose.x_m, station.pose.y_m);
   await page.getByText(/At station 18/).waitFor();
-  await twice(me, page, /^Set position/);
+  await twice(me, page, "Set position");
   assert.equal(me.presses, 4);
   const near = (v, x, y) => v.pose_known && Math.hypot(v.pose.x_m - x, v.pose.y_m - y) < 0.05;
   await client.untilVehicle("MV-01", (v) => near(v, station.pose.x_m, station.pose.y_m), "stands at 18");
@@ -134,7 +133,7 @@ test("a vehicle is told on the map that it stands at a station, in four presses,
   await page.getByRole("button", { name: "One step east" }).click();
   await page.getByRole("button", { name: "0.01 m, 0.1°" }).click();
   await page.getByRole("button", { name: "One step north" }).click();
-  await twice(me, page, /^Set position/);
+  await twice(me, page, "Set position");
   await client.untilVehicle("MV-01", (v) => Math.abs(v.pose.x_m - station.pose.x_m - 0.1) < 0.005 && Math.abs(v.pose.y_m - station.pose.y_m - 0.01) < 0.005, "stands a step farther");
   assert.deepEqual(page.errors, []);
   await page.context().close();
@@ -143,13 +142,14 @@ test("a vehicle is told on the map that it stands at a station, in four presses,
 test("a busy vehicle's place is refused in words", async () => {
   await client.untilReady("TP-01");
   const order = await client.order("TP-01", [3]);
-  await client.untilVehicle("TP-01", (v) => v.leg !== undefined, "is on its way");
+  await client.untilVehicle("TP-01", (v) => v.activity === "moving", "is on its way");
   const page = await signedIn(browser, system, "operator");
   const me = hand(page);
   await page.goto(`${system.url}/map?place=TP-01`);
   await page.getByRole("button", { name: "One step east" }).click();
-  await twice(me, page, /^Set position/);
-  await page.getByRole("alert").filter({ hasText: /order/ }).first().waitFor({ timeout: 5_000 });
+  await twice(me, page, "Set position");
+  await page.locator(".tool [role=alert]").waitFor({ timeout: 10_000 });
+  assert.match(await page.locator(".tool [role=alert]").innerText(), /TP-01.*order|order.*TP-01/);
   await client.post(`/api/v1/job-orders/${order.id}/cancel`);
   await page.context().close();
 });

@@ -4,7 +4,7 @@ import { api, call } from "@/shared/api";
 import type { Vehicle } from "@/shared/api/types";
 import { useCommandsEnabled, useMayCommand } from "@/shared/live";
 import { Button, CommandButton, Icon, type CommandProgress } from "@/shared/ui";
-import { useCommand } from "@/shared/ui/useCommand";
+import { useCommand, type Asked } from "@/shared/ui/useCommand";
 import { heading, number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { kSteps, nudged, standsAt, type Axis, type PlaceDraft } from "./placeTool";
@@ -27,7 +27,7 @@ export function PlacePanel({ vehicle, draft, onDraft, onClose }: PlacePanelProps
   const may = useMayCommand();
   const { pose } = draft;
   const { id } = vehicle;
-  const { asked, run } = useCommand(
+  const { asked, run, reset } = useCommand(
     useCallback(
       () =>
         pose === undefined
@@ -36,19 +36,18 @@ export function PlacePanel({ vehicle, draft, onDraft, onClose }: PlacePanelProps
       [id, pose],
     ),
   );
-  const late = useLate(asked.kind === "stored", asked.kind === "stored" ? asked.atMs : 0);
   const taken =
     pose !== undefined && vehicle.pose_known && !vehicle.claimed_pose && standsAt(vehicle.pose, pose);
-  const progress: CommandProgress =
-    asked.kind === "requested"
-      ? { kind: "requested", atMs: asked.atMs }
-      : asked.kind !== "stored"
-        ? { kind: "ready" }
-        : taken
-          ? { kind: "confirmed", by: vehicle.name, afterS: 0 }
-          : late
-            ? { kind: "timed_out", what: t("place.late"), next: t("place.late_next") }
-            : { kind: "accepted", waitingFor: vehicle.name };
+  const settled = useSettled(asked, taken);
+  const progress = ((): CommandProgress => {
+    if (asked.kind === "requested") return { kind: "requested", atMs: asked.atMs };
+    if (asked.kind !== "stored") return { kind: "ready" };
+    if (settled === undefined) return { kind: "accepted", waitingFor: vehicle.name };
+    return settled === "late"
+      ? { kind: "timed_out", what: t("place.late"), next: t("place.late_next") }
+      : { kind: "confirmed", by: vehicle.name, afterS: settled };
+  })();
+  useEffect(() => reset(), [pose, reset]);
   const shown = pose ?? vehicle.pose;
   const value = (axis: Axis) =>
     shown === undefined
@@ -132,14 +131,20 @@ export function PlacePanel({ vehicle, draft, onDraft, onClose }: PlacePanelProps
   );
 }
 
-/** True when a stored command has waited long for the vehicle. */
-function useLate(waits: boolean, sinceMs: number): boolean {
-  const [late, setLate] = useState(false);
+/** Seconds after which the vehicle took what was stored; "late" when it has not for long. */
+function useSettled(asked: Asked, taken: boolean): number | "late" | undefined {
+  const [settled, setSettled] = useState<number | "late">();
+  const sinceMs = asked.kind === "stored" ? asked.atMs : undefined;
+  useEffect(() => setSettled(undefined), [sinceMs]);
   useEffect(() => {
-    setLate(false);
-    if (!waits) return;
-    const timer = setTimeout(() => setLate(true), Math.max(0, kConfirmMs - (performance.now() - sinceMs)));
+    if (sinceMs === undefined) return;
+    const pastMs = performance.now() - sinceMs;
+    if (taken) {
+      setSettled((was) => (typeof was === "number" ? was : pastMs / 1000));
+      return;
+    }
+    const timer = setTimeout(() => setSettled((was) => was ?? "late"), Math.max(0, kConfirmMs - pastMs));
     return () => clearTimeout(timer);
-  }, [waits, sinceMs]);
-  return late;
+  }, [taken, sinceMs]);
+  return settled;
 }
