@@ -140,17 +140,18 @@ test("a vehicle is told on the map that it stands at a station, in four presses,
 });
 
 test("a busy vehicle's place is refused in words", async () => {
-  await client.untilReady("TP-01");
-  const order = await client.order("TP-01", [3]);
-  await client.untilVehicle("TP-01", (v) => v.activity === "moving", "is on its way");
   const page = await signedIn(browser, system, "operator");
   const me = hand(page);
   await page.goto(`${system.url}/map?place=TP-01`);
   await page.getByRole("button", { name: "One step east" }).click();
+  const order = await client.order("TP-01", [7, 1, 7]);
+  await client.untilVehicle("TP-01", (v) => v.activity === "moving", "is on its way");
   await twice(me, page, "Set position");
-  await page.locator(".tool [role=alert]").waitFor({ timeout: 10_000 });
-  assert.match(await page.locator(".tool [role=alert]").innerText(), /TP-01.*order|order.*TP-01/);
+  const alert = page.locator(".tool [role=alert]");
+  await alert.waitFor({ timeout: 10_000 });
+  assert.match(await alert.innerText(), /TP-01 is busy/);
   await client.post(`/api/v1/job-orders/${order.id}/cancel`);
+  assert.deepEqual(page.errors, []);
   await page.context().close();
 });
 
