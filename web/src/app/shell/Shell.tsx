@@ -6,6 +6,7 @@ import { useTheme } from "@/shared/i18n/useTheme";
 import { Link, useLocation } from "@/shared/router";
 import { timeOfDay } from "@/shared/i18n/format";
 import { Button, Icon, type IconName } from "@/shared/ui";
+import "./shell-narrow.css";
 import { AlarmCounts } from "./AlarmCounts";
 import { Banners } from "./Banners";
 import { Connection } from "./Connection";
@@ -34,7 +35,7 @@ function LanguageChoice() {
   const { t, i18n } = useTranslation();
   const zh = i18n.language === "zh";
   return (
-    <div className="cell">
+    <div className="cell lang">
       <div className="seg" role="group" aria-label={t("language")}>
         <button type="button" lang="en" aria-pressed={!zh} onClick={() => void setLanguage("en")}>
           EN
@@ -51,7 +52,7 @@ function ThemeToggle() {
   const { t } = useTranslation();
   const theme = useTheme();
   return (
-    <div className="cell gt-sm">
+    <div className="cell theme">
       <Button
         quiet
         icon="sun"
@@ -100,7 +101,10 @@ export function Shell({ children }: { children: ReactNode }) {
         <Clock />
         <ThemeToggle />
         <LanguageChoice />
-        <UserMenu />
+        <UserMenu>
+          <ThemeToggle />
+          <LanguageChoice />
+        </UserMenu>
         <PauseFleet />
       </header>
       <nav className="rail" aria-label={t("nav.label")}>

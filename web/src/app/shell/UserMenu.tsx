@@ -1,4 +1,4 @@
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useRef, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { useSession } from "@/shared/live";
 import { signOut } from "@/shared/live/session";
@@ -12,7 +12,8 @@ const initials = (name: string) =>
     .map((part) => part[0]?.toUpperCase() ?? "")
     .join("");
 
-export function UserMenu() {
+/** Who is signed in, and the way out; `children` is what a small header has no room for. */
+export function UserMenu({ children }: { children: ReactNode }) {
   const { t } = useTranslation();
   const session = useSession();
   const [open, setOpen] = useState(false);
@@ -46,6 +47,7 @@ export function UserMenu() {
       </button>
       {open && (
         <div className="note menu">
+          {children}
           <Button quiet icon="out" onPress={() => void signOut()}>
             {t("user.sign_out")}
           </Button>

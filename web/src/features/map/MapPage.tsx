@@ -1,13 +1,29 @@
-import { useEffect, useRef, useState } from "react";
+import { useEffect, useMemo, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
-import { usePlant } from "@/shared/live";
-import { MapControls, MapView, type MapHandle, type Picked } from "@/shared/map";
+import type { Closure } from "@/shared/api/types";
+import { useClosures, useMayCommand, usePlant, useVehicle } from "@/shared/live";
+import {
+  closurePlace,
+  hallModel,
+  MapControls,
+  MapView,
+  type MapHandle,
+  type MapOverlays,
+  type Picked,
+} from "@/shared/map";
 import { Link, navigate, useLocation } from "@/shared/router";
 import { Icon, PanelFailed, PanelLoading } from "@/shared/ui";
+import { FloorPanel } from "./FloorPanel";
+import { emptyFloor, outlineOf, pressed } from "./floorTool";
 import { Legend } from "./Legend";
 import "./map-page.css";
+import "./map-tools.css";
 import { OrderStrip } from "./OrderStrip";
+import { PlacePanel } from "./PlacePanel";
+import { emptyPlace, placePressed } from "./placeTool";
 import { VehicleList } from "./VehicleList";
+
+const kNoOverlays: MapOverlays = {};
 
 /** The hall with all that moves, beside it the same in words. */
 export function MapPage() {
@@ -19,7 +35,18 @@ export function MapPage() {
   const [following, setFollowing] = useState(false);
   const [find, setFind] = useState("");
   const [station, setStation] = useState<string>();
+  const placing = useVehicle(query.get("place") ?? undefined);
+  const tool = placing ? "place" : query.has("floor") ? "floor" : undefined;
+  const [floor, setFloor] = useState(emptyFloor);
+  const [place, setPlace] = useState(emptyPlace);
+  const closures = useClosures();
+  const mayCommand = useMayCommand();
+  const model = useMemo(() => plant.data && hallModel(plant.data), [plant.data]);
 
+  useEffect(() => {
+    setFloor(emptyFloor);
+    setPlace(emptyPlace);
+  }, [tool, placing?.id]);
   useEffect(() => {
     if (selected === undefined) setFollowing(false);
   }, [selected]);
@@ -29,6 +56,15 @@ export function MapPage() {
       replace: true,
     });
   const pick = (picked: Picked) => {
+    if (tool === "floor" && picked.kind === "point" && model) {
+      setFloor((draft) => pressed(draft, model.lanes, picked.point, picked.reach_m));
+      return;
+    }
+    if (tool === "place" && placing && plant.data) {
+      const { data } = plant;
+      setPlace((draft) => placePressed(draft, picked, data, placing.pose?.heading_rad ?? 0));
+      return;
+    }
     if (picked.kind === "vehicle") select(picked.id === selected ? undefined : picked.id);
     if (picked.kind === "station") setFind(String(picked.number));
     if (picked.kind === "point") {
@@ -43,7 +79,14 @@ export function MapPage() {
     if (pose !== undefined) map.current?.show([pose], 12);
   };
 
-  if (plant.data === undefined) {
+  const showClosure = (closure: Closure) => {
+    const at = model && closurePlace(model, closure);
+    if (at !== undefined) map.current?.show(closure.outline ?? [at], 12);
+  };
+  const openTool = (what: string) => navigate(`/map?${what}`, { replace: true });
+  const closeTool = () => select(tool === "place" ? placing?.id : undefined);
+
+  if (plant.data === undefined || model === undefined) {
     return (
       <div className="card">
         {plant.isError ? (
@@ -54,20 +97,48 @@ export function MapPage() {
       </div>
     );
   }
+  const overlays: MapOverlays =
+    tool === "floor"
+      ? {
+          closing: {
+            edges: [...floor.edges],
+            ...(floor.area && { outline: outlineOf(floor.area) }),
+            ...(floor.corner && { corner: floor.corner }),
+          },
+        }
+      : tool === "place" && placing && place.pose
+        ? { ghost: { pose: place.pose, type: placing.type } }
+        : station !== undefined
+          ? { target: station }
+          : kNoOverlays;
   return (
-    <div className="mappage">
+    <div className={`mappage ${tool ? "tooled" : ""}`}>
       <section className="left" aria-label={t("title")}>
         <h1 className="unseen">{t("title")}</h1>
         <MapView
           ref={map}
           plant={plant.data}
-          selected={selected}
+          selected={placing?.id ?? selected}
+          prefer={tool === "floor" ? "point" : tool === "place" ? "station" : "vehicle"}
           follow={following ? selected : undefined}
           onFollowEnd={() => setFollowing(false)}
           onPick={pick}
-          {...(station !== undefined && { overlays: { target: station } })}
+          overlays={overlays}
         />
         <Legend revision={plant.data.revision}>
+          {(mayCommand || closures.length > 0) && (
+            <button
+              type="button"
+              className="btn floorbtn"
+              aria-pressed={tool === "floor"}
+              onClick={() => (tool === "floor" ? closeTool() : openTool("floor"))}
+            >
+              <Icon name="x" />
+              <span>
+                {closures.length > 0 ? t("floor.tool_closed", { count: closures.length }) : t("floor.tool")}
+              </span>
+            </button>
+          )}
           <MapControls
             map={map}
             follow={{
@@ -80,23 +151,42 @@ export function MapPage() {
         <OrderStrip />
       </section>
       <aside className="card side">
-        <VehicleList
-          find={find}
-          onFind={setFind}
-          selected={selected}
-          onSelect={(id) => select(id === selected ? undefined : id)}
-          station={station}
-          onStation={showStation}
-        />
-        <div className="cta">
-          <Link
-            className="btn primary motion"
-            to={selected === undefined ? "/send" : `/send?vehicle=${encodeURIComponent(selected)}`}
-          >
-            <Icon name="send" />
-            <span>{t("send")}</span>
-          </Link>
-        </div>
+        {tool === "floor" ? (
+          <FloorPanel
+            model={model}
+            draft={floor}
+            onDraft={setFloor}
+            onShow={showClosure}
+            onClose={closeTool}
+          />
+        ) : tool === "place" && placing ? (
+          <PlacePanel vehicle={placing} draft={place} onDraft={setPlace} onClose={closeTool} />
+        ) : (
+          <>
+            <VehicleList
+              find={find}
+              onFind={setFind}
+              selected={selected}
+              onSelect={(id) => select(id === selected ? undefined : id)}
+              station={station}
+              onStation={showStation}
+            />
+            <div className="cta">
+              {selected !== undefined && mayCommand && (
+                <Link className="btn" to={`/map?place=${encodeURIComponent(selected)}`}>
+                  {t("place.link")}
+                </Link>
+              )}
+              <Link
+                className="btn primary motion"
+                to={selected === undefined ? "/send" : `/send?vehicle=${encodeURIComponent(selected)}`}
+              >
+                <Icon name="send" />
+                <span>{t("send")}</span>
+              </Link>
+            </div>
+          </>
+        )}
       </aside>
     </div>
   );

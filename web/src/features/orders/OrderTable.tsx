@@ -71,8 +71,12 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
       </td>
       <td>{vehicle ? words.vehicle(vehicle) : t("any_vehicle")}</td>
       <td className="wrap">{order.reason ? words.reason(order.reason) : ""}</td>
-      <td className="n">{(isOpen(order) && expected.clock(order.expected_at)) || "\u2013"}</td>
-      <td className="n">{dateTime(order.created_at, now)}</td>
+      <td className="n" data-label={t("col.expected")}>
+        {(isOpen(order) && expected.clock(order.expected_at)) || "\u2013"}
+      </td>
+      <td className="n" data-label={t("col.created")}>
+        {dateTime(order.created_at, now)}
+      </td>
     </tr>
   );
 }

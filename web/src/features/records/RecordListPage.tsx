@@ -112,13 +112,25 @@ export function RecordListPage() {
                     </Link>
                   </td>
                   <td className="b">{words.vehicle(s.vehicle)}</td>
-                  <td className="b">{s.number}</td>
+                  <td className="b" data-label={t("col.station")}>
+                    {s.number}
+                  </td>
                   <td>{words.modeShort(s.mode)}</td>
-                  <td className="n">{millimetres(s.dx_m, { decimals: 2, sign: true })}</td>
-                  <td className="n">{millimetres(s.dy_m, { decimals: 2, sign: true })}</td>
-                  <td className="n">{degrees(s.dheading_rad, { sign: true })}</td>
-                  <td className="n">{millimetres(distance_m(s), { decimals: 2 })}</td>
-                  <td className="n">{s.attempt}</td>
+                  <td className="n" data-label="dx mm">
+                    {millimetres(s.dx_m, { decimals: 2, sign: true })}
+                  </td>
+                  <td className="n" data-label="dy mm">
+                    {millimetres(s.dy_m, { decimals: 2, sign: true })}
+                  </td>
+                  <td className="n" data-label="dθ °">
+                    {degrees(s.dheading_rad, { sign: true })}
+                  </td>
+                  <td className="n" data-label={t("col.distance")}>
+                    {millimetres(distance_m(s), { decimals: 2 })}
+                  </td>
+                  <td className="n" data-label={t("col.attempt")}>
+                    {s.attempt}
+                  </td>
                   <td className="res">
                     <StatusSymbol name={s.inside ? "c-ok" : "a-2"} />
                     <span>{t(s.inside ? "inside" : "outside")}</span>

@@ -1,12 +1,13 @@
 import { useTranslation } from "react-i18next";
-import type { Check } from "@/shared/api/types";
-import { CheckRow } from "@/shared/ui";
+import { CheckRow, StatusSymbol } from "@/shared/ui";
 import { useTemplates, useWords } from "@/shared/words/useWords";
 import { checkWords } from "./checkWords";
-import { countChecks, sortChecks, type Preview } from "./preview";
+import type { ShownCheck } from "./floorCheck";
+import { useNarrow } from "@/shared/ui/useNarrow";
+import { countChecks, foldChecks, type Preview } from "./preview";
 
 /** Checks that a person may get hurt by. */
-const critical = new Set<Check["code"]>(["safety", "clearance"]);
+const critical = new Set<ShownCheck["code"]>(["safety", "clearance"]);
 
 export function ChecksStep({
   preview,
@@ -14,16 +15,28 @@ export function ChecksStep({
   instead,
 }: {
   preview: Preview;
-  checks: readonly Check[] | undefined;
+  checks: readonly ShownCheck[] | undefined;
   /** Why there are no checks, when it is not that nothing has been chosen yet. */
   instead: string | undefined;
 }) {
   const { t } = useTranslation("send");
   const text = useCheckText();
+  const narrow = useNarrow();
   if (!checks) {
     const wait = preview.kind === "loading" ? "checks.asking" : "checks.wait";
     return <p className="lab pad-top">{instead ?? t(wait)}</p>;
   }
+  const { rows, folded } = foldChecks(checks, narrow);
+  const row = (check: ShownCheck) => (
+    <CheckRow
+      key={check.code}
+      result={check.result}
+      name={t(`checks.name.${check.code}`)}
+      value={text(check)}
+      ageS={check.age_s}
+      critical={critical.has(check.code)}
+    />
+  );
   return (
     <div
       className="checks"
@@ -32,22 +45,23 @@ export function ChecksStep({
       tabIndex={0}
       aria-busy={preview.kind === "loading"}
     >
-      {sortChecks(checks).map((check) => (
-        <CheckRow
-          key={check.code}
-          result={check.result}
-          name={t(`checks.name.${check.code}`)}
-          value={text(check)}
-          ageS={check.age_s}
-          critical={critical.has(check.code)}
-        />
-      ))}
+      {rows.map(row)}
+      {folded.length > 0 && (
+        <details className="folded">
+          <summary>
+            <StatusSymbol name="c-ok" />
+            <b>{t("checks.folded", { count: folded.length })}</b>
+            <span className="lab">{folded.map((c) => t(`checks.name.${c.code}`)).join(t("words.join"))}</span>
+          </summary>
+          {folded.map(row)}
+        </details>
+      )}
     </div>
   );
 }
 
 /** A check in words of the language shown. */
-export function useCheckText(): (check: Check) => string {
+export function useCheckText(): (check: ShownCheck) => string {
   const template = useTemplates("send");
   const words = useWords();
   return (check) => {
@@ -58,7 +72,7 @@ export function useCheckText(): (check: Check) => string {
 }
 
 /** "9 of 9 pass, 1 note" */
-export function useChecksSummary(): (checks: readonly Check[] | undefined) => string | undefined {
+export function useChecksSummary(): (checks: readonly ShownCheck[] | undefined) => string | undefined {
   const { t } = useTranslation("send");
   return (checks) => {
     if (!checks) return undefined;

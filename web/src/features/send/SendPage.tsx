@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import type { MotionMode, NewJobOrder } from "@/shared/api/types";
 import {
   useCommandsEnabled,
+  useClosures,
   useLive,
   useMayCommand,
   usePlant,
@@ -20,10 +21,11 @@ import { ChecksStep, useChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
 import { MoveBar } from "./MoveBar";
 import { MovePanel } from "./MovePanel";
+import { floorCheck } from "./floorCheck";
 import { capitalise, moveWords } from "./moveWords";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview";
-import { isLoaded } from "./PreviewGlyphs";
 import { PreviewMap } from "./PreviewMap";
+import { isLoaded } from "./previewOverlays";
 import { Measures } from "./PreviewPanel";
 import { moveProgress } from "./progress";
 import { StartBar } from "./StartBar";
@@ -35,6 +37,9 @@ import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
 import { useWhyNot } from "./whyNot";
 import "./send.css";
+import "./send-narrow.css";
+
+const kNone: readonly never[] = [];
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */
 export function SendPage() {
@@ -93,7 +98,10 @@ export function SendPage() {
   const option = chosenOption(step, mode);
   const feasible = option?.feasible ? option : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
-  const canStart = readiness({ vehicle, entry, mode, linkUp, mayCommand, preview });
+  const closures = useClosures();
+  const floor = floorCheck(feasible, closures);
+  const checks = data && [...data.checks, ...(floor ? [floor] : [])];
+  const canStart = readiness({ vehicle, entry, mode, linkUp, mayCommand, preview, floor });
   const { why, instead } = useWhyNot(canStart);
 
   const body = useMemo<NewJobOrder | undefined>(
@@ -137,9 +145,8 @@ export function SendPage() {
   const current = openStep ?? (!vehicle ? 1 : !station ? 2 : 4);
   const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
   const unreachable = noWay ? step.options.find((o) => o.reason)?.reason : undefined;
-  const target = orderId
-    ? order?.steps[Math.min(order.current_step, order.steps.length - 1)]?.number
-    : station?.number;
+  const target = order?.steps[Math.min(order.current_step, order.steps.length - 1)]?.number;
+  const shownStation = orderId ? plant?.stations.find((s) => s.number === target) : station;
 
   const title =
     vehicle && station
@@ -215,11 +222,11 @@ export function SendPage() {
             }}
           />
         </Step>
-        <Step number={4} title={t("checks.title")} right={summary(data?.checks)} open={current === 4}>
+        <Step number={4} title={t("checks.title")} right={summary(checks)} open={current === 4}>
           {preview.kind === "failed" ? (
             <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={retry} />
           ) : (
-            <ChecksStep preview={preview} checks={data?.checks} instead={instead} />
+            <ChecksStep preview={preview} checks={checks} instead={instead} />
           )}
         </Step>
       </div>
@@ -250,12 +257,10 @@ export function SendPage() {
           {plant && streamReady ? (
             <PreviewMap
               plant={plant}
-              vehicles={allVehicles}
-              states={states}
               vehicle={orderId ? mover : vehicle}
-              target={target}
+              station={shownStation}
               option={orderId ? undefined : feasible}
-              options={orderId ? [] : leadThere}
+              options={orderId ? kNone : leadThere}
               looked={looked}
               leg={orderId ? mover?.leg : undefined}
               picking={(picking || !station) && !orderId}

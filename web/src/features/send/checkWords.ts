@@ -1,9 +1,10 @@
-import type { Check, Params, Reason } from "@/shared/api/types";
+import type { Params, Reason } from "@/shared/api/types";
+import type { ShownCheck } from "./floorCheck";
 import { degrees, millimetres } from "@/shared/words/format";
 import { listParams, say, type Names, type Template } from "@/shared/words/words";
 
 /** Adds what the wording needs and the server does not send as such: shares as percent, reasons in words. */
-function wordParams(check: Check, reasonOf: (reason: Reason) => string): Params {
+function wordParams(check: ShownCheck, reasonOf: (reason: Reason) => string): Params {
   const params: Params = { ...check.params };
   const share = (from: string, to: string) => {
     const value = params[from];
@@ -22,7 +23,7 @@ function wordParams(check: Check, reasonOf: (reason: Reason) => string): Params 
 
 /** One check in words: the wording of its result, or all its parameters when there is none. */
 export function checkWords(
-  check: Check,
+  check: ShownCheck,
   names: Names,
   template: Template,
   reasonOf: (reason: Reason) => string,

@@ -3,6 +3,7 @@ import type { Check, Station, DryRun, ModeOption, Vehicle } from "@/shared/api/t
 import {
   chosenOption,
   countChecks,
+  foldChecks,
   NewestOnly,
   previewKey,
   readiness,
@@ -90,6 +91,11 @@ describe("checks", () => {
   it("puts fails on top and leaves the rest in the server's order", () => {
     expect(sortChecks(all).map((c) => c.code)).toEqual(["safety", "link", "wheels"]);
   });
+  it("folds only what passed, and only where there is little room", () => {
+    expect(foldChecks(all, false)).toEqual({ rows: sortChecks(all), folded: [] });
+    const { rows, folded } = foldChecks(all, true);
+    expect([rows.map((c) => c.code), folded.map((c) => c.code)]).toEqual([["safety", "wheels"], ["link"]]);
+  });
   it("counts a note as passed", () =>
     expect(countChecks(all)).toEqual({ pass: 2, note: 1, fail: 1, total: 3 }));
 });
@@ -147,6 +153,11 @@ describe("readiness", () => {
       "failed",
     ],
   ])("%s", (_, change, kind) => expect(readiness({ ...ok, ...change }).kind).toBe(kind));
+  it("holds the move that leads over closed floor", () => {
+    const floor = { code: "floor", result: "fail", params: {} } as const;
+    expect(readiness({ ...ok, floor })).toEqual({ kind: "check", check: floor });
+    expect(readiness({ ...ok, floor: { ...floor, result: "pass" } }).kind).toBe("ready");
+  });
   it("names the infeasible mode before its check", () => {
     expect(readiness({ ...ok, mode: "auto", preview: { kind: "ready", data: data() } }).kind).toBe("ready");
     expect(readiness({ ...ok, mode: "self_rotation" as never }).kind).toBe("infeasible");

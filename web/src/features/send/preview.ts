@@ -1,4 +1,5 @@
-import type { Check, DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
+import type { DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
+import type { ShownCheck } from "./floorCheck";
 import type { Refusal } from "./startCommand";
 import type { StationEntry } from "./stationEntry";
 
@@ -43,29 +44,42 @@ export class NewestOnly {
 
 export const kDebounceMs = 250;
 
-const order: Record<Check["result"], number> = { fail: 0, note: 1, pass: 2 };
+const order: Record<ShownCheck["result"], number> = { fail: 0, note: 1, pass: 2 };
 
 /** Fails on top; within one result the server's order stays, and notes keep their place. */
-export function sortChecks(checks: readonly Check[]): Check[] {
+export function sortChecks(checks: readonly ShownCheck[]): ShownCheck[] {
   const fails = checks.filter((c) => c.result === "fail");
   const rest = checks.filter((c) => c.result !== "fail");
   return [...fails, ...rest];
 }
 
-export function worst(checks: readonly Check[]): Check["result"] | undefined {
-  return checks.reduce<Check["result"] | undefined>(
+/** On a small screen the passed ones stand in one line that opens, so that no failed one is below the edge. */
+export function foldChecks(
+  checks: readonly ShownCheck[],
+  narrow: boolean,
+): { rows: ShownCheck[]; folded: ShownCheck[] } {
+  const sorted = sortChecks(checks);
+  if (!narrow) return { rows: sorted, folded: [] };
+  return {
+    rows: sorted.filter((c) => c.result !== "pass"),
+    folded: sorted.filter((c) => c.result === "pass"),
+  };
+}
+
+export function worst(checks: readonly ShownCheck[]): ShownCheck["result"] | undefined {
+  return checks.reduce<ShownCheck["result"] | undefined>(
     (w, c) => (w === undefined || order[c.result] < order[w] ? c.result : w),
     undefined,
   );
 }
 
-export function countChecks(checks: readonly Check[]): {
+export function countChecks(checks: readonly ShownCheck[]): {
   pass: number;
   note: number;
   fail: number;
   total: number;
 } {
-  const of = (r: Check["result"]) => checks.filter((c) => c.result === r).length;
+  const of = (r: ShownCheck["result"]) => checks.filter((c) => c.result === r).length;
   // A note does not hold the move: it counts as passed.
   return { pass: of("pass") + of("note"), note: of("note"), fail: of("fail"), total: checks.length };
 }
@@ -115,7 +129,7 @@ export type Readiness =
   | { kind: "on_its_way"; vehicle: string; order: string | undefined }
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
-  | { kind: "check"; check: Check }
+  | { kind: "check"; check: ShownCheck }
   | { kind: "problem"; reason: Reason }
   | { kind: "failed" };
 
@@ -126,6 +140,7 @@ export function readiness(input: {
   linkUp: boolean;
   mayCommand: boolean;
   preview: Preview;
+  floor?: ShownCheck | undefined;
 }): Readiness {
   if (!input.linkUp) return { kind: "offline" };
   if (!input.mayCommand) return { kind: "not_allowed" };
@@ -140,7 +155,8 @@ export function readiness(input: {
   const { preview } = input;
   if (preview.kind === "failed") return { kind: "failed" };
   if (preview.kind !== "ready") return { kind: "waiting" };
-  const fail = preview.data.checks.find((c) => c.result === "fail");
+  const checks: ShownCheck[] = [...(input.floor ? [input.floor] : []), ...preview.data.checks];
+  const fail = checks.find((c) => c.result === "fail");
   const option = chosenOption(preview.data.steps[0], input.mode);
   if (option && !option.feasible) return { kind: "infeasible", option };
   if (fail) return { kind: "check", check: fail };

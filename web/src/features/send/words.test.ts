@@ -11,7 +11,7 @@ import { checkWords } from "./checkWords";
 import en from "./i18n.en.json";
 import { modeIcon } from "./ModeStep";
 import { deviationValues, moveWords, type Segment } from "./moveWords";
-import { dimension, nearestStation, stationFrame, viewOf, wayOf } from "./previewView";
+import { dimension, wayOf } from "./moveGeometry";
 import { lookUpStation, padKeyOf, pressKey } from "./stationEntry";
 import { numberRanges } from "./StationStep";
 
@@ -206,20 +206,6 @@ describe("station number", () => {
 });
 
 describe("preview geometry", () => {
-  it("fits all rings into a window of the given shape", () => {
-    const view = viewOf(
-      [
-        [
-          { x_m: 0, y_m: 0 },
-          { x_m: 100, y_m: 10 },
-        ],
-      ],
-      2,
-      0,
-    );
-
-    expect(view).toMatchObject({ left: 0, width: 100, height: 50, bottom: -20 });
-  });
   it("follows an arc by chords that end where it ends", () => {
     const way = wayOf([
       {
@@ -253,37 +239,5 @@ describe("preview geometry", () => {
         swept,
       )?.from.y_m,
     ).toBeLessThan(-3);
-  });
-  it("picks the nearest station within reach only", () => {
-    const plant = {
-      stations: [{ hall: "h", number: 4, pose: { x_m: 50, y_m: 25, heading_rad: 0 } }],
-    } as Plant;
-    const view = { left: 0, bottom: 0, width: 100, height: 50 };
-
-    expect(nearestStation(plant, "h", view, { x: 0.52, y: 0.5 }, 0.05)).toBe(4);
-    expect(nearestStation(plant, "h", view, { x: 0.7, y: 0.5 }, 0.05)).toBeUndefined();
-    expect(nearestStation(plant, "other", view, { x: 0.5, y: 0.5 }, 0.05)).toBeUndefined();
-  });
-});
-
-describe("stationFrame", () => {
-  const type = (id: string, x: number, y: number) => ({
-    id,
-    footprint: [
-      { x_m: -x, y_m: -y },
-      { x_m: x, y_m: y },
-    ],
-  });
-  const plant = { vehicle_types: [type("long", 5.25, 1.25), type("short", 1.2, 2)] } as unknown as Plant;
-  const frame = (vehicle_types: string[]) =>
-    stationFrame(plant, { vehicle_types } as unknown as Plant["stations"][number]);
-
-  it.each([
-    [["long"], 5.6, 1.6],
-    [["short"], 1.55, 2.35],
-    [[], 5.6, 2.35],
-  ])("about those who stop there: %o", (types, x_m, y_m) => {
-    expect(frame(types).x_m).toBeCloseTo(x_m);
-    expect(frame(types).y_m).toBeCloseTo(y_m);
   });
 });

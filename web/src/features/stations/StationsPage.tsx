@@ -143,6 +143,14 @@ function Tile({ station, last }: { station: LiveStation; last: LastStop }) {
         <Link className="btn quiet" to={`/records?station=${station.number}`}>
           {t("records")}
         </Link>
+        <a
+          className="btn quiet"
+          href={`/api/v1/marker-sheets?stations=${station.number}&format=pdf`}
+          download
+          aria-label={t("print_one", { number: station.number })}
+        >
+          {t("print_codes")}
+        </a>
       </div>
     </li>
   );

@@ -83,8 +83,12 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
           : [v.load_name, v.load_kg > 0 ? mass(v.load_kg) : ""].filter(Boolean).join(", ") ||
             t("chip.no_load")}
       </td>
-      <td className="n">{v.link === "never" ? "\u2013" : `${fixed(v.battery_percent, 0)} %`}</td>
-      <td className="n">{heard_s === undefined ? t("list.never") : age(heard_s)}</td>
+      <td className="n" data-label={t("list.battery")}>
+        {v.link === "never" ? "\u2013" : `${fixed(v.battery_percent, 0)} %`}
+      </td>
+      <td className="n" data-label={t("list.heard")}>
+        {heard_s === undefined ? t("list.never") : age(heard_s)}
+      </td>
     </tr>
   );
 }

@@ -21,7 +21,7 @@ import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { CameraCard } from "./CameraCard";
 import { feetDown } from "./faceplate";
-import { InitPositionCard } from "./InitPositionCard";
+import { ElsewhereCard } from "./ElsewhereCard";
 import { IntegrationCard } from "./IntegrationCard";
 import { summarise } from "./loads";
 import { PlatformDrawing } from "./PlatformDrawing";
@@ -95,7 +95,7 @@ function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const why = (
     <>
       {!narrow && <HeldBar vehicle={vehicle} />}
-      {!vehicle.pose_known && <InitPositionCard vehicle={vehicle} plant={plant} refused={refused} />}
+      <ElsewhereCard key={vehicle.id} vehicle={vehicle} plant={plant} refused={refused} />
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
@@ -214,26 +214,20 @@ function Chips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
       {!vehicle.pose_known && <Chip symbol="a-2">{t("chip.pose_unknown")}</Chip>}
       {vehicle.link !== "never" && (
         <>
-          <span className="gt-sm">
-            <Chip>
-              {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
-            </Chip>
-          </span>
+          <Chip>
+            {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
+          </Chip>
           <Chip>
             {loaded
               ? [vehicle.load_name, mass(vehicle.load_kg)].filter(Boolean).join(", ")
               : t("chip.no_load")}
           </Chip>
-          <span className="gt-sm">
-            <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
-          </span>
-          <span className={stopped || vehicle.field_violation ? "" : "gt-sm"}>
-            <Chip symbol={stopped || vehicle.field_violation ? "a-2" : stale ? "s-stale" : "c-ok"}>
-              {stopped
-                ? t("chip.e_stop")
-                : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
-            </Chip>
-          </span>
+          <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
+          <Chip symbol={stopped || vehicle.field_violation ? "a-2" : stale ? "s-stale" : "c-ok"}>
+            {stopped
+              ? t("chip.e_stop")
+              : t(vehicle.field_violation ? "chip.field_violation" : "chip.fields_clear")}
+          </Chip>
         </>
       )}
     </div>

@@ -38,4 +38,5 @@ export type StepPreview = Schemas["StepPreview"];
 export type Segment = Schemas["Segment"];
 export type Step = Schemas["Step"];
 export type PlantVehicle = Schemas["PlantVehicle"];
+export type Closure = Schemas["Closure"];
 export type Roadmap = Schemas["Roadmap"];

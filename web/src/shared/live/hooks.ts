@@ -1,7 +1,16 @@
 import { useQuery } from "@tanstack/react-query";
 import { useMemo, useSyncExternalStore } from "react";
 import { api, call } from "@/shared/api/client";
-import type { Fleet, JobOrder, Plant, Station, StationState, StopRecord, Vehicle } from "@/shared/api/types";
+import type {
+  Closure,
+  Fleet,
+  JobOrder,
+  Plant,
+  Station,
+  StationState,
+  StopRecord,
+  Vehicle,
+} from "@/shared/api/types";
 import { useNow } from "./clock";
 import { liveStore, type LinkState, type LiveState } from "./store";
 
@@ -54,6 +63,11 @@ export function useStations(): readonly LiveStation[] {
         .sort((a, b) => a.number - b.number),
     [plant, states],
   );
+}
+
+/** Floor that people have closed, oldest first. */
+export function useClosures(): readonly Closure[] {
+  return useLive((s) => s.closures);
 }
 
 export function useFleet(): Fleet | undefined {

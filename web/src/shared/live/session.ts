@@ -3,6 +3,7 @@ import { api, call, setCsrfToken, setUnauthorisedHandler } from "@/shared/api/cl
 import { ApiProblem } from "@/shared/api/problem";
 import { Stream } from "@/shared/api/stream";
 import type { Session } from "@/shared/api/types";
+import { watchClosures } from "./closures";
 import { liveStore } from "./store";
 
 export type SessionState =
@@ -13,6 +14,7 @@ export type SessionState =
 
 let state: SessionState = { kind: "loading" };
 let stream: Stream | undefined;
+let closures: (() => void) | undefined;
 const listeners = new Set<() => void>();
 
 function become(next: SessionState): void {
@@ -23,10 +25,13 @@ function become(next: SessionState): void {
       // A 401 here signs out through the handler; anything else is the link's own trouble.
       stream = new Stream(liveStore, () => void call(api.GET("/api/v1/session")).catch(() => {}));
       stream.start();
+      closures = watchClosures(liveStore, async () => (await call(api.GET("/api/v1/traffic"))).closures);
     }
   } else {
     stream?.stop();
     stream = undefined;
+    closures?.();
+    closures = undefined;
     liveStore.clear();
   }
   for (const listener of listeners) listener();

@@ -1,4 +1,5 @@
 import type {
+  Closure,
   Fleet,
   JobOrder,
   Pose,
@@ -30,6 +31,10 @@ export interface LiveState {
   stations: ReadonlyMap<string, StationState>;
   jobOrders: ReadonlyMap<string, JobOrder>;
   stopRecords: ReadonlyMap<string, StopRecord>;
+  /** Floor that people have closed, oldest first. */
+  closures: readonly Closure[];
+  /** Goes up when floor may have been closed or opened: `closures` is asked for again. */
+  floorTurn: number;
   /** Server clock minus browser clock, ms; ages of server times are computed with it. */
   clockOffsetMs: number;
 }
@@ -42,6 +47,8 @@ export const emptyState: LiveState = {
   stations: new Map(),
   jobOrders: new Map(),
   stopRecords: new Map(),
+  closures: [],
+  floorTurn: 0,
   clockOffsetMs: 0,
 };
 
@@ -71,6 +78,7 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
       return {
         ...state,
         ready: true,
+        floorTurn: state.floorTurn + 1,
         fleet: frame.fleet,
         vehicles: byKey(frame.vehicles, (v) => v.id),
         stations: byKey(frame.stations, (s) => s.station),
@@ -91,8 +99,9 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
       return { ...state, fleet: frame.fleet };
     case "changes":
       return frame.changes.reduce((next, change) => reduce(next, change, wallMs), state);
-    case "poses":
     case "event":
+      return frame.event.type.startsWith("floor.") ? { ...state, floorTurn: state.floorTurn + 1 } : state;
+    case "poses":
       return state;
   }
 }
@@ -158,6 +167,11 @@ export class LiveStore {
 
   setLink(link: LinkState): void {
     this.pending = { ...this.pending, link };
+    this.request();
+  }
+
+  setClosures(closures: readonly Closure[]): void {
+    this.pending = { ...this.pending, closures };
     this.request();
   }
 

@@ -12,7 +12,7 @@ import { useTranslation } from "react-i18next";
 import type { Plant } from "@/shared/api/types";
 import { useTheme } from "@/shared/i18n/useTheme";
 import { liveStore } from "@/shared/live/store";
-import { boxOf, type MetricPoint } from "@/shared/math/geometry";
+import { boxOf, type Box, type MetricPoint } from "@/shared/math/geometry";
 import "./map.css";
 import { readPalette, type Palette } from "./palette";
 import { Picker, type Picked } from "./pick";
@@ -49,14 +49,16 @@ export interface MapViewProps {
   hall?: string;
   layers?: Partial<MapLayers>;
   overlays?: MapOverlays;
+  /** What is shown while the person has not moved the map; the whole hall by default. */
+  about?: readonly MetricPoint[];
   /** Vehicle drawn in blue, with its route. */
   selected?: string | undefined;
   /** Keeps this vehicle in the middle until the person moves the map. */
   follow?: string | undefined;
   onFollowEnd?: () => void;
   onPick?: (picked: Picked) => void;
-  /** What a press means where a vehicle stands on a station. */
-  prefer?: "vehicle" | "station";
+  /** What a press means where a vehicle stands on a station; "point" takes the bare floor. */
+  prefer?: "vehicle" | "station" | "point";
   label?: string;
   ref?: Ref<MapHandle>;
 }
@@ -65,7 +67,27 @@ const kNoOverlays: MapOverlays = {};
 const kKeyPanPx = 60;
 const kKeyZoom = 1.25;
 const kMargins: Margins = { left: 52, top: 36, right: 24, bottom: 34 };
+/** On a phone the room is the hall's: no rulers. */
+const kPhonePx = 560;
+const kPhoneMargins: Margins = { left: 10, top: 10, right: 10, bottom: 10 };
+const marginsOf = (size: Size): Margins => (size.width < kPhonePx ? kPhoneMargins : kMargins);
 const kAgeTickMs = 250;
+
+const kRoom = 0.12;
+const kLeastM = 12;
+
+/** The view that nobody has changed: the whole hall, or what the page is about with some room round it. */
+function home(hall: Box, about: readonly MetricPoint[] | undefined, size: Size): View {
+  if (about === undefined || about.length === 0) return fitted(hall, size, marginsOf(size));
+  const b = boxOf(about);
+  const x = Math.max(kRoom * (b.maxX - b.minX), (kLeastM - (b.maxX - b.minX)) / 2);
+  const y = Math.max(kRoom * (b.maxY - b.minY), (kLeastM - (b.maxY - b.minY)) / 2);
+  return fitted(
+    { minX: b.minX - x, maxX: b.maxX + x, minY: b.minY - y, maxY: b.maxY + y },
+    size,
+    marginsOf(size),
+  );
+}
 
 /** Map of one hall, drawn to scale. Poses go from the store to the canvas without React. */
 export function MapView(props: MapViewProps) {
@@ -76,6 +98,7 @@ export function MapView(props: MapViewProps) {
     overlays = kNoOverlays,
     selected,
     follow,
+    about,
     prefer = "vehicle",
     onPick,
     onFollowEnd,
@@ -93,9 +116,13 @@ export function MapView(props: MapViewProps) {
   const palette = useRef<Palette>(undefined);
   const frame = useRef(0);
 
-  const allOn = useMemo(() => ({ ...allLayers, ...layers }), [layers]);
-  const now = useRef({ model, size, overlays, selected, follow, layers: allOn, t });
-  now.current = { model, size, overlays, selected, follow, layers: allOn, t };
+  const phone = size !== undefined && size.width < kPhonePx;
+  const allOn = useMemo(
+    () => ({ ...allLayers, ...layers, ...(phone && { rulers: false }) }),
+    [layers, phone],
+  );
+  const now = useRef({ model, size, overlays, selected, follow, about, layers: allOn, t });
+  now.current = { model, size, overlays, selected, follow, about, layers: allOn, t };
 
   const draw = useRef(() => {});
   draw.current = () => {
@@ -104,7 +131,7 @@ export function MapView(props: MapViewProps) {
     if (canvas.current === null || m === undefined || s === undefined) return;
     renderer.current ??= new CanvasRenderer(canvas.current);
     palette.current ??= readPalette(canvas.current);
-    if (view.current === undefined || isFitted.current) view.current = fitted(m.box, s, kMargins);
+    if (view.current === undefined || isFitted.current) view.current = home(m.box, now.current.about, s);
     const followed =
       f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
     if (followed !== undefined) {
@@ -125,6 +152,7 @@ export function MapView(props: MapViewProps) {
         vehicles: state.vehicles,
         stations: state.stations,
         poses,
+        closures: state.closures,
         linkLost: state.link.kind === "lost",
       },
       words: {
@@ -168,9 +196,11 @@ export function MapView(props: MapViewProps) {
     request.current();
   }, [theme]);
   useEffect(() => request.current());
+  const place = about && JSON.stringify(boxOf(about));
   useEffect(() => {
     isFitted.current = true;
-  }, [model]);
+    request.current();
+  }, [model, place]);
 
   const change = (next: (v: View, s: Size) => View, ends = true) => {
     const { size: s, model: m } = now.current;
@@ -211,7 +241,7 @@ export function MapView(props: MapViewProps) {
     show: (points, roomM = 3) => {
       const b = boxOf(points);
       const wide = { minX: b.minX - roomM, minY: b.minY - roomM, maxX: b.maxX + roomM, maxY: b.maxY + roomM };
-      change((_, s) => fitted(wide, s, kMargins));
+      change((_, s) => fitted(wide, s, marginsOf(s)));
     },
   }));
 
@@ -236,7 +266,7 @@ export function MapView(props: MapViewProps) {
     <div className="mapbox" ref={box}>
       <canvas
         ref={canvas}
-        className={`canvas ${prefer === "station" && onPick ? "picks" : ""}`}
+        className={`canvas ${prefer !== "vehicle" && onPick ? "picks" : ""}`}
         tabIndex={0}
         role="application"
         lang={i18n.language === "zh" ? "zh-CN" : "en"}

@@ -1,3 +1,4 @@
+import { drawCaptions } from "./captions";
 import type { Pen } from "./pen";
 import type { HallModel, MapLayers } from "./scene";
 import { detailOf } from "./view";
@@ -26,6 +27,7 @@ export function drawHall(pen: Pen, model: HallModel, layers: MapLayers): void {
   if (layers.markers && detailOf(pen.k) !== "far") drawMarkers(pen, model);
   drawBrackets(pen, model);
   drawObstacles(pen, model);
+  if (layers.labels) drawCaptions(pen, model);
 }
 
 function drawGrid(pen: Pen, model: HallModel): void {

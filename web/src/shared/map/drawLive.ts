@@ -1,5 +1,5 @@
-import type { Point } from "@/shared/api/types";
-import { boxOf, splitPath, type MetricPoint } from "@/shared/math/geometry";
+import { boxOf, splitPath } from "@/shared/math/geometry";
+import { arrowHead, drawMove, drawSwept } from "./drawMove";
 import type { Pen } from "./pen";
 import type { DrawnVehicle, HallModel, MapOverlays } from "./scene";
 import { detailOf } from "./view";
@@ -17,41 +17,11 @@ export function drawLive(
   const few = vehicles.length <= 40;
   for (const v of vehicles) if (v.selected) drawRoute(pen, v);
   for (const v of vehicles) if (!v.selected && few && v.moving) drawOtherRoute(pen, v);
-  drawPreview(pen, overlays);
+  drawSwept(pen, overlays);
   for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
   for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
   for (const v of vehicles) drawVehicle(pen, v);
-  drawGhost(pen, model, overlays);
-}
-
-function arrowHead(
-  pen: Pen,
-  path: readonly MetricPoint[],
-  size: number,
-  filled: boolean,
-  colour: string,
-): void {
-  const end = path[path.length - 1];
-  if (end === undefined) return;
-  const e = pen.at(end.x_m, end.y_m);
-  // Direction over the last few pixels, so that a short last piece does not turn the head.
-  let from: { x: number; y: number } | undefined;
-  for (let i = path.length - 2; i >= 0; i--) {
-    from = pen.at(path[i]!.x_m, path[i]!.y_m);
-    if (Math.hypot(e.x - from.x, e.y - from.y) > size) break;
-  }
-  if (from === undefined || Math.hypot(e.x - from.x, e.y - from.y) < 1) return;
-  const a = Math.atan2(e.y - from.y, e.x - from.x);
-  const { g } = pen;
-  g.beginPath();
-  g.moveTo(e.x + size * 0.6 * Math.cos(a), e.y + size * 0.6 * Math.sin(a));
-  for (const turn of [2.4, -2.4]) g.lineTo(e.x + size * Math.cos(a + turn), e.y + size * Math.sin(a + turn));
-  g.closePath();
-  if (filled) pen.fill(colour);
-  else {
-    pen.fill(pen.palette["map-floor"]);
-    pen.stroke(colour, 1.5);
-  }
+  drawMove(pen, model, overlays);
 }
 
 function drawRoute(pen: Pen, v: DrawnVehicle): void {
@@ -85,61 +55,6 @@ function drawOtherRoute(pen: Pen, v: DrawnVehicle): void {
   pen.path(ahead, false);
   pen.stroke(pen.palette["ink-3"], 2);
   arrowHead(pen, ahead, 7, false, pen.palette["ink-3"]);
-}
-
-function drawPreview(pen: Pen, overlays: MapOverlays): void {
-  const { palette, g } = pen;
-  if (overlays.swept !== undefined && overlays.swept.length > 0) {
-    const outline = () => {
-      g.beginPath();
-      for (const ring of overlays.swept ?? []) pen.path(ring, true, false);
-    };
-    outline();
-    pen.hatch(palette["swept-hatch"], 8, 1.5);
-    outline();
-    pen.stroke(palette.swept, 1.5, [7, 4]);
-  }
-  if (overlays.path !== undefined && overlays.path.length > 1) {
-    pen.path(overlays.path as Point[], false);
-    pen.stroke(palette.swept, 2, [6, 5]);
-  }
-  for (const mark of overlays.marks ?? []) {
-    const p = pen.at(mark.x_m, mark.y_m);
-    g.beginPath();
-    g.arc(p.x, p.y, 7, 0, 7);
-    g.moveTo(p.x - 11, p.y);
-    g.lineTo(p.x + 11, p.y);
-    g.moveTo(p.x, p.y - 11);
-    g.lineTo(p.x, p.y + 11);
-    pen.stroke(palette.ink, 1.5);
-  }
-}
-
-function drawGhost(pen: Pen, model: HallModel, overlays: MapOverlays): void {
-  if (overlays.ghost === undefined) return;
-  const type = model.types.get(overlays.ghost.type);
-  if (type === undefined) return;
-  const box = boxOf(type.footprint);
-  const c = Math.min(0.7, (box.maxY - box.minY) * 0.28);
-  pen.body(type.footprint, overlays.ghost.pose);
-  pen.stroke(pen.palette.swept, 2);
-  const tip = box.maxX - 0.3 * c;
-  const chevron = [
-    { x_m: tip - 1.4 * c, y_m: c },
-    { x_m: tip, y_m: 0 },
-    { x_m: tip - 1.4 * c, y_m: -c },
-  ];
-  const { g } = pen;
-  const p = pen.at(overlays.ghost.pose.x_m, overlays.ghost.pose.y_m);
-  g.save();
-  g.translate(p.x, p.y);
-  g.rotate(-overlays.ghost.pose.heading_rad);
-  g.beginPath();
-  chevron.forEach((q, i) =>
-    i === 0 ? g.moveTo(q.x_m * pen.k, -q.y_m * pen.k) : g.lineTo(q.x_m * pen.k, -q.y_m * pen.k),
-  );
-  g.restore();
-  pen.stroke(pen.palette.swept, 2);
 }
 
 /** Floor that a silent vehicle keeps. */

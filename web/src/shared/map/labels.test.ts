@@ -1,7 +1,7 @@
 import fc from "fast-check";
 import { expect, it } from "vitest";
 import { boxesMeet, ringMeetsBox } from "@/shared/math/geometry";
-import { placeLabels, type LabelWish } from "./labels";
+import { kSlots, placeLabels, slotCentre, type LabelWish } from "./labels";
 
 const frame = { minX: 0, minY: 0, maxX: 500, maxY: 400 };
 const thing = (x: number, y: number) => ({ minX: x - 10, minY: y - 6, maxX: x + 10, maxY: y + 6 });
@@ -51,4 +51,58 @@ it("keeps its place while that is free", () => {
   const one = [wish("a", 250, 200)];
   const moved = placeLabels(one, { bodies: [], soft: [], frame }, new Map([["a", 6]]));
   expect(moved[0]?.slot).toBe(6);
+});
+
+const spots = fc.array(
+  fc.record({
+    x: fc.integer({ min: 20, max: 480 }),
+    y: fc.integer({ min: 20, max: 380 }),
+    vx: fc.integer({ min: -9, max: 9 }),
+    vy: fc.integer({ min: -9, max: 9 }),
+    must: fc.boolean(),
+  }),
+  { minLength: 1, maxLength: 24 },
+);
+const slotsOf = (placed: ReturnType<typeof placeLabels>) => new Map(placed.map((l) => [l.key, l.slot]));
+
+it("covers no body while the label has a free place, and changes nothing when nothing changes", () => {
+  fc.assert(
+    fc.property(spots, (all) => {
+      let slots = new Map<string, number>();
+      for (let step = 0; step < 4; step++) {
+        const wishes = all.map((s, i) =>
+          wish(String(i), s.x + step * s.vx, s.y + step * s.vy, { must: s.must, rank: s.must ? 1 : 5 }),
+        );
+        const obstacles = { bodies: wishes.map((w) => ringOf(w.around)), soft: [], frame };
+        const placed = placeLabels(wishes, obstacles, slots);
+        slots = slotsOf(placed);
+        for (const label of placed) {
+          const box = boxAt(label.x, label.y);
+          if (!obstacles.bodies.some((body) => ringMeetsBox(body, box))) continue;
+          const own = wishes.find((w) => w.key === label.key)!;
+          const bare = Array.from({ length: kSlots }, (_, i) => slotCentre(own, i)).filter(
+            (c) => !obstacles.bodies.some((body) => ringMeetsBox(body, { ...boxAt(c.x, c.y) })),
+          );
+          // The margin of a pixel round a label counts as the label.
+          expect(bare.filter((c) => !obstacles.bodies.some((b) => ringMeetsBox(b, padded(c))))).toEqual([]);
+        }
+        for (let again = 0; again < 3; again++) {
+          expect(slotsOf(placeLabels(wishes, obstacles, slots))).toEqual(slots);
+        }
+      }
+    }),
+    { seed: 10 },
+  );
+  function padded(c: { x: number; y: number }) {
+    const b = boxAt(c.x, c.y);
+    return { minX: b.minX - 1, minY: b.minY - 1, maxX: b.maxX + 1, maxY: b.maxY + 1 };
+  }
+});
+
+it("keeps clear of plates, which have their place already", () => {
+  const one = [wish("a", 250, 200)];
+  const below = slotCentre(one[0]!, 0);
+  const fixed = [boxAt(below.x, below.y)];
+  const [label] = placeLabels(one, { bodies: [], soft: [], fixed, frame }, new Map());
+  expect(boxesMeet(boxAt(label!.x, label!.y), fixed[0]!)).toBe(false);
 });

@@ -9,8 +9,6 @@ export interface LabelWish {
   must: boolean;
   width: number;
   height: number;
-  /** The label may stand on the thing itself: a bare number. */
-  on?: boolean;
   /** The thing on the screen, around which places are tried. */
   around: Box;
 }
@@ -20,6 +18,8 @@ export interface Obstacles {
   bodies: readonly XY[][];
   /** Covered only when nothing else is left: loads, aircraft. */
   soft: readonly XY[][];
+  /** Labels that have their place already: number plates, names of closed floor. */
+  fixed?: readonly Box[];
   frame: Box;
 }
 
@@ -31,14 +31,16 @@ export interface PlacedLabel {
 }
 
 const kGap = 5;
-export const kSlots = 16;
-const kOnSlot = -1;
+export const kSlots = 24;
+const kWeight = { body: 5000, outside: 2000, label: 1000, soft: 20, moved: 30 };
 
-/** Centre of a label at one of eight places around the thing, then the same eight farther out. */
+/** From here on a label stands so far out that a line has to say whose it is. */
+export const kFarSlot = 8;
+
+/** Centre of a label at one of eight places around the thing, then the same eight farther out, twice. */
 export function slotCentre(wish: LabelWish, slot: number): XY {
   const { around: b, width, height } = wish;
-  if (slot === kOnSlot) return { x: (b.minX + b.maxX) / 2, y: (b.minY + b.maxY) / 2 };
-  const far = slot >= 8 ? 18 : 0;
+  const far = Math.floor(slot / 8) * 22;
   const mx = (b.minX + b.maxX) / 2;
   const my = (b.minY + b.maxY) / 2;
   const dx = (b.maxX - b.minX) / 2 + width / 2 + kGap + far;
@@ -71,8 +73,9 @@ const boundsOf = (ring: readonly XY[]): Box => ({
 });
 
 /**
- * Puts labels in order of rank at the best free place of sixteen. What finds none is left out, never the thing it
- * names; a label that must be shown takes the place that hides least. `previous` slots are kept while they are free.
+ * Puts labels in order of rank at the best free place of those around the thing. What finds none is left out, never
+ * the thing it names; a label that must be shown takes the place that hides least, and a body is hidden last. A place
+ * that was taken before is kept while another would not be much better: labels do not flicker.
  */
 export function placeLabels(
   wishes: readonly LabelWish[],
@@ -84,13 +87,13 @@ export function placeLabels(
   const soft = withBounds(obstacles.soft);
   const hits = (items: typeof bodies, box: Box) =>
     items.reduce((n, item) => n + (boxesMeet(item.bounds, box) && ringMeetsBox(item.ring, box) ? 1 : 0), 0);
-  const { frame } = obstacles;
-  const taken: Box[] = [];
+  const { frame, fixed = [] } = obstacles;
+  const taken: Box[] = [...fixed];
   const placed: PlacedLabel[] = [];
   for (const wish of [...wishes].sort((a, b) => a.rank - b.rank)) {
     let best: { cost: number; slot: number; centre: XY; box: Box } | undefined;
     const kept = previous.get(wish.key);
-    for (let slot = wish.on ? kOnSlot : 0; slot < kSlots; slot++) {
+    for (let slot = 0; slot < kSlots; slot++) {
       const centre = slotCentre(wish, slot);
       const box = boxAt(centre, wish.width, wish.height);
       const outside =
@@ -99,12 +102,12 @@ export function placeLabels(
       const covered = hits(bodies, box);
       if (!wish.must && (outside || clashes > 0 || covered > 0)) continue;
       const cost =
-        (outside ? 1000 : 0) +
-        clashes * 300 +
-        covered * 200 +
-        hits(soft, box) * 20 +
+        covered * kWeight.body +
+        (outside ? kWeight.outside : 0) +
+        clashes * kWeight.label +
+        Math.min(10, hits(soft, box)) * kWeight.soft +
         slot -
-        (slot === kept ? 30 : 0);
+        (slot === kept ? kWeight.moved : 0);
       if (best === undefined || cost < best.cost) best = { cost, slot, centre, box };
     }
     if (best === undefined) continue;

@@ -2,6 +2,24 @@ import { placed, type MetricPoint, type PoseLike } from "@/shared/math/geometry"
 import type { Palette } from "./palette";
 import { toScreen, type Size, type View } from "./view";
 
+const tiles = new Map<string, HTMLCanvasElement>();
+
+function dotTile(colour: string, step: number, radius: number): HTMLCanvasElement | undefined {
+  const key = `${colour}/${step}/${radius}`;
+  const known = tiles.get(key);
+  if (known !== undefined) return known;
+  const tile = document.createElement("canvas");
+  tile.width = step;
+  tile.height = step;
+  const g = tile.getContext("2d");
+  if (g === null) return undefined;
+  g.fillStyle = colour;
+  g.arc(step / 2, step / 2, radius, 0, 7);
+  g.fill();
+  tiles.set(key, tile);
+  return tile;
+}
+
 /** Draws geometry of the hall in screen pixels: shapes scale, ink does not. */
 export class Pen {
   constructor(
@@ -49,6 +67,15 @@ export class Pen {
     this.g.fillStyle = colour;
     this.g.fill();
     this.g.globalAlpha = 1;
+  }
+
+  /** Dots in screen pixels inside the current path. */
+  dots(colour: string, step: number, radius: number): void {
+    const tile = dotTile(colour, step, radius);
+    const pattern = tile && this.g.createPattern(tile, "repeat");
+    if (!pattern) return;
+    this.g.fillStyle = pattern;
+    this.g.fill();
   }
 
   /** 45 degree hatch in screen pixels inside the current path. */

@@ -5,7 +5,7 @@ import type { DrawnVehicle, HallModel } from "./scene";
 export type Picked =
   | { kind: "vehicle"; id: string }
   | { kind: "station"; id: string; number: number }
-  | { kind: "point"; point: MetricPoint };
+  | { kind: "point"; point: MetricPoint; reach_m: number };
 
 /** Finger width around a thing, in screen pixels. */
 const kReachPx = 14;
@@ -35,14 +35,15 @@ export class Picker {
     point: MetricPoint,
     pxPerM: number,
     vehicles: readonly DrawnVehicle[],
-    prefer: "vehicle" | "station",
+    prefer: "vehicle" | "station" | "point",
   ): Picked {
     const reach = kReachPx / pxPerM;
+    if (prefer === "point") return { kind: "point", point, reach_m: reach };
     const station = this.station(point, reach);
     const vehicle = nearestVehicle(point, reach, vehicles);
     if (prefer === "station" && station !== undefined) return station;
     if (vehicle !== undefined) return { kind: "vehicle", id: vehicle };
-    return station ?? { kind: "point", point };
+    return station ?? { kind: "point", point, reach_m: reach };
   }
 
   private station(point: MetricPoint, reach: number): Picked | undefined {

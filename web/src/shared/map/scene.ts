@@ -1,5 +1,6 @@
 import type {
   Area,
+  Closure,
   Hall,
   Marker,
   Plant,
@@ -14,18 +15,41 @@ import type {
 import { boxOf, type Box } from "@/shared/math/geometry";
 import type { LivePose } from "@/shared/live/store";
 
+export interface SweptArea {
+  rings: readonly Ring[];
+  look: "chosen" | "looked" | "other";
+  /** Tells the outlines of the others apart. */
+  dash: readonly number[];
+}
+
+/** Where the line of a dimension and its two extension lines run, and what it says. */
+export interface Dimension {
+  from: Point;
+  to: Point;
+  extensions: readonly (readonly Point[])[];
+  text: string;
+}
+
 /** What a page lays over the hall: the preview of a move. */
 export interface MapOverlays {
-  /** Outline of platform and load all along the move. */
-  swept?: readonly Ring[];
+  /** Outlines of platform and load all along the move, one a way to drive it; the chosen one last. */
+  areas?: readonly SweptArea[];
   /** The line the vehicle's centre takes. */
   path?: readonly Point[];
-  /** Outline of a vehicle of `type` where the move ends. */
-  ghost?: { pose: Pose; type: string };
+  /** Outline of a vehicle of `type`, with its load if it carries one, where the move ends. */
+  ghost?: { pose: Pose; type: string; loaded?: boolean };
+  /** A length beside a straight drive. */
+  dimension?: Dimension;
+  /** Arc of a turn on the spot and its angle in words. */
+  turn?: { points: readonly Point[]; text: string };
   /** Station the move leads to. */
   target?: string;
   /** Places to point out, e.g. where the clearance is least. */
   marks?: readonly Point[];
+  /** Stations that can be chosen; the others are drawn faint. Absent: all. */
+  choosable?: ReadonlySet<string>;
+  /** Floor a person is about to close. */
+  closing?: Pick<Closure, "outline" | "edges"> & { corner?: Point };
 }
 
 export interface MapLayers {
@@ -36,6 +60,25 @@ export interface MapLayers {
 }
 export const allLayers: MapLayers = { roadmap: true, markers: true, labels: true, rulers: true };
 
+/** A line of the roadmap; one for the two edges of a pair. */
+export interface Lane {
+  ax: number;
+  ay: number;
+  bx: number;
+  by: number;
+  big: boolean;
+  oneWay: boolean;
+  edges: readonly string[];
+}
+
+export interface Bracket {
+  l: number;
+  w: number;
+  big: boolean;
+  /** Outline of what the vehicle it is drawn for carries. */
+  load?: Ring;
+}
+
 /** The plant as the renderer wants it: one hall, look-ups made once. */
 export interface HallModel {
   hall: Hall;
@@ -45,20 +88,23 @@ export interface HallModel {
   markers: readonly Marker[];
   types: ReadonlyMap<string, VehicleType>;
   typeOf: ReadonlyMap<string, string>;
-  lanes: readonly { ax: number; ay: number; bx: number; by: number; big: boolean; oneWay: boolean }[];
+  lanes: readonly Lane[];
   /** Half length and half width of the bracket drawn at a station. */
-  bracket: ReadonlyMap<string, { l: number; w: number; big: boolean }>;
+  bracket: ReadonlyMap<string, Bracket>;
 }
 
 const kBigM = 6;
 
-function bracketOf(station: Station, plant: Plant): { l: number; w: number; big: boolean } {
+function bracketOf(station: Station, plant: Plant): Bracket {
   const fits = plant.vehicle_types.filter(
     (type) => station.vehicle_types.length === 0 || station.vehicle_types.includes(type.id),
   );
   // A station open to all is drawn for the smallest: it shows a place, not a size.
-  const boxes = fits.map((type) => boxOf(type.footprint));
-  const half = boxes.map((b) => ({ l: (b.maxX - b.minX) / 2, w: (b.maxY - b.minY) / 2 }));
+  const half: Omit<Bracket, "big">[] = fits.map((type) => {
+    const b = boxOf(type.footprint);
+    const load = type.load_footprint.length > 2 ? { load: type.load_footprint } : {};
+    return { l: (b.maxX - b.minX) / 2, w: (b.maxY - b.minY) / 2, ...load };
+  });
   half.sort((a, b) => (station.vehicle_types.length === 1 ? b.l - a.l : a.l - b.l));
   const one = half[0] ?? { l: 1.3, w: 0.8 };
   return { ...one, big: one.l * 2 > kBigM };
@@ -76,17 +122,25 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
       })
       .map((type) => type.id),
   );
-  const edges = new Set(plant.roadmap.edges.map((e) => `${e.from}>${e.to}`));
-  const lanes: { ax: number; ay: number; bx: number; by: number; big: boolean; oneWay: boolean }[] = [];
+  const edges = new Map(plant.roadmap.edges.map((e) => [`${e.from}>${e.to}`, e.id]));
+  const lanes: Lane[] = [];
   for (const edge of plant.roadmap.edges) {
     const a = nodes.get(edge.from);
     const b = nodes.get(edge.to);
     if (a === undefined || b === undefined) continue;
-    const both = edges.has(`${edge.to}>${edge.from}`);
-    if (both && edge.from > edge.to) continue; // one line for the pair
+    const back = edges.get(`${edge.to}>${edge.from}`);
+    if (back !== undefined && edge.from > edge.to) continue; // one line for the pair
     const only = edge.vehicle_types ?? [];
     const big = only.length > 0 && only.every((type) => bigTypes.has(type));
-    lanes.push({ ax: a.x_m, ay: a.y_m, bx: b.x_m, by: b.y_m, big, oneWay: !both });
+    lanes.push({
+      ax: a.x_m,
+      ay: a.y_m,
+      bx: b.x_m,
+      by: b.y_m,
+      big,
+      oneWay: back === undefined,
+      edges: [edge.id, ...(back === undefined ? [] : [back])],
+    });
   }
   const here = <T extends { hall: string }>(items: readonly T[]) =>
     items.filter((item) => item.hall === hall.id);
@@ -123,5 +177,6 @@ export interface LiveInput {
   vehicles: ReadonlyMap<string, Vehicle>;
   stations: ReadonlyMap<string, StationState>;
   poses: ReadonlyMap<string, LivePose>;
+  closures: readonly Closure[];
   linkLost: boolean;
 }

@@ -29,26 +29,35 @@ export interface VehicleTag {
   extra: string;
   symbol: SymbolName;
   look: "plain" | "selected" | "high" | "critical" | "stale";
+  /** Far out: the name alone. */
+  compact: boolean;
 }
 
 const kBold = 700;
-export const vehicleTagHeight = 24;
+const kTagHeight = 24;
+const kCompactHeight = 17;
 
-export function vehicleTagWidth(g: CanvasRenderingContext2D, tag: VehicleTag, palette: Palette): number {
+export function vehicleTagSize(
+  g: CanvasRenderingContext2D,
+  tag: VehicleTag,
+  palette: Palette,
+): { width: number; height: number } {
   g.font = `${kBold} 13px ${palette.font}`;
-  let width = 5 + 14 + 4 + g.measureText(tag.name).width + 8;
+  const name = g.measureText(tag.name).width;
+  if (tag.compact) return { width: Math.ceil(name) + 6, height: kCompactHeight };
+  let width = 5 + 14 + 4 + name + 8;
   if (tag.extra !== "") {
     g.font = `13px ${palette.font}`;
     width += 4 + g.measureText(tag.extra).width;
   }
-  return Math.ceil(width);
+  return { width: Math.ceil(width), height: kTagHeight };
 }
 
 export function drawVehicleTag(
   g: CanvasRenderingContext2D,
   tag: VehicleTag,
   at: { x: number; y: number },
-  width: number,
+  { width, height: h }: { width: number; height: number },
   p: Palette,
 ): void {
   const looks = {
@@ -59,7 +68,6 @@ export function drawVehicleTag(
     critical: [p["critical-fill"], p.critical, p["on-critical"], 1],
   } as const;
   const [fill, line, ink, lineWidth] = looks[tag.look];
-  const h = vehicleTagHeight;
   const x = Math.round(at.x - width / 2) + 0.5;
   const y = Math.round(at.y - h / 2) + 0.5;
   g.beginPath();
@@ -71,6 +79,14 @@ export function drawVehicleTag(
   g.lineWidth = lineWidth;
   g.stroke();
   g.setLineDash([]);
+  if (tag.compact) {
+    g.fillStyle = ink;
+    g.textAlign = "center";
+    g.textBaseline = "middle";
+    g.font = `${kBold} 13px ${p.font}`;
+    g.fillText(tag.name, x + width / 2, y + h / 2 + 0.5);
+    return;
+  }
   const shape = kShapes[tag.symbol];
   g.save();
   g.translate(x + 7, y + 5);
@@ -102,7 +118,8 @@ export function drawVehicleTag(
 
 export interface StationTag {
   number: string;
-  look: "free" | "occupied" | "reserved" | "goal" | "bare";
+  /** "off": not for the vehicle that is being sent. */
+  look: "free" | "occupied" | "reserved" | "goal" | "bare" | "off";
   big: boolean;
 }
 
@@ -132,11 +149,12 @@ export function drawStationTag(
   g.textAlign = "center";
   g.textBaseline = "middle";
   const middle = { x: x + size.width / 2, y: y + size.height / 2 + 1 };
-  if (tag.look === "bare") {
+  if (tag.look === "bare" || tag.look === "off") {
     g.strokeStyle = p["map-tag"];
     g.lineWidth = 3;
     g.strokeText(tag.number, middle.x, middle.y);
-    g.fillStyle = p["map-tag-ink"];
+    g.fillStyle = tag.look === "off" ? p["map-route"] : p["map-tag-ink"];
+    g.font = `${tag.look === "off" ? 400 : kBold} ${size.font}px ${p.font}`;
     g.fillText(tag.number, middle.x, middle.y);
     return;
   }

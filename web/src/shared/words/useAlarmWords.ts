@@ -2,7 +2,6 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
 import type { Alarm } from "@/shared/live/attention";
-import { kBracketBalance } from "@/shared/live/brackets";
 import { age, fixed, secondsSince } from "./format";
 import { faultText } from "./faults";
 import { useWords } from "./useWords";
@@ -27,7 +26,7 @@ export function useAlarmWords(): {
         wheel: words.wheel(alarm.wheel ?? ""),
         bracket: bracket(alarm.bracket),
         percent: fixed(Math.abs(alarm.share ?? 0) * 100, 0),
-        limit: fixed(kBracketBalance * 100, 0),
+        limit: fixed((vehicle?.worst_bracket?.limit ?? 0) * 100, 0),
         temperature: fixed(alarm.temperature_c, 0),
         count: alarm.count,
         age: age(secondsSince(vehicle?.last_heard_at, now)),

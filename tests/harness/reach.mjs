@@ -1,0 +1,47 @@
+// What a finger can not reach on the page shown: too wide, too small, cut off or covered. Runs in the page.
+
+/** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. */
+export async function reachFaultsOf(page, { least = 44 } = {}) {
+  return page.evaluate((smallest) => {
+    const faults = [];
+    const kCommands = "button, a[href], input, select, summary, canvas[tabindex], [role=option], [role=radio], [role=tab]";
+    const nameOf = (e) => `${e.tagName.toLowerCase()}.${[...e.classList].join(".")} "${(e.getAttribute("aria-label") ?? e.textContent ?? "").trim().slice(0, 30)}"`;
+    const wide = document.documentElement.scrollWidth - innerWidth;
+    if (wide > 0) faults.push(`the page is ${wide} px too wide`);
+    for (const e of document.querySelectorAll("body *")) {
+      const over = e.scrollWidth - e.clientWidth;
+      if (over > 1 && e.clientWidth > 0 && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)) faults.push(`${nameOf(e)} scrolls sideways by ${over} px`);
+    }
+    const pause = document.querySelector("button.pause");
+    if (pause === null) faults.push("there is no Pause fleet");
+    else {
+      const r = pause.getBoundingClientRect();
+      if (r.left < 0 || r.top < 0 || r.right > innerWidth + 0.5 || r.bottom > innerHeight + 0.5) faults.push("Pause fleet is off the screen");
+      for (const x of [r.left + 4, (r.left + r.right) / 2, r.right - 4]) {
+        if (!pause.contains(document.elementFromPoint(x, (r.top + r.bottom) / 2))) faults.push("Pause fleet is covered");
+      }
+    }
+    for (const e of document.querySelectorAll(kCommands)) {
+      if (e.closest(".skip, .sr-only, .unseen") !== null || !e.checkVisibility({ visibilityProperty: true })) continue;
+      const target = e.tagName === "INPUT" ? (e.closest("label") ?? e) : e;
+      target.scrollIntoView({ block: "center", inline: "nearest", behavior: "instant" });
+      const r = target.getBoundingClientRect();
+      if (r.width < smallest - 0.5 || r.height < smallest - 0.5) faults.push(`${nameOf(e)} is only ${Math.round(r.width)} x ${Math.round(r.height)} px`);
+      if (r.left < -0.5 || r.right > innerWidth + 0.5) faults.push(`${nameOf(e)} is cut at the side`);
+      else if (target.tagName !== "CANVAS" && (r.top < -0.5 || r.bottom > innerHeight + 0.5)) faults.push(`${nameOf(e)} cannot be scrolled into sight`);
+      else {
+        const x = (r.left + r.right) / 2;
+        const ys = r.height > 60 ? [r.top + 6, (r.top + r.bottom) / 2, r.bottom - 6] : [(r.top + r.bottom) / 2];
+        for (const y of ys) {
+          const hit = document.elementFromPoint(x, y);
+          if (hit === null || !(target.contains(hit) || hit.contains(target))) faults.push(`${nameOf(e)} is covered by ${hit === null ? "nothing" : nameOf(hit)}`);
+          // A box between that cuts what it holds.
+          else if (hit !== target && hit.contains(target)) faults.push(`${nameOf(e)} is cut off inside ${nameOf(hit)}`);
+        }
+      }
+      if (e.matches("button, .btn") && (e.scrollWidth > e.clientWidth + 1 || e.scrollHeight > e.clientHeight + 1)) faults.push(`the words of ${nameOf(e)} do not fit`);
+    }
+    for (const e of document.querySelectorAll("*")) if (e.scrollTop > 0) e.scrollTop = 0;
+    return [...new Set(faults)];
+  }, least);
+}
