@@ -1,6 +1,7 @@
 import { useTranslation } from "react-i18next";
 import { useHeldWords, useRefusal } from "@/shared/commands";
 import { fleetHalt, pausedSingly, useFleet, useServerNow, useVehicles, type FleetHalt } from "@/shared/live";
+import { useLocation } from "@/shared/router";
 import { Banner, Button, goGuard } from "@/shared/ui";
 import { dateTime } from "@/shared/words/format";
 
@@ -15,7 +16,10 @@ export function PauseBanner({ onResume }: { onResume: () => void }) {
   const singly = pausedSingly(vehicles);
   const names = singly.map((v) => v.name).join(t("common:join"));
   const [first] = singly;
-  if (halt === undefined && first === undefined) return null;
+  const { path } = useLocation();
+  // On its own page it says so itself, and Pause must not move away under the finger.
+  const alone = singly.length === 1 && path === `/vehicles/${encodeURIComponent(first?.id ?? "")}`;
+  if (halt === undefined && (first === undefined || alone)) return null;
   const [what, more] = halt !== undefined ? ofFleet(halt) : ofSingle();
   const resume = () => {
     if (goGuard.takes(performance.now())) onResume();
