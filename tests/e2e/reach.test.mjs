@@ -60,7 +60,8 @@ for (const [width, height, lang, theme] of [
       if (name === "send") await page.locator(".mode[role=radio]").first().waitFor({ state: "attached", timeout: 20_000 });
       await picture(page, `reach-${name}-${width}-${theme}-${lang}`);
       assert.deepEqual(await reachFaultsOf(page), [], `${name}: reach`);
-      assert.deepEqual(await faultsOf(page), [], `${name}: accessibility`);
+      // Sizes are measured above, each target scrolled into sight; axe takes a row at the edge of a list for a small one.
+      assert.deepEqual(await faultsOf(page, { without: ["target-size"] }), [], `${name}: accessibility`);
     }
     assert.deepEqual(page.errors, []);
     await page.context().close();
