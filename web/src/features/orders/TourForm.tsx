@@ -1,24 +1,17 @@
-import { useCallback, useReducer, useRef } from "react";
+import { useCallback, useMemo, useReducer, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
-import type { JobOrder, MotionMode, Plant } from "@/shared/api/types";
+import type { JobOrder, Plant } from "@/shared/api/types";
+import { MapView } from "@/shared/map";
 import { useCommandsEnabled, useMayCommand, useVehicles } from "@/shared/live";
 import { navigate } from "@/shared/router";
-import { Button, Card, CommandButton, Icon } from "@/shared/ui";
+import { Button, Card, CommandButton, NumberPad } from "@/shared/ui";
 import { useCommand } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
-import { emptyTour, faults, toRequest, tour, type TourFault } from "./tour";
-
-const modes: readonly MotionMode[] = [
-  "auto",
-  "linear",
-  "fixed_axis_rotation",
-  "self_rotation",
-  "lateral",
-  "oblique",
-  "combined",
-  "free",
-];
+import { duration } from "@/shared/words/format";
+import { chosenOf, emptyTour, faults, toRequest, tour, tourTime } from "./tour";
+import { TourRow } from "./TourRow";
+import { useTourPreview } from "./useTourPreview";
 
 function newKey(): string {
   const bytes = crypto.getRandomValues(new Uint8Array(16));
@@ -50,13 +43,33 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
       navigate(`/orders/${order.id}`);
     }, [text]),
   );
+  const preview = useTourPreview(wrong.length === 0 && linkUp ? text : undefined);
+  const data = preview.kind === "ready" ? preview.data : undefined;
+  const problem =
+    preview.kind === "failed"
+      ? words.problem(preview.problem)
+      : data?.accepted === false && data.problem
+        ? words.reason(data.problem)
+        : undefined;
+  const time = data && tourTime(state, data);
+  const [activeId, setActive] = useState(1);
+  const active = state.steps.find((s) => s.id === activeId) ?? state.steps[0]!;
+  const areas = useMemo(
+    () =>
+      (data?.steps ?? []).flatMap((step, i) => {
+        const rings = chosenOf(step, state.steps[i]?.mode ?? "auto")?.swept;
+        return rings ? [{ rings, look: "chosen" as const, dash: [] }] : [];
+      }),
+    [data, state.steps],
+  );
+  const about = areas.flatMap((area) => area.rings.flat());
   const disabled = !linkUp
     ? t("command.offline")
     : !mayCommand
       ? t("command.not_allowed")
       : wrong.length > 0
         ? t("tour.fix")
-        : undefined;
+        : problem;
   return (
     <Card
       className="odetail tour"
@@ -68,20 +81,19 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
       }
     >
       <div className="fields">
-        <label className="field">
-          <span className="cap">{t("tour.vehicle")}</span>
-          <select
-            value={state.vehicle}
-            onChange={(e) => dispatch({ kind: "vehicle", vehicle: e.target.value })}
-          >
-            <option value="">{t("tour.any")}</option>
-            {vehicles.map((v) => (
-              <option key={v.id} value={v.id}>
-                {v.name}
-              </option>
-            ))}
-          </select>
-        </label>
+        <div className="tourwho" role="group" aria-label={t("tour.vehicle")}>
+          {["", ...vehicles.map((v) => v.id)].map((id) => (
+            <button
+              key={id}
+              type="button"
+              className="btn"
+              aria-pressed={state.vehicle === id}
+              onClick={() => dispatch({ kind: "vehicle", vehicle: id })}
+            >
+              {id === "" ? t("tour.any") : words.vehicle(id)}
+            </button>
+          ))}
+        </div>
         <label className="field">
           <span className="cap">{t("tour.priority")}</span>
           <input
@@ -94,72 +106,61 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
         </label>
       </div>
       <h3 className="cap">{t("tour.stations")}</h3>
-      <ol className="tourlist">
-        {state.steps.map((step, i) => {
-          const fault = wrong.find((f) => f.id === step.id && f.kind !== "missing");
-          const station = plant?.stations.find((s) => String(s.number) === step.station);
-          const index = i + 1;
-          return (
-            <li key={step.id}>
-              <b aria-hidden="true">{index}</b>
-              <input
-                type="text"
-                inputMode="numeric"
-                aria-label={t("tour.station", { index })}
-                aria-invalid={fault !== undefined}
-                value={step.station}
-                onChange={(e) => dispatch({ kind: "station", id: step.id, station: e.target.value })}
-              />
-              <select
-                aria-label={t("tour.mode", { index })}
-                value={step.mode}
-                onChange={(e) => dispatch({ kind: "mode", id: step.id, mode: e.target.value as MotionMode })}
-              >
-                {modes.map((mode) => (
-                  <option key={mode} value={mode}>
-                    {words.mode(mode)}
-                  </option>
-                ))}
-              </select>
-              <button
-                type="button"
-                className="btn icon up"
-                aria-label={t("tour.up", { index })}
-                disabled={i === 0}
-                onClick={() => dispatch({ kind: "move", id: step.id, by: -1 })}
-              >
-                <Icon name="chev" />
-              </button>
-              <button
-                type="button"
-                className="btn icon"
-                aria-label={t("tour.down", { index })}
-                disabled={i === state.steps.length - 1}
-                onClick={() => dispatch({ kind: "move", id: step.id, by: 1 })}
-              >
-                <Icon name="chev" />
-              </button>
-              <button
-                type="button"
-                className="btn icon"
-                aria-label={t("tour.remove", { index })}
-                disabled={state.steps.length === 1}
-                onClick={() => dispatch({ kind: "remove", id: step.id })}
-              >
-                <Icon name="x" />
-              </button>
-              <span className={fault ? "lab bad" : "lab"}>
-                {fault ? faultText(fault) : (station?.name ?? "")}
-              </span>
-            </li>
-          );
-        })}
-      </ol>
+      <div className="tourwork">
+        <ol className="tourlist">
+          {state.steps.map((step, i) => (
+            <TourRow
+              key={step.id}
+              step={step}
+              index={i + 1}
+              last={i === state.steps.length - 1}
+              only={state.steps.length === 1}
+              active={step.id === active.id}
+              place={plant?.stations.find((s) => String(s.number) === step.station)?.name ?? ""}
+              fault={wrong.find((f) => f.id === step.id)}
+              preview={data?.steps[i]}
+              onActive={() => setActive(step.id)}
+              dispatch={dispatch}
+            />
+          ))}
+          <li className="more">
+            <Button
+              icon="plus"
+              onPress={() => {
+                setActive(state.nextId);
+                dispatch({ kind: "add" });
+              }}
+            >
+              {t("tour.add")}
+            </Button>
+          </li>
+        </ol>
+        <NumberPad
+          label={t("tour.pad")}
+          digits={active.station}
+          onDigits={(station) => dispatch({ kind: "station", id: active.id, station })}
+        />
+      </div>
+      {plant && data && (
+        <div className="tourmap">
+          <MapView
+            plant={plant}
+            overlays={{ areas }}
+            {...(about.length > 0 && { about })}
+            selected={data.vehicle || undefined}
+            label={t("tour.map")}
+          />
+        </div>
+      )}
       <div className="row tourfoot">
-        <Button icon="plus" onPress={() => dispatch({ kind: "add" })}>
-          {t("tour.add")}
-        </Button>
-        <span className="grow" />
+        <p className={problem ? "lab bad grow" : "lab grow"} role="status">
+          {problem ??
+            (time !== undefined
+              ? t("tour.time", { time: duration(time) })
+              : preview.kind === "loading"
+                ? t("tour.asking")
+                : "")}
+        </p>
         <CommandButton
           label={t("tour.create")}
           progress={asked.kind === "requested" ? { kind: "requested", atMs: asked.atMs } : { kind: "ready" }}
@@ -176,8 +177,4 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
       )}
     </Card>
   );
-
-  function faultText(fault: TourFault): string {
-    return t(`tour.${fault.kind}`, { station: "station" in fault ? fault.station : "" });
-  }
 }

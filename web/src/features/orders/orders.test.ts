@@ -1,7 +1,17 @@
 import { describe, expect, it } from "vitest";
-import type { JobOrder, JobState, Plant } from "@/shared/api/types";
+import type { DryRun, JobOrder, JobState, Plant } from "@/shared/api/types";
 import { actionsOf, mergeOrders } from "./orderLook";
-import { emptyTour, faults, kMaxSteps, toRequest, tour, type Tour, type TourEvent } from "./tour";
+import {
+  chosenOf,
+  emptyTour,
+  faults,
+  kMaxSteps,
+  tourTime,
+  toRequest,
+  tour,
+  type Tour,
+  type TourEvent,
+} from "./tour";
 
 const order = (id: string, number: number, state: JobState, over: Partial<JobOrder> = {}): JobOrder =>
   ({
@@ -14,7 +24,7 @@ const order = (id: string, number: number, state: JobState, over: Partial<JobOrd
     steps: [],
     ...over,
   }) as unknown as JobOrder;
-const plant = { stations: [{ number: 1 }, { number: 2 }, { number: 3 }] } as Plant;
+const plant = { vehicles: [], stations: [{ number: 1 }, { number: 2 }, { number: 3 }] } as unknown as Plant;
 const run = (state: Tour, ...events: TourEvent[]) => events.reduce(tour, state);
 const numbers = (...n: string[]) =>
   run(
@@ -86,6 +96,41 @@ describe("tour", () => {
       "4 missing",
     ]);
     expect(faults(numbers("1", "2", "1"), plant)).toEqual([]);
+  });
+  it("refuses a station that is not for the chosen vehicle, before the server does", () => {
+    const hall = {
+      vehicles: [{ id: "TP-01", type: "platform" }],
+      stations: [
+        { number: 1, vehicle_types: ["platform"] },
+        { number: 15, vehicle_types: ["tracker"] },
+        { number: 40, vehicle_types: [] },
+      ],
+    } as unknown as Plant;
+    const kinds = (vehicle: string) =>
+      faults({ ...numbers("1", "15", "40"), vehicle }, hall).map((f) => `${f.id} ${f.kind}`);
+
+    expect(kinds("TP-01")).toEqual(["2 wrong_type"]);
+    expect(kinds("")).toEqual([]);
+  });
+  it("adds up the drives, and says nothing while one cannot be driven", () => {
+    const option = (mode: string, feasible: boolean, duration_s: number, suggested = false) => ({
+      mode,
+      feasible,
+      duration_s,
+      suggested,
+    });
+    const preview = {
+      steps: [
+        { options: [option("free", true, 90), option("linear", true, 60, true)] },
+        { options: [option("lateral", false, 0), option("free", true, 30, true)] },
+      ],
+    } as unknown as DryRun;
+    const state = numbers("1", "2");
+
+    expect(chosenOf(preview.steps[0]!, "auto")?.mode).toBe("linear");
+    expect(tourTime(state, preview)).toBe(90);
+    expect(tourTime(run(state, { kind: "mode", id: 1, mode: "free" }), preview)).toBe(120);
+    expect(tourTime(run(state, { kind: "mode", id: 2, mode: "lateral" }), preview)).toBeUndefined();
   });
   it("takes digits only and a priority inside the contract", () => {
     const state = run(

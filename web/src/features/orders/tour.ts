@@ -1,4 +1,4 @@
-import type { MotionMode, Plant } from "@/shared/api/types";
+import type { DryRun, MotionMode, Plant, StepPreview } from "@/shared/api/types";
 
 /** A job order being written: stations in the order they will be visited. */
 export interface TourStep {
@@ -76,18 +76,23 @@ export function tour(state: Tour, event: TourEvent): Tour {
 export type TourFault =
   | { kind: "missing"; id: number }
   | { kind: "unknown"; id: number; station: string }
+  | { kind: "wrong_type"; id: number; station: string }
   | { kind: "repeated"; id: number; station: string };
 
 /** What the server would refuse for sure, named by row; the rest it decides. */
 export function faults(state: Tour, plant: Plant | undefined): TourFault[] {
   const found: TourFault[] = [];
+  const type = plant?.vehicles.find((v) => v.id === state.vehicle)?.type;
   state.steps.forEach((step, i) => {
     if (step.station === "") {
       found.push({ kind: "missing", id: step.id });
       return;
     }
-    if (plant && !plant.stations.some((s) => s.number === Number(step.station)))
-      found.push({ kind: "unknown", id: step.id, station: step.station });
+    const station = plant?.stations.find((s) => s.number === Number(step.station));
+    const only = station?.vehicle_types ?? [];
+    if (type !== undefined && only.length > 0 && !only.includes(type))
+      found.push({ kind: "wrong_type", id: step.id, station: step.station });
+    if (plant && station === undefined) found.push({ kind: "unknown", id: step.id, station: step.station });
     const before = state.steps[i - 1];
     if (before && before.station !== "" && Number(before.station) === Number(step.station))
       found.push({ kind: "repeated", id: step.id, station: step.station });
@@ -106,4 +111,25 @@ export function toRequest(state: Tour): {
     priority: state.priority,
     steps: state.steps.map((s) => ({ station: Number(s.station), motion_mode: s.mode })),
   };
+}
+
+/** The way that a step would be driven, or why none leads there. */
+export function chosenOf(step: StepPreview, wanted: MotionMode) {
+  if (wanted !== "auto") return step.options.find((o) => o.mode === wanted);
+  return (
+    step.options.find((o) => o.suggested && o.feasible) ??
+    step.options.find((o) => o.mode === step.chosen && o.feasible) ??
+    step.options[0]
+  );
+}
+
+/** Seconds of all drives together; undefined while one of them cannot be driven. */
+export function tourTime(state: Tour, preview: DryRun): number | undefined {
+  let total = 0;
+  for (const [i, step] of preview.steps.entries()) {
+    const option = chosenOf(step, state.steps[i]?.mode ?? "auto");
+    if (option?.feasible !== true || option.duration_s === undefined) return undefined;
+    total += option.duration_s;
+  }
+  return total;
 }

@@ -1,10 +1,9 @@
-import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Plant, Reason } from "@/shared/api/types";
-import { Icon } from "@/shared/ui";
+import { Icon, NumberPad } from "@/shared/ui";
 import { heading, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { padKeyOf, pressKey, stationOf, type PadKey, type StationEntry } from "./stationEntry";
+import { stationOf, type StationEntry } from "./stationEntry";
 
 /** "1–7, 31–33": the numbers there are, so that a wrong one can be put right. */
 export function numberRanges(numbers: readonly number[]): string {
@@ -30,42 +29,13 @@ export interface StationStepProps {
   onPick: () => void;
 }
 
-const keys: readonly PadKey[] = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "clear", "0", "delete"];
-
 export function StationStep(props: StationStepProps) {
   const { digits, picking, onDigits, onPick } = props;
   const { t } = useTranslation("send");
-  const [hit, setHit] = useState<PadKey>();
-  const press = (key: PadKey) => {
-    setHit(key);
-    onDigits(pressKey(digits, key));
-  };
   return (
     <>
       <Display {...props} />
-      <div
-        className="pad"
-        role="group"
-        aria-label={t("station.pad")}
-        onKeyDown={(event) => {
-          const key = padKeyOf(event.key);
-          if (key === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
-          event.preventDefault();
-          press(key);
-        }}
-      >
-        {keys.map((key) => (
-          <button
-            key={key}
-            type="button"
-            className={`key ${hit === key && digits !== "" ? "hit" : ""}`}
-            aria-label={key === "clear" || key === "delete" ? t(`station.${key}_label`) : undefined}
-            onClick={() => press(key)}
-          >
-            {key === "clear" ? t("station.clear") : key === "delete" ? <Icon name="del" /> : key}
-          </button>
-        ))}
-      </div>
+      <NumberPad label={t("station.pad")} digits={digits} onDigits={onDigits} />
       <button type="button" className="btn wide" aria-pressed={picking} onClick={onPick}>
         <Icon name="map" />
         <span>{picking ? t("station.picking") : t("station.pick")}</span>

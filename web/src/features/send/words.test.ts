@@ -12,7 +12,8 @@ import en from "./i18n.en.json";
 import { modeIcon } from "./ModeStep";
 import { deviationValues, moveWords, type Segment } from "./moveWords";
 import { dimension, wayOf } from "./moveGeometry";
-import { lookUpStation, padKeyOf, pressKey } from "./stationEntry";
+import { pressKey, padKeyOf } from "@/shared/ui/padKeys";
+import { lookUpStation } from "./stationEntry";
 import { numberRanges } from "./StationStep";
 
 const reasonsEn: Record<string, string> = rawReasonsEn;

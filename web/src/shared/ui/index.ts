@@ -19,3 +19,4 @@ export {
 export { PanelEmpty, PanelFailed, PanelLoading } from "./Panel";
 export { Tabs, type TabItem } from "./Tabs";
 export { freshness, kLateS, kLostS, Value, type Freshness } from "./Value";
+export { NumberPad } from "./NumberPad";
