@@ -153,9 +153,10 @@ PULSELINE_FIELDS(ClockDifference, ahead, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
 PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
+PULSELINE_FIELDS(BracketShare, bracket, share)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,
-                 integration, needs_resume, needs_resume_reason, made_way, state)
+                 integration, needs_resume, needs_resume_reason, made_way, worst_bracket, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

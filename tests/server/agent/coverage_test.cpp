@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <filesystem>
 #include <random>
 #include <string>
 #include <vector>
@@ -43,7 +44,8 @@ fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& sta
 class Coverage : public ::testing::TestWithParam<Case> {
 protected:
     Coverage()
-        : plant_(*plant::load_plant_file(std::string(PULSELINE_PLANTS) + "/" + GetParam().plant)),
+        : plant_(*plant::load_plant_file(
+              (std::filesystem::path(PULSELINE_PLANTS) / GetParam().plant).string())),
           vehicle_(*plant::find_vehicle(plant_, plant::VehicleId(GetParam().vehicle))),
           type_(*plant::find_vehicle_type(plant_, vehicle_.type)),
           station_(*plant::find_station(plant_, vehicle_.home)) {}
