@@ -16,7 +16,7 @@ bool is_time_zone(const std::string& name);
 std::int64_t local_day(const std::string& zone, Time t);
 
 /// When clocks there show `second` after midnight of `day`. What the change to summer time leaves
-/// out comes an hour later on the clock; what comes twice in autumn counts the first time.
+/// out comes at the change; what comes twice in autumn counts the first time.
 /// REQUIRES: is_time_zone(zone).
 Time local_time(const std::string& zone, std::int64_t day, int second);
 

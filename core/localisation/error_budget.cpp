@@ -31,7 +31,8 @@ ErrorBudget ErrorBudget::kind() {
     ErrorBudget budget;
     scale(budget.drive, 0.5);
     budget.camera = {5e-5, 1e-4, radians(0.01), 0.001, 0.1, 0.001, 2e-4, 5e-4};
-    budget.marker = {2e-4, 2e-5, 1e-4};
+    budget.marker.print_share = 2e-4;
+    budget.marker.print_m = 2e-5;
     budget.slip_sensor.scale *= 0.5;
     return budget;
 }
@@ -41,8 +42,8 @@ ErrorBudget ErrorBudget::harsh() {
     ErrorBudget budget;
     scale(budget.drive, kTimes);
     scale(budget.camera, kTimes);
-    budget.marker = {kTimes * budget.marker.print_share, kTimes * budget.marker.print_m,
-                     kTimes * budget.marker.survey_rad};
+    budget.marker.print_share *= kTimes;
+    budget.marker.print_m *= kTimes;
     budget.slip_sensor.scale *= kTimes;
     return budget;
 }

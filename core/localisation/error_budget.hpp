@@ -61,7 +61,7 @@ struct CameraErrors {
 struct MarkerErrors {
     double print_share = 5e-4;  // of the size: printers stretch
     double print_m = 5e-5;     // of the centre: ink that runs to one side, a sheet that is not flat
-    double survey_rad = 3e-4;  // of its direction, where an order does not say it
+    double survey_rad = 5e-4;  // of its direction, where an order does not say it
 };
 
 /// Of the free-rolling measuring wheels that show slip (plant::SlipSensor has their noise).

@@ -48,14 +48,14 @@ TEST(Recurrence, DailyTimesFollowTheClockOfTheirZone) {
     EXPECT_EQ(last_time(r, at(change, 4 * 3600 - 1)), at(change - 1, 5 * 3600));
 }
 
-TEST(Recurrence, TimesThatFallTogetherAtTheChangeOfTheClockAreOne) {
+TEST(Recurrence, WhatTheChangeOfTheClockLeavesOutComesAtTheChangeAndOnce) {
     Recurrence r;
-    r.daily_at_s = {2 * 3600 + 1800, 3 * 3600 + 600, 3 * 3600 + 1800};
+    r.daily_at_s = {2 * 3600, 2 * 3600 + 1800, 3 * 3600 + 600};
     r.time_zone = "Europe/Berlin";
     const std::int64_t change = 20'541;
-    EXPECT_EQ(next_time(r, at(change, 0)), at(change, 3600 + 600)) << "03:10, before 02:30";
-    EXPECT_EQ(next_time(r, at(change, 3600 + 600)), at(change, 3600 + 1800)) << "02:30 and 03:30";
-    EXPECT_EQ(next_time(r, at(change, 3600 + 1800)), at(change + 1, 1800));
+    EXPECT_EQ(next_time(r, at(change, 0)), at(change, 3600)) << "02:00 and 02:30 are 03:00 there";
+    EXPECT_EQ(next_time(r, at(change, 3600)), at(change, 3600 + 600));
+    EXPECT_EQ(next_time(r, at(change, 3600 + 600)), at(change + 1, 0));
 }
 
 TEST(Recurrence, AZoneThatIsNoMoreMakesNothing) {

@@ -22,6 +22,7 @@ using localisation::ErrorBudget;
 constexpr double kQuantile95 = 7.8147;  // chi-squared of three degrees of freedom
 constexpr double kOff_m = 0.012;        // from the station, either way: both codes stay in view
 constexpr double kOff_rad = radians(0.1);
+constexpr double kKept = ErrorBudget{}.camera.focal_share;  // of F; worse cameras are refused
 
 struct Case {
     const char* plant;
@@ -50,9 +51,12 @@ protected:
           type_(*plant::find_vehicle_type(plant_, vehicle_.type)),
           station_(*plant::find_station(plant_, vehicle_.home)) {}
 
-    /// Share of `machines` whose true pose lies in the 95 % ellipsoid about the measured one.
+    /// Share of the machines that measure whose true pose lies in the 95 % ellipsoid about the
+    /// measured one. A camera that images a code too large or too small to be believed measures
+    /// nothing: of harsh machines some do, of others none.
     double share(const ErrorBudget& errors, int machines, bool rendered) {
         int inside = 0;
+        int measuring = 0;
         for (int i = 0; i < machines; ++i) {
             const auto seed = static_cast<std::uint64_t>(i + 1);
             std::mt19937_64 random(simulation::seed_for(seed, "coverage"));
@@ -64,9 +68,9 @@ protected:
             CameraSensing eyes(world, station_.hall, standing, rendered, seed,
                                plant::is_loaded(vehicle_));
             const auto measured = eyes.measure(target_at(plant_, station_));
-            EXPECT_TRUE(measured) << measured.error().what << ", machine " << i;
             const auto fix = eyes.take_fix();
-            if (!fix) continue;
+            if (!measured || !fix) continue;
+            ++measuring;
             Eigen::Matrix3d covariance;
             for (int r = 0; r < 3; ++r)
                 for (int c = 0; c < 3; ++c)
@@ -75,7 +79,8 @@ protected:
                                         wrap(fix->pose.heading_rad - truth.heading_rad)};
             inside += error.dot(covariance.ldlt().solve(error)) <= kQuantile95 ? 1 : 0;
         }
-        return double(inside) / machines;
+        EXPECT_GE(measuring, errors.camera.focal_share > kKept ? 0.8 * machines : machines);
+        return double(inside) / measuring;
     }
 
     plant::Plant plant_;
