@@ -49,11 +49,11 @@ struct CameraErrors {
     double mounting_m = 1e-4;         // of the place in the body, per axis
     double mounting_rad = 2e-4;       // about the plumb line
     double tilt_rad = radians(0.05);  // per axis; moves the foot by height x tilt, 0.40 mm alone
-    double focal_share = 0.005;       // of F
+    double focal_share = 0.003;       // of F; with the height below the 1.5 % that a reader takes
     double principal_px = 0.5;        // per axis
     double k1 = 0.005;
     double height_m = 5e-4;
-    double loaded_height_m = 0.002;  // besides: tyres and frame give under the load
+    double loaded_height_m = 0.001;  // besides: tyres and frame give under the load
 };
 
 /// Between a code as it lies on the floor and what the survey holds of it. Where it lies comes with

@@ -243,6 +243,7 @@ protected:
         type.brackets = wheels.brackets;
         type.mass_kg = wheels.mass_kg;
         type.max_load_kg = wheels.max_load_kg;
+        type.slip_sensor = wheels.slip_sensor;
         world.plant.vehicles[0].load_kg = 18000;
     }
     void start(std::vector<Fault> faults, std::vector<fleet::Action> actions = {}) {

@@ -18,7 +18,7 @@ TEST(LookOut, StopsBeforeAnotherVehicleAndGoesOnWhenThatHasLeft) {
     simulation::ServoDrive drive(type, {20, 30, 0}, 3);
     LookOut look_out(world, vehicle, plant::HallId("hall"), drive, 5);
     bool stands_there = true;
-    const geometry::Polygon other = geometry::transformed({30, 30.2, 0.4}, type.footprint);
+    const geometry::Polygon other = geometry::transformed({30, 30, 0}, type.footprint);
     int asked = 0;
     look_out.see([&](geometry::Point2 from, std::vector<geometry::Polygon>& seen) {
         ++asked;
