@@ -27,7 +27,7 @@ constexpr int kStarts = 200;
 constexpr int kStartsOfAVehicle = 20;
 // The paper's vehicle was calibrated for the experiment.
 const auto kErrors = localisation::ErrorBudget::kind();
-constexpr double kSigma_m = 1e-4;                       // of a measured pose, for the learning
+constexpr double kSigma_m = 1e-4;  // of a measured pose, for the learning
 constexpr double kSigma_rad = 1e-4;
 constexpr double kStep_s = 0.05;
 constexpr double kBetter = 10;
@@ -178,7 +178,8 @@ void print_budget(int starts) {
     fmt::print(
         "\nLi 2020 Fig. 12: end of the adjustment to a landmark, {} random starts in view of it, "
         "any heading\n"
-        "Wheel by wheel (servo drive): lost motion {:.2f} mm, wheels {:.3f} deg askew, sag {:.2f} mm "
+        "Wheel by wheel (servo drive): lost motion {:.2f} mm, wheels {:.3f} deg askew, sag {:.2f} "
+        "mm "
         "at each stop, nothing of it known to what is learned\n"
         "A new vehicle every {} starts, which knows nothing of itself; nominal images, calibrated "
         "camera\n",

@@ -21,6 +21,9 @@ struct StopDemand {
     double most_deg = kAny;
     double mean_mm = kAny;
     double mean_deg = kAny;
+    /// Share of the machines that may refuse a stop: not near enough after all passes. What they
+    /// refuse is told and counts in nothing else.
+    double most_refusing = 0;
 };
 
 struct StopFamily {
@@ -56,7 +59,7 @@ struct StopRuns {
 };
 
 /// `plant_file`: final-assembly.json. Images are rendered and read; all errors come from the seeds.
-/// Ends at the first stop that is refused.
+/// A machine that refuses a stop makes no more.
 std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
                             const StopRuns& runs);
 

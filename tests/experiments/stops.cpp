@@ -95,9 +95,16 @@ bool stops(const Options& options) {
                "axis max", "max", "deg mean", "deg max", "looks", "time s", "covered");
     bool good = true;
     for (const StopFamily& family : stop_families()) {
-        const auto made = run_stops(family, file, runs);
-        const bool kept = static_cast<int>(made.size()) == runs.vehicles * runs.stops &&
-                          made.back().why_not.empty() && keeps(family.demand, made);
+        auto made = run_stops(family, file, runs);
+        const auto is_refused = [](const Stop& stop) { return !stop.why_not.empty(); };
+        const auto first = std::ranges::find_if(made, is_refused);
+        const std::string refusal =
+            first == made.end() ? ""
+                                : fmt::format("station {}: {}", first->station, first->why_not);
+        const auto refused = std::erase_if(made, is_refused);
+        const bool kept =
+            static_cast<double>(refused) <= family.demand.most_refusing * runs.vehicles &&
+            !made.empty() && keeps(family.demand, made);
         good &= kept;
         fmt::print(
             "{:<24}{:>9.2f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.4f}{:>9.4f}{:>7.2f}{:>8.1f}{:>8.1f}%  {}: "
@@ -108,8 +115,9 @@ bool stops(const Options& options) {
             mean(made, [](const Stop& stop) { return stop.time_s; }), 100 * covered(made),
             family.demand.words, kept ? "yes" : "NO");
         fmt::print("  {}\n", terms_of(*plant, family, runs.errors));
-        if (!made.back().why_not.empty()) {
-            fmt::print("  refused at station {}: {}\n", made.back().station, made.back().why_not);
+        if (refused > 0) {
+            fmt::print("  {} of {} machines refused a stop, the first at {}\n", refused,
+                       runs.vehicles, refusal);
         }
         std::fflush(stdout);
     }
