@@ -7,7 +7,7 @@ export function OtherWays({ ways }: { ways: readonly LegAlternative[] }) {
   const { t } = useTranslation("send");
   if (ways.length === 0) return null;
   return (
-    <details className="lab pad-top">
+    <details className="lab ways">
       <summary>{t("others.title")}</summary>
       <ul>
         {ways.map((way) => (
