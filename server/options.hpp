@@ -17,7 +17,8 @@ struct Limits {
     std::size_t bodies_of_one_bytes = 32U << 20U;  // read or worked on at once, for one account
     std::size_t bodies_bytes = 128U << 20U;        // of all
     std::chrono::milliseconds header_time{10'000};
-    // From a request's first byte to its last. With what a close takes whoever is slow is gone in 15 s.
+    // From a request's first byte to its last. With what a close takes whoever is slow is gone in
+    // 15 s.
     std::chrono::milliseconds request_time{12'000};
     std::size_t body_bytes_per_second = 1024;
     std::chrono::milliseconds write_time{12'000};

@@ -100,8 +100,7 @@ TEST_F(Interlocks, ALoadOutsideTheWheelBaseStays) {
     narrow.connect_all();
     for (const auto& bracket : narrow.plant.vehicle_types.front().brackets) {
         const double force_n = bracket.position.x_m > 0 ? 400 * kGravity / 2 : 0;
-        narrow.vehicle("V1").state.brackets.push_back(
-            {bracket.name, force_n / 2, force_n / 2});
+        narrow.vehicle("V1").state.brackets.push_back({bracket.name, force_n / 2, force_n / 2});
     }
     narrow.run(2);
     const auto made = narrow.order("V1", {2});
