@@ -168,7 +168,7 @@ test("idle WebSockets over TLS take little memory, too", { timeout: 120_000 * SC
 
     console.log(`${count} WebSockets over TLS, ${each_kB.toFixed(0)} KB each`);
     // Asio keeps four buffers of 17 KB for a TLS connection, whatever passes through it; ours is the rest.
-    if (!process.env.PULSELINE_SANITIZED) assert.ok(each_kB <= 85, `${each_kB} KB each`);
+    if (!process.env.PULSELINE_SANITIZED) assert.ok(each_kB <= 90, `${each_kB} KB each`);
   } finally {
     closeAll();
     await secure.stop();
