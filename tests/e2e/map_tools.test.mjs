@@ -76,10 +76,9 @@ test("an area is closed in five presses, bars the way in Send, and is reopened",
   const { steps } = await client.post("/api/v1/job-orders?dryRun=true", { vehicle: "TP-01", steps: [{ station: 2, motion_mode: "auto" }] });
   const [step] = steps;
   const chosen = step.options.find((o) => o.suggested) ?? step.options.find((o) => o.feasible);
-  if (chosen?.closures?.length) {
-    await other.getByText(/Closed on the way: Work, by operator/).first().waitFor();
-    assert.equal(await other.locator("button.go").getAttribute("aria-disabled"), "true");
-  }
+  assert.equal(chosen.closures?.length, 1, "the way leads over it");
+  await other.getByText(/Closed on the way: Work, by operator/).first().waitFor();
+  assert.equal(await other.locator("button.go").getAttribute("aria-disabled"), "true");
   await picture(other, "send-floor-1920");
   await other.context().close();
 
