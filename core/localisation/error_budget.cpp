@@ -48,6 +48,12 @@ ErrorBudget ErrorBudget::harsh() {
     return budget;
 }
 
+ErrorBudget ErrorBudget::named(std::string_view name) {
+    if (name == "kind") return kind();
+    if (name == "harsh") return harsh();
+    return nominal();
+}
+
 std::vector<ErrorTerm> code_terms(const ErrorBudget& budget, const plant::Camera& camera,
                                   double offset_m, bool loaded) {
     const CameraErrors& c = budget.camera;

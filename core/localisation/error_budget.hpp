@@ -82,6 +82,8 @@ struct ErrorBudget {
     static ErrorBudget kind();
     /// One that nobody has looked after: everything twice the nominal.
     static ErrorBudget harsh();
+    /// By its name; every other name is the nominal one's.
+    static ErrorBudget named(std::string_view name);
 };
 
 /// What one kind of error does to a code's place.

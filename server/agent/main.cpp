@@ -32,12 +32,6 @@ struct Unit {
     std::unique_ptr<LinkClient> link;
 };
 
-localisation::ErrorBudget errors_of(const std::string& name) {
-    if (name == "kind") return localisation::ErrorBudget::kind();
-    if (name == "harsh") return localisation::ErrorBudget::harsh();
-    return localisation::ErrorBudget::nominal();
-}
-
 /// Where the vehicle truly stands: where its log left it, else placed at home.
 Result<geometry::Pose2> start_pose(const Options& options, const simulation::World& world,
                                    const plant::Vehicle& vehicle) {
@@ -123,8 +117,8 @@ Status set_up_tls(server::ssl::context& tls, const Options& options) {
 Result<int> run(const Options& options) {
     auto plant = plant::load_plant_file(options.world_file);
     if (!plant) return fail(plant.error());
-    const auto world =
-        simulation::make_world(std::move(*plant), options.seed, errors_of(options.errors));
+    const auto world = simulation::make_world(std::move(*plant), options.seed,
+                                              localisation::ErrorBudget::named(options.errors));
     std::optional<TruthLog> truth;
     server::ssl::context tls(server::ssl::context::tls_client);
     if (const auto status = set_up_tls(tls, options); !status) return fail(status.error());

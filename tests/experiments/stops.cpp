@@ -68,12 +68,6 @@ std::string terms_of(const plant::Plant& plant, const StopFamily& family,
     return text;
 }
 
-localisation::ErrorBudget budget_of(const std::string& name) {
-    if (name == "kind") return localisation::ErrorBudget::kind();
-    if (name == "harsh") return localisation::ErrorBudget::harsh();
-    return localisation::ErrorBudget::nominal();
-}
-
 }  // namespace
 
 bool stops(const Options& options) {
@@ -82,7 +76,7 @@ bool stops(const Options& options) {
     runs.stops = std::min(count, kStopsOfAVehicle);
     runs.vehicles = (count + runs.stops - 1) / runs.stops;
     runs.seed = options.seed;
-    runs.errors = budget_of(options.errors);
+    runs.errors = localisation::ErrorBudget::named(options.errors);
     runs.spoil_m = options.spoil_mm / 1e3;
     const std::string file = options.folder + "/../../db/plants/final-assembly.json";
     const auto plant = plant::load_plant_file(file);
