@@ -39,9 +39,12 @@ Result<std::vector<Segment>> Adjustment::next(const Pose2& body_from_target,
     if (!is_in_reach(body_from_target)) {
         return refuse("too_far_from_target", "the target is out of reach of small moves");
     }
-    if (passes_ == limits_.passes) return refuse("out_of_tolerance", "the passes are used up");
+    const bool outside = is_outside(body_from_target, limits_);
+    if (passes_ >= (outside ? limits_.passes_outside : limits_.passes)) {
+        return refuse("out_of_tolerance", "the passes are used up");
+    }
     const bool nearly_best = badness <= kNearlyBest * badness_of(*best_, limits_);
-    if (in_vain_ >= kMostInVain && nearly_best) {
+    if (in_vain_ >= kMostInVain && nearly_best && !outside) {
         return refuse("out_of_tolerance", "passes come no nearer");
     }
     const Manoeuvre manoeuvre = best_manoeuvre(*type_, body_from_target, limits_, compensation);
@@ -50,7 +53,10 @@ Result<std::vector<Segment>> Adjustment::next(const Pose2& body_from_target,
     }
     std::vector<Move> commands;
     for (const Move& move : manoeuvre.moves) {
-        commands.push_back({move.kind, compensation.commanded(move.kind, move.size)});
+        double size = compensation.commanded(move.kind, move.size);
+        // Even where it is believed to coast farther than that: it shows whether it does.
+        if (outside && size == 0) size = std::copysign(least_size(move.kind), move.size);
+        commands.push_back({move.kind, size});
     }
     auto segments = segments_of(commands);
     if (segments.empty()) return refuse("out_of_tolerance", "it coasts farther than it must move");

@@ -23,7 +23,8 @@ public:
     /// it stands (durations are not set); none when it is good. Errors, Errc::kUnreachable, each
     /// with the best that was measured {left_m, left_rad}: too_far_from_target (out of reach),
     /// out_of_tolerance (no pass is expected to come nearer, the passes are used up, or two of them
-    /// in succession came no nearer; these two are not given up where an earlier place was better).
+    /// in succession came no nearer; these two are not given up where an earlier place was better,
+    /// nor outside of what is accepted while passes are left).
     Result<std::vector<kinematics::Segment>> next(const Pose2& body_from_target,
                                                   const MotionCompensation& compensation);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/kinematics/wheels.hpp"
@@ -24,8 +25,7 @@ constexpr std::array<double, 7> kSharesOfSideways{1, 0.75, 0.5, 0.25, 0.12, 0.06
 Point2 direction(double heading_rad) { return {std::cos(heading_rad), std::sin(heading_rad)}; }
 
 void add(std::vector<Move>& moves, MoveKind kind, double size) {
-    const double least = kind == MoveKind::kTurn ? kLeastTurn_rad : kLeastMove_m;
-    if (std::abs(size) >= least) moves.push_back({kind, size});
+    if (std::abs(size) >= least_size(kind)) moves.push_back({kind, size});
 }
 
 /// A straight way of the body's centre along a heading, backwards when negative.
@@ -40,14 +40,18 @@ public:
            const MotionCompensation& compensation)
         : target_(target), limits_(limits), compensation_(compensation) {
         best_ = {{}, target, badness_of(target, limits)};
+        if (is_outside(target, limits)) best_.badness = std::numeric_limits<double>::infinity();
     }
 
+    /// All of it, or parts: a shift alone where a turn would spoil more than it mends.
     void shift_and_turn() {
-        std::vector<Move> moves;
-        add(moves, MoveKind::kAdvance, target_.x_m);
-        add(moves, MoveKind::kLateral, target_.y_m);
-        add(moves, MoveKind::kTurn, target_.heading_rad);
-        offer(std::move(moves));
+        for (unsigned parts = 1; parts < 8; ++parts) {
+            std::vector<Move> moves;
+            if (parts & 1) add(moves, MoveKind::kAdvance, target_.x_m);
+            if (parts & 2) add(moves, MoveKind::kLateral, target_.y_m);
+            if (parts & 4) add(moves, MoveKind::kTurn, target_.heading_rad);
+            offer(std::move(moves));
+        }
     }
 
     void rotate_advance_rotate() {
@@ -146,6 +150,13 @@ double badness_of(const Pose2& body_from_target, const AdjustmentLimits& limits)
     const double heading = body_from_target.heading_rad / limits.good_rad;
     return position * position + heading * heading;
 }
+
+bool is_outside(const Pose2& body_from_target, const AdjustmentLimits& limits) {
+    return (limits.accept_m > 0 && norm(body_from_target.position()) > limits.accept_m) ||
+           (limits.accept_rad > 0 && std::abs(body_from_target.heading_rad) > limits.accept_rad);
+}
+
+double least_size(MoveKind kind) { return kind == MoveKind::kTurn ? kLeastTurn_rad : kLeastMove_m; }
 
 bool moves_sideways(const plant::VehicleType& type) {
     return type.kinematics != plant::Kinematics::kDifferential &&

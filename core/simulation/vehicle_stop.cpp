@@ -31,6 +31,8 @@ control::AdjustmentLimits limits_for(control::AdjustmentLimits limits,
     tighten(limits.good_m, target.tolerance_x_m);
     tighten(limits.good_m, target.tolerance_y_m);
     tighten(limits.good_rad, target.tolerance_heading_rad);
+    limits.accept_m = std::min(target.tolerance_x_m, target.tolerance_y_m);
+    limits.accept_rad = target.tolerance_heading_rad;
     return limits;
 }
 
@@ -57,6 +59,7 @@ void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
     approaches_ = 0;
     blind_passes_ = 0;
     last_.reset();
+    arrived_.reset();
     driven_.clear();
     settling_s_ = kSettle_s / motion_.time_factor();
 }
@@ -115,7 +118,9 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
     learn(*measured);
+    if (!arrived_ && blind_passes_ == 0 && !on_the_way_) arrived_ = measured->pose;
     last_ = *measured;
+    last_->arrived = arrived_;
     motion_.set_believed(measured->pose);
     if (!correct_) return finish(true, {});
     const Pose2 off = inverse(measured->pose) * target_.target;

@@ -9,7 +9,9 @@
 
 #include "core/control/dynamic_window.hpp"
 #include "core/control/protective_fields.hpp"
+#include "core/kinematics/primitives.hpp"
 #include "core/simulation/lidar.hpp"
+#include "core/simulation/servo_drive.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::bench {
@@ -27,6 +29,8 @@ constexpr double kStep_s = 0.05;
 constexpr double kMostStep_us = 100;
 // 12 vehicles that scan ten times a second take 2 % of a core.
 constexpr double kMostScan_us = 0.02 * 1e6 / (12 * 10);
+// 12 simulated drives at ten times the pace, stepped every 0.1 s of their own time: 10 % of a core.
+constexpr double kMostDrive_us = 0.1 * 1e6 / (12 * 10 * 10);
 
 struct Times {
     std::vector<double> us;
@@ -149,6 +153,16 @@ bool bench_scanner(const plant::VehicleType& type, nlohmann::json& out) {
     return checks.report("protective fields", name, kMostScan_us, out) && scan_good;
 }
 
+bool bench_drive(const plant::VehicleType& type, nlohmann::json& out) {
+    simulation::ServoDrive drive(type, {}, 1);
+    std::vector<kinematics::Segment> way;
+    kinematics::append_straight(way, {}, {400, 0});
+    for (const kinematics::Segment& segment : way) drive.append(segment);
+    Times times;
+    for (int i = 0; i < 2000 && !drive.idle(); ++i) times.take([&] { drive.step(0.1); });
+    return times.report("simulated drive", plant::to_string(type.kinematics), kMostDrive_us, out);
+}
+
 }  // namespace
 
 nlohmann::json measure_control(bool& passed) {
@@ -159,6 +173,7 @@ nlohmann::json measure_control(bool& passed) {
         passed &= bench_window(type, false, out);
         passed &= bench_window(type, true, out);
         passed &= bench_scanner(type, out);
+        passed &= bench_drive(type, out);
     }
     return out;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/vision/camera_file.hpp"
+#include "core/localisation/error_budget.hpp"
 #include "core/plant/marker_geometry.hpp"
 #include "core/simulation/floor_camera.hpp"
 #include "core/vision/li_landmark.hpp"
@@ -23,8 +24,9 @@ using geometry::Pose2;
 using plant::MarkerKind;
 
 constexpr int kRuns = 50;
-constexpr double kTiltCalibration_rad = radians(0.01);  // one sigma, per axis
-constexpr double kMargin_m = 0.003;                     // of white sheet that stays in view
+// Of a laboratory's camera.
+const double kTiltCalibration_rad = localisation::ErrorBudget::kind().camera.tilt_rad;
+constexpr double kMargin_m = 0.003;  // of white sheet that stays in view
 
 struct Row {
     double actual;       // mm or deg

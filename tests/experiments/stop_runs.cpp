@@ -118,7 +118,7 @@ fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& sta
     for (const auto& id : station.markers) {
         const auto& marker = *plant::find_marker(plant, id);
         target.markers.push_back({marker.payload, plant::to_string(marker.kind), marker.size_m,
-                                  marker.pose, marker.sigma_xy_m});
+                                  marker.pose, marker.sigma_xy_m, marker.sigma_heading_rad});
     }
     return target;
 }
@@ -248,12 +248,10 @@ std::vector<StopFamily> stop_families() {
     StopFamily mecanum{"Mecanum, iGPS stand-in", "OM-01", {23, 28, 25, 27}, true, 0.0004};
     mecanum.demand.words = "Wang: +-0.5 mm always";
     mecanum.demand.most_axis_mm = 0.5;
-    mecanum.demand.most_refusing = 0.5;  // 6 of 20 measured, at a tolerance of 0.4 mm
     StopFamily differential{"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002};
     differential.demand.words = "Li 2020: ten times better than 7.58 mm, 2.39 deg";
     differential.demand.mean_mm = 0.758;
     differential.demand.mean_deg = 0.239;
-    differential.demand.most_refusing = 0.5;  // 6 of 20 measured, at a tolerance of 2 mm
     return {platform, mecanum, differential};
 }
 

@@ -21,9 +21,6 @@ struct StopDemand {
     double most_deg = kAny;
     double mean_mm = kAny;
     double mean_deg = kAny;
-    /// Share of the machines that may refuse a stop: not near enough after all passes. What they
-    /// refuse is told and counts in nothing else.
-    double most_refusing = 0;
 };
 
 struct StopFamily {

@@ -96,9 +96,7 @@ bool stops(const Options& options) {
             first == made.end() ? ""
                                 : fmt::format("station {}: {}", first->station, first->why_not);
         const auto refused = std::erase_if(made, is_refused);
-        const bool kept =
-            static_cast<double>(refused) <= family.demand.most_refusing * runs.vehicles &&
-            !made.empty() && keeps(family.demand, made);
+        const bool kept = refused == 0 && keeps(family.demand, made);
         good &= kept;
         fmt::print(
             "{:<24}{:>9.2f}{:>9.3f}{:>9.3f}{:>9.3f}{:>9.4f}{:>9.4f}{:>7.2f}{:>8.1f}{:>8.1f}%  {}: "

@@ -241,6 +241,64 @@ TEST(Adjustment, GivesUpAtItsBestWhenAVehicleComesNoNearer) {
     }
 }
 
+TEST(Adjustment, FromOutsideOfWhatIsAcceptedAnyMoveIsBetterThanNone) {
+    const auto type = mecanum();
+    AdjustmentLimits limits;
+    limits.good_m = 1.6e-4;
+    const Pose2 off{1.0e-3, 1.0e-3, 0};  // what a vehicle nobody knows yet may miss a move by
+    Adjustment careful(type, limits);
+    ASSERT_FALSE(careful.next(off, {}));
+
+    limits.accept_m = 4e-4;
+    int refused = 0;
+    for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+        SimpleVehicle vehicle{1.03, 2e-4, radians(0.005)};
+        vehicle.random.seed(seed);
+        Adjustment loop(type, limits);
+        MotionCompensation compensation;
+        Pose2 target = off;
+        for (;;) {
+            const auto moves = loop.next(target, compensation);
+            if (!moves || moves->empty()) break;
+            const Pose2 moved = vehicle.drive(*moves);
+            ASSERT_TRUE(compensation.learn({moves_of(*moves), moved, 1e-5, 1e-5}));
+            target = inverse(moved) * target;
+        }
+        EXPECT_LE(loop.passes(), limits.passes_outside);
+        refused += is_outside(target, limits) ? 1 : 0;
+    }
+    EXPECT_EQ(refused, 0);
+}
+
+TEST(Adjustment, OutsideItEndsAllTheSameWhenAVehicleNeverComesInside) {
+    const auto type = mecanum();
+    AdjustmentLimits limits;
+    limits.accept_m = 4e-4;
+    SimpleVehicle vehicle{0, 0, 0};  // its wheels turn and it stays
+    Adjustment loop(type, limits);
+    Pose2 target{0.003, 0, 0};
+    int passes = 0;
+    for (;; ++passes) {
+        const auto moves = loop.next(target, {});
+        if (!moves) {
+            EXPECT_EQ(moves.error().reason.code, "out_of_tolerance");
+            break;
+        }
+        ASSERT_FALSE(moves->empty());
+        target = inverse(vehicle.drive(*moves)) * target;
+    }
+    EXPECT_EQ(passes, limits.passes_outside);
+}
+
+TEST(Adjustment, ShiftsAloneWhereATurnWouldSpoilMoreThanItMends) {
+    const auto type = mecanum();
+    Adjustment loop(type);
+    const auto segments = loop.next({0.0016, -0.0029, radians(-0.018)}, {});
+    ASSERT_TRUE(segments);
+    ASSERT_EQ(segments->size(), 1u);
+    EXPECT_NE(segments->front().kind, Kind::kRotate);
+}
+
 TEST(Adjustment, DoesNotMoveWhenNoMoveIsExactEnoughToHelp) {
     const auto type = mecanum();
     AdjustmentLimits limits;

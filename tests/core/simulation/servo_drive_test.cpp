@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <vector>
 
 #include "core/kinematics/primitives.hpp"
@@ -267,20 +266,6 @@ TEST(ServoDrive, ASlopeAcrossThePathDrawsTheTrueVehicleDownhillUnnoticed) {
         EXPECT_NEAR(tilted.true_pose().y_m - level.true_pose().y_m,
                     -20 * 0.02 / errors.side_stiffness, 4e-3);
         EXPECT_NEAR(tilted.believed_pose().y_m, 0, 2e-3);
-    }
-}
-
-TEST(ServoDrive, CostsLittle) {
-    for (const auto& type : families()) {
-        ServoDrive drive(type, {}, 1);
-        drive.append(straight({}, 400));
-        constexpr int kSeconds = 40;
-        const std::clock_t begin = std::clock();
-        for (int i = 0; i < 10 * kSeconds; ++i) drive.step(0.1);
-        const double spent_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-        EXPECT_FALSE(drive.standing());  // it was driving all the time
-        std::printf("[ cost     ] %s: %.0f us a second; 12 vehicles at factor 10: %.1f %%\n",
-                    type.name.c_str(), 1e6 * spent_s / kSeconds, 100 * spent_s / kSeconds * 120);
     }
 }
 
