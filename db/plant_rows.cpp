@@ -32,12 +32,14 @@ void HallRow::set(const plant::Hall& hall) {
     element.grid.origin = hall.grid.origin;
     id = hall.id.str();
     outline = polygon_to_json(hall.outline);
+    names = names_to_json(hall.names);
 }
 
 plant::Hall HallRow::get() const {
     plant::Hall hall = element;
     hall.id = plant::HallId(id);
     hall.outline = polygon_from_json(outline);
+    hall.names = names_from_json(names);
     return hall;
 }
 
@@ -82,6 +84,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     brackets = brackets_to_json(type.brackets);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
+    names = names_to_json(type.names);
 }
 
 plant::VehicleType VehicleTypeRow::get() const {
@@ -101,6 +104,7 @@ plant::VehicleType VehicleTypeRow::get() const {
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();
     if (slip_sensor_noise_mps > 0) type.slip_sensor = {slip_sensor_noise_mps};
+    type.names = names_from_json(names);
     return type;
 }
 
@@ -125,6 +129,7 @@ void AreaRow::set(const plant::Area& area) {
     name = area.name;
     hall = area.hall.str();
     outline = polygon_to_json(area.outline);
+    names = names_to_json(area.names);
 }
 
 plant::Area AreaRow::get() const {
@@ -134,6 +139,7 @@ plant::Area AreaRow::get() const {
     area.name = name;
     area.hall = plant::HallId(hall);
     area.outline = polygon_from_json(outline);
+    area.names = names_from_json(names);
     return area;
 }
 
@@ -147,6 +153,7 @@ void StationRow::set(const plant::Station& station) {
     resting_place = station.resting_place;
     charger = station.charger;
     vehicle_types = keys_to_json(station.vehicle_types);
+    names = names_to_json(station.names);
 }
 
 plant::Station StationRow::get() const {
@@ -159,6 +166,7 @@ plant::Station StationRow::get() const {
     station.resting_place = resting_place != 0;
     station.charger = charger != 0;
     station.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
+    station.names = names_from_json(names);
     return station;
 }
 

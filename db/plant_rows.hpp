@@ -13,15 +13,15 @@ namespace pulseline::db {
 struct PlantRow {
     static constexpr const char* kTable = "plant";
     static constexpr const char* kColumns =
-        "only_one, id, name, revision, k_same, k_diff, reference_step_m, turn_threshold_rad";
+        "only_one, id, name, revision, k_same, k_diff, reference_step_m, turn_threshold_rad, names";
     int only_one = 1;
-    std::string id, name;
+    std::string id, name, names;
     std::int64_t revision = 1;
     plant::RoutingCost routing;
 
     auto fields() {
         return std::tie(only_one, id, name, revision, routing.k_same, routing.k_diff,
-                        routing.reference_step_m, routing.turn_threshold_rad);
+                        routing.reference_step_m, routing.turn_threshold_rad, names);
     }
 };
 
@@ -30,15 +30,15 @@ struct HallRow {
     static constexpr const char* kTable = "halls";
     static constexpr const char* kColumns =
         "position, id, name, outline, occupancy_yaml, grid_width, grid_height, grid_resolution_m, "
-        "grid_origin_x_m, grid_origin_y_m";
+        "grid_origin_x_m, grid_origin_y_m, names";
     std::int64_t position = 0;
-    std::string id, outline;
+    std::string id, outline, names;
     plant::Hall element;
 
     auto fields() {
         auto& grid = element.grid;
         return std::tie(position, id, element.name, outline, element.occupancy_yaml, grid.width,
-                        grid.height, grid.resolution_m, grid.origin.x_m, grid.origin.y_m);
+                        grid.height, grid.resolution_m, grid.origin.x_m, grid.origin.y_m, names);
     }
     void set(const plant::Hall& hall);
     plant::Hall get() const;
@@ -84,10 +84,10 @@ struct VehicleTypeRow {
         "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg, "
         "battery_critical_percent, battery_low_percent, battery_enough_percent, "
         "max_steering_rate_radps, height_m, usual_code_kind, usual_code_size_m, "
-        "slip_sensor_noise_mps";
+        "slip_sensor_noise_mps, names";
     std::int64_t position = 0;
     std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets,
-        usual_code_kind;
+        usual_code_kind, names;
     double slip_sensor_noise_mps = 0;  // 0: none
     plant::VehicleType element;
 
@@ -99,7 +99,7 @@ struct VehicleTypeRow {
                         t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
                         t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
                         t.battery.enough_percent, t.max_steering_rate_radps, t.height_m,
-                        usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps);
+                        usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps, names);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;
@@ -125,11 +125,11 @@ struct MarkerRow {
 
 struct AreaRow {
     static constexpr const char* kTable = "areas";
-    static constexpr const char* kColumns = "position, id, kind, name, hall, outline";
+    static constexpr const char* kColumns = "position, id, kind, name, hall, outline, names";
     std::int64_t position = 0;
-    std::string id, kind, name, hall, outline;
+    std::string id, kind, name, hall, outline, names;
 
-    auto fields() { return std::tie(position, id, kind, name, hall, outline); }
+    auto fields() { return std::tie(position, id, kind, name, hall, outline, names); }
     void set(const plant::Area& area);
     plant::Area get() const;
 };
@@ -139,9 +139,9 @@ struct StationRow {
     static constexpr const char* kColumns =
         "position, id, number, name, hall, x_m, y_m, heading_rad, tolerance_shape, tolerance_dx_m, "
         "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types, "
-        "charger";
+        "charger, names";
     std::int64_t position = 0;
-    std::string id, hall, tolerance_shape, markers, node, vehicle_types;
+    std::string id, hall, tolerance_shape, markers, node, vehicle_types, names;
     int resting_place = 0, charger = 0;
     plant::Station element;
 
@@ -150,7 +150,7 @@ struct StationRow {
         return std::tie(position, id, s.number, s.name, hall, s.pose.x_m, s.pose.y_m,
                         s.pose.heading_rad, tolerance_shape, s.tolerance.dx_m, s.tolerance.dy_m,
                         s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types,
-                        charger);
+                        charger, names);
     }
     void set(const plant::Station& station);
     plant::Station get() const;

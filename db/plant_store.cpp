@@ -1,6 +1,7 @@
 #include "db/plant_store.hpp"
 
 #include "db/fleet_rows.hpp"
+#include "db/leg_json.hpp"
 #include "db/plant_rows.hpp"
 #include "db/statement.hpp"
 
@@ -79,6 +80,7 @@ std::optional<plant::Plant> read_plant(soci::session& sql) {
     plant::Plant plant;
     plant.id = row.id;
     plant.name = row.name;
+    plant.names = names_from_json(row.names);
     plant.revision = row.revision;
     plant.routing = row.routing;
     read_all<HallRow>(sql, plant.halls);
@@ -122,6 +124,7 @@ std::int64_t PlantStore::import(const plant::Plant& plant) {
         PlantRow row;
         row.id = plant.id;
         row.name = plant.name;
+        row.names = names_to_json(plant.names);
         row.revision = revision;
         row.routing = plant.routing;
         Statement(sql, insert_into(PlantRow::kTable, PlantRow::kColumns), row.fields()).run();

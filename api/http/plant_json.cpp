@@ -8,8 +8,13 @@ Json keys_json(const Keys& keys) {
     return list_json(keys, [](const auto& key) { return Json(key.str()); });
 }
 
+void put_names(Json& json, const plant::Names& names) {
+    if (!names.empty()) json["names"] = names;
+}
+
 Json hall_json(const plant::Hall& hall) {
     Json json = {{"id", hall.id.str()}, {"name", hall.name}, {"outline", ring_json(hall.outline)}};
+    put_names(json, hall.names);
     if (!hall.grid.empty()) {
         json["grid"] = {{"width", hall.grid.width},
                         {"height", hall.grid.height},
@@ -20,17 +25,19 @@ Json hall_json(const plant::Hall& hall) {
 }
 
 Json station_json(const plant::Station& station) {
-    return {{"id", station.id.str()},
-            {"number", station.number},
-            {"name", station.name},
-            {"hall", station.hall.str()},
-            {"pose", pose_json(station.pose)},
-            {"tolerance", tolerance_json(station.tolerance)},
-            {"markers", keys_json(station.markers)},
-            {"node", station.node.str()},
-            {"resting_place", station.resting_place},
-            {"charger", station.charger},
-            {"vehicle_types", keys_json(station.vehicle_types)}};
+    Json json = {{"id", station.id.str()},
+                 {"number", station.number},
+                 {"name", station.name},
+                 {"hall", station.hall.str()},
+                 {"pose", pose_json(station.pose)},
+                 {"tolerance", tolerance_json(station.tolerance)},
+                 {"markers", keys_json(station.markers)},
+                 {"node", station.node.str()},
+                 {"resting_place", station.resting_place},
+                 {"charger", station.charger},
+                 {"vehicle_types", keys_json(station.vehicle_types)}};
+    put_names(json, station.names);
+    return json;
 }
 
 Json marker_json(const plant::Marker& marker) {
@@ -41,11 +48,13 @@ Json marker_json(const plant::Marker& marker) {
 }
 
 Json area_json(const plant::Area& area) {
-    return {{"id", area.id.str()},
-            {"kind", plant::to_string(area.kind)},
-            {"name", area.name},
-            {"hall", area.hall.str()},
-            {"outline", ring_json(area.outline)}};
+    Json json = {{"id", area.id.str()},
+                 {"kind", plant::to_string(area.kind)},
+                 {"name", area.name},
+                 {"hall", area.hall.str()},
+                 {"outline", ring_json(area.outline)}};
+    put_names(json, area.names);
+    return json;
 }
 
 Json wheel_json(const plant::Wheel& wheel) {
@@ -81,7 +90,7 @@ Json bracket_json(const plant::Bracket& bracket) {
 }
 
 Json vehicle_type_json(const plant::VehicleType& type) {
-    return {
+    Json json = {
         {"id", type.id.str()},
         {"name", type.name},
         {"kinematics", plant::to_string(type.kinematics)},
@@ -110,6 +119,8 @@ Json vehicle_type_json(const plant::VehicleType& type) {
          {{"critical_percent", type.battery.critical_percent},
           {"low_percent", type.battery.low_percent},
           {"enough_percent", type.battery.enough_percent}}}};
+    put_names(json, type.names);
+    return json;
 }
 
 Json plant_vehicle_json(const plant::Vehicle& vehicle) {
@@ -143,23 +154,25 @@ Json edge_json(const plant::RoadmapEdge& edge) {
 }  // namespace
 
 Json plant_json(const plant::Plant& plant) {
-    return {{"id", plant.id},
-            {"name", plant.name},
-            {"revision", plant.revision},
-            {"halls", list_json(plant.halls, hall_json)},
-            {"stations", list_json(plant.stations, station_json)},
-            {"markers", list_json(plant.markers, marker_json)},
-            {"areas", list_json(plant.areas, area_json)},
-            {"vehicle_types", list_json(plant.vehicle_types, vehicle_type_json)},
-            {"vehicles", list_json(plant.vehicles, plant_vehicle_json)},
-            {"roadmap",
-             {{"nodes", list_json(plant.nodes, node_json)},
-              {"edges", list_json(plant.edges, edge_json)}}},
-            {"routing",
-             {{"k_same", plant.routing.k_same},
-              {"k_diff", plant.routing.k_diff},
-              {"reference_step_m", plant.routing.reference_step_m},
-              {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    Json json = {{"id", plant.id},
+                 {"name", plant.name},
+                 {"revision", plant.revision},
+                 {"halls", list_json(plant.halls, hall_json)},
+                 {"stations", list_json(plant.stations, station_json)},
+                 {"markers", list_json(plant.markers, marker_json)},
+                 {"areas", list_json(plant.areas, area_json)},
+                 {"vehicle_types", list_json(plant.vehicle_types, vehicle_type_json)},
+                 {"vehicles", list_json(plant.vehicles, plant_vehicle_json)},
+                 {"roadmap",
+                  {{"nodes", list_json(plant.nodes, node_json)},
+                   {"edges", list_json(plant.edges, edge_json)}}},
+                 {"routing",
+                  {{"k_same", plant.routing.k_same},
+                   {"k_diff", plant.routing.k_diff},
+                   {"reference_step_m", plant.routing.reference_step_m},
+                   {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    put_names(json, plant.names);
+    return json;
 }
 
 Json station_state_json(const fleet::StationView& station) {

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <initializer_list>
+#include <string_view>
 
 #include "api/plant/plant_codec.hpp"
 
@@ -76,10 +78,47 @@ void decode_all(ObjectReader& in, const char* name, CountLimits limits, std::vec
     });
 }
 
+/// A language tag as BCP 47 begins them: "zh", "pt-BR".
+bool is_language(std::string_view tag) {
+    const auto end = std::ranges::find(tag, '-');
+    const auto letters = end - tag.begin();
+    const auto is_lower = [](char c) { return 'a' <= c && c <= 'z'; };
+    const auto is_part = [&](char c) {
+        return is_lower(c) || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '-';
+    };
+    return (letters == 2 || letters == 3) && tag.size() <= 35 && tag.back() != '-' &&
+           std::all_of(tag.begin(), end, is_lower) && std::all_of(end, tag.end(), is_part);
+}
+
+/// {"zh": "..."}: what it is called in other languages.
+Names decode_names(ObjectReader& in) {
+    static constexpr std::size_t kLanguages = 16;
+    Names names;
+    const Json* object = in.find("names");
+    if (object == nullptr) return names;
+    const std::string pointer = json::child_pointer(in.pointer(), std::string_view("names"));
+    if (!object->is_object() || object->size() > kLanguages) {
+        in.errors().add(pointer, {"wrong_type", {{"expected", std::string("object")}}},
+                        "Expected an object of at most 16 names by language here.");
+        return names;
+    }
+    for (const auto& [language, name] : object->items()) {
+        const std::string at = json::child_pointer(pointer, std::string_view(language));
+        if (!is_language(language)) {
+            in.errors().add(at, {"not_a_language", {}},
+                            "Name a language by its tag, such as zh or pt-BR.");
+            continue;
+        }
+        names[language] = json::read_text(name, at, in.errors(), kName);
+    }
+    return names;
+}
+
 Hall decode_hall(ObjectReader& in) {
     Hall hall;
     hall.id = decode_key<HallId>(in, "id");
     hall.name = in.text("name", kName);
+    hall.names = decode_names(in);
     hall.outline = decode_ring(in, "outline");
     hall.occupancy_yaml = in.text_or("occupancy_yaml", "", {1, 255});
     return hall;
@@ -100,6 +139,7 @@ Station decode_station(ObjectReader& in) {
     station.id = decode_key<StationId>(in, "id");
     station.number = static_cast<int>(in.integer("number", kNumber));
     station.name = in.text("name", kName);
+    station.names = decode_names(in);
     station.hall = decode_key<HallId>(in, "hall");
     station.pose = decode_pose(in.object("pose"));
     if (auto tolerance = in.object_if_any("tolerance")) {
@@ -133,6 +173,7 @@ Area decode_area(ObjectReader& in) {
     area.kind =
         in.one_of("kind", {AreaKind::kZone, AreaKind::kLane, AreaKind::kNoGo, AreaKind::kObstacle});
     area.name = in.text("name", kName);
+    area.names = decode_names(in);
     area.hall = decode_key<HallId>(in, "hall");
     area.outline = decode_ring(in, "outline");
     return area;
@@ -219,6 +260,7 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     VehicleType type;
     type.id = decode_key<VehicleTypeId>(in, "id");
     type.name = in.text("name", kName);
+    type.names = decode_names(in);
     type.kinematics = in.one_of("kinematics", {Kinematics::kSteeredPlatform, Kinematics::kMecanum,
                                                Kinematics::kDifferential});
     type.footprint = decode_ring(in, "footprint");
@@ -303,6 +345,7 @@ Plant decode_plant(const Json& json, FieldErrors& errors) {
     in.find("$schema");  // editors like to find it
     plant.id = in.text("id", kId);
     plant.name = in.text("name", kName);
+    plant.names = decode_names(in);
     plant.revision = in.integer_or("revision", 1, {1, 1'000'000'000});
     decode_all(in, "halls", kFew, plant.halls, decode_hall);
     decode_all(in, "stations", kMany, plant.stations, decode_station);

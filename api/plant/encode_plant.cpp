@@ -24,8 +24,13 @@ Json encode(const std::vector<Key<Tag>>& keys) {
     return list;
 }
 
+void put_names(Json& json, const Names& names) {
+    if (!names.empty()) json["names"] = names;
+}
+
 Json encode(const Hall& hall, PlantForm form) {
     Json json = {{"id", hall.id.str()}, {"name", hall.name}, {"outline", encode(hall.outline)}};
+    put_names(json, hall.names);
     if (form == PlantForm::kFile) {
         if (!hall.occupancy_yaml.empty()) json["occupancy_yaml"] = hall.occupancy_yaml;
     } else if (!hall.grid.empty()) {
@@ -38,21 +43,23 @@ Json encode(const Hall& hall, PlantForm form) {
 }
 
 Json encode(const Station& s) {
-    return {{"id", s.id.str()},
-            {"number", s.number},
-            {"name", s.name},
-            {"hall", s.hall.str()},
-            {"pose", encode(s.pose)},
-            {"tolerance",
-             {{"shape", to_string(s.tolerance.shape)},
-              {"dx_m", s.tolerance.dx_m},
-              {"dy_m", s.tolerance.dy_m},
-              {"dheading_rad", s.tolerance.dheading_rad}}},
-            {"markers", encode(s.markers)},
-            {"node", s.node.str()},
-            {"resting_place", s.resting_place},
-            {"charger", s.charger},
-            {"vehicle_types", encode(s.vehicle_types)}};
+    Json json = {{"id", s.id.str()},
+                 {"number", s.number},
+                 {"name", s.name},
+                 {"hall", s.hall.str()},
+                 {"pose", encode(s.pose)},
+                 {"tolerance",
+                  {{"shape", to_string(s.tolerance.shape)},
+                   {"dx_m", s.tolerance.dx_m},
+                   {"dy_m", s.tolerance.dy_m},
+                   {"dheading_rad", s.tolerance.dheading_rad}}},
+                 {"markers", encode(s.markers)},
+                 {"node", s.node.str()},
+                 {"resting_place", s.resting_place},
+                 {"charger", s.charger},
+                 {"vehicle_types", encode(s.vehicle_types)}};
+    put_names(json, s.names);
+    return json;
 }
 
 Json encode(const Marker& m) {
@@ -63,11 +70,13 @@ Json encode(const Marker& m) {
 }
 
 Json encode(const Area& a) {
-    return {{"id", a.id.str()},
-            {"kind", to_string(a.kind)},
-            {"name", a.name},
-            {"hall", a.hall.str()},
-            {"outline", encode(a.outline)}};
+    Json json = {{"id", a.id.str()},
+                 {"kind", to_string(a.kind)},
+                 {"name", a.name},
+                 {"hall", a.hall.str()},
+                 {"outline", encode(a.outline)}};
+    put_names(json, a.names);
+    return json;
 }
 
 Json encode(const Wheel& w) {
@@ -141,6 +150,7 @@ Json encode(const VehicleType& t) {
                    {"enough_percent", t.battery.enough_percent}}}};
     json["usual_code"] = {{"kind", to_string(t.usual_code.kind)}, {"size_m", t.usual_code.size_m}};
     if (t.slip_sensor) json["slip_sensor"] = {{"noise_mps", t.slip_sensor->noise_mps}};
+    put_names(json, t.names);
     return json;
 }
 
@@ -194,21 +204,24 @@ void print(const Json& json, int open, const std::string& indent, std::string& o
 Json encode_plant(const Plant& plant, PlantForm form) {
     Json halls = Json::array();
     for (const Hall& hall : plant.halls) halls.push_back(encode(hall, form));
-    return {{"id", plant.id},
-            {"name", plant.name},
-            {"revision", plant.revision},
-            {"halls", std::move(halls)},
-            {"stations", encode_all(plant.stations)},
-            {"markers", encode_all(plant.markers)},
-            {"areas", encode_all(plant.areas)},
-            {"vehicle_types", encode_all(plant.vehicle_types)},
-            {"vehicles", encode_all(plant.vehicles)},
-            {"roadmap", {{"nodes", encode_all(plant.nodes)}, {"edges", encode_all(plant.edges)}}},
-            {"routing",
-             {{"k_same", plant.routing.k_same},
-              {"k_diff", plant.routing.k_diff},
-              {"reference_step_m", plant.routing.reference_step_m},
-              {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    Json json = {
+        {"id", plant.id},
+        {"name", plant.name},
+        {"revision", plant.revision},
+        {"halls", std::move(halls)},
+        {"stations", encode_all(plant.stations)},
+        {"markers", encode_all(plant.markers)},
+        {"areas", encode_all(plant.areas)},
+        {"vehicle_types", encode_all(plant.vehicle_types)},
+        {"vehicles", encode_all(plant.vehicles)},
+        {"roadmap", {{"nodes", encode_all(plant.nodes)}, {"edges", encode_all(plant.edges)}}},
+        {"routing",
+         {{"k_same", plant.routing.k_same},
+          {"k_diff", plant.routing.k_diff},
+          {"reference_step_m", plant.routing.reference_step_m},
+          {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    put_names(json, plant.names);
+    return json;
 }
 
 std::string plant_to_json(const Plant& plant) {

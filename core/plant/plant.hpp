@@ -50,6 +50,9 @@ enum class Kinematics { kSteeredPlatform, kMecanum, kDifferential };
 enum class MarkerKind { kQr, kAprilTag, kLandmark };
 enum class AreaKind { kZone, kLane, kNoGo, kObstacle };
 
+/// What a thing is called in other languages than its `name` is in, by language tag ("zh").
+using Names = std::map<std::string, std::string>;
+
 struct Hall {
     HallId id;
     std::string name;
@@ -57,6 +60,7 @@ struct Hall {
     std::string occupancy_yaml;  // ROS map_server YAML beside the plant file; empty: outline +
                                  // obstacles only
     OccupancyGrid grid;          // loaded from it; empty without one
+    Names names;
 };
 
 /// Where a stop must end up, in the hall frame: a box or an ellipse about the theoretical position.
@@ -80,6 +84,7 @@ struct Station {
     bool resting_place = false;     // vehicles may be sent there to wait
     bool charger = false;           // a vehicle standing there can charge; also a resting place
     std::vector<VehicleTypeId> vehicle_types;  // who may stop there; empty: everybody
+    Names names;
 };
 
 struct Marker {
@@ -100,6 +105,7 @@ struct Area {
     std::string name;
     HallId hall;
     Polygon outline;
+    Names names;
 };
 
 struct Wheel {
@@ -182,6 +188,7 @@ struct VehicleType {
     double mass_kg = 0;
     double max_load_kg = 0;
     BatteryLimits battery;
+    Names names;
 };
 
 struct Vehicle {
@@ -241,6 +248,7 @@ struct Plant {
     std::vector<RoadmapNode> nodes;
     std::vector<RoadmapEdge> edges;
     RoutingCost routing;
+    Names names;
 };
 
 // Look-ups by key; nullptr when there is none. Pointers live as long as the plant is unchanged.

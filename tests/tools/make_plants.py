@@ -94,6 +94,34 @@ DELIVERY = {
     "cameras": [camera("front", 0.5)], "brackets": [], "mass_kg": 180, "max_load_kg": 250}
 
 
+CHINESE = {
+    "Final assembly": "总装", "Hall 3": "三号厂房", "Assembly hall": "装配厂房", "Pulse line": "脉动生产线",
+    "A Pulse line": "A 脉动生产线", "B Measuring hall": "B 测量厂房", "C iGPS cell": "C iGPS 工作区",
+    "D Landmark lab": "D 地标实验室", "Measuring hall": "测量厂房", "iGPS cell": "iGPS 工作区", "Landmark lab": "地标实验室",
+    "North aisle": "北通道", "South aisle": "南通道", "West aisle": "西通道", "East aisle": "东通道",
+    "Middle aisle": "中央通道", "Aisle to B": "通往 B 的通道", "Aisle to C and D": "通往 C 和 D 的通道",
+    "Fuselage section": "机身段", "Fuselage": "机身", "Wing panel": "机翼壁板", "South gate": "南大门",
+    "Conduits and cables": "管路与电缆", "Wings": "机翼", "Vertical tail": "垂尾", "Nose and final test": "机头与总检",
+    "Research": "研发", "Maintenance": "检修", "Delivery": "交付", "Hand-over north": "北侧交接", "Hand-over south": "南侧交接",
+    "Kit drop": "料架", "Tracker north": "北侧跟踪仪位", "Tracker south": "南侧跟踪仪位", "Tracker place": "跟踪仪位",
+    "Jig north": "北侧型架", "Jig south": "南侧型架", "Jig": "型架", "Shelf north": "北侧货架", "Shelf south": "南侧货架",
+    "Shelf": "货架", "Bay": "停车位", "Transport platform": "运输平台", "Measuring vehicle": "测量车",
+    "Omnidirectional mover": "全向移动平台", "Delivery vehicle": "配送车"}
+
+
+def named_too(thing):
+    """The thing with its Chinese name beside its own; a number at the end stays."""
+    words, _, last = thing["name"].rpartition(" ")
+    numbered = last.isdigit() and words in CHINESE
+    chinese = f"{CHINESE[words]} {last}" if numbered else CHINESE[thing["name"]]
+    named = {}
+    for key, value in thing.items():
+        named[key] = value
+        if key == "name":
+            named["names"] = {"zh": chinese}
+    return named
+
+
 class Plant:
     def __init__(self, ident, name):
         self.ident, self.name = ident, name
@@ -158,22 +186,25 @@ class Plant:
                               "load_kg": load_kg})
 
     def write(self, folder):
-        plant = {"$schema": "../../api/plant.schema.json", "id": self.ident, "name": self.name, "revision": 1,
-                 "halls": self.halls, "stations": self.stations, "markers": self.markers, "areas": self.areas,
-                 "vehicle_types": self.types, "vehicles": self.vehicles,
+        halls, stations, areas, types = ([named_too(thing) for thing in things] for things in
+                                         (self.halls, self.stations, self.areas, self.types))
+        plant = {"$schema": "../../api/plant.schema.json", "id": self.ident,
+                 **named_too({"name": self.name}), "revision": 1,
+                 "halls": halls, "stations": stations, "markers": self.markers, "areas": areas,
+                 "vehicle_types": types, "vehicles": self.vehicles,
                  "roadmap": {"nodes": list(self.nodes.values()), "edges": self.edges},
                  "routing": {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}}
         lines = []
         for key, value in plant.items():
             if key == "roadmap":
-                inner = ",\n".join(f'    "{k}": [\n' + ",\n".join("      " + json.dumps(e) for e in v) + "\n    ]"
+                inner = ",\n".join(f'    "{k}": [\n' + ",\n".join("      " + json.dumps(e, ensure_ascii=False) for e in v) + "\n    ]"
                                    for k, v in value.items())
                 lines.append(f'  "roadmap": {{\n{inner}\n  }}')
             elif isinstance(value, list) and value:
-                lines.append(f'  "{key}": [\n' + ",\n".join("    " + json.dumps(e) for e in value) + "\n  ]")
+                lines.append(f'  "{key}": [\n' + ",\n".join("    " + json.dumps(e, ensure_ascii=False) for e in value) + "\n  ]")
             else:
-                lines.append(f'  "{key}": {json.dumps(value)}')
-        (folder / f"{self.ident}.json").write_text("{\n" + ",\n".join(lines) + "\n}\n")
+                lines.append(f'  "{key}": {json.dumps(value, ensure_ascii=False)}')
+        (folder / f"{self.ident}.json").write_text("{\n" + ",\n".join(lines) + "\n}\n", encoding="utf-8")
 
 
 def grid(folder, name, width, depth, columns, resolution=0.1):
@@ -410,4 +441,5 @@ def main():
         make(folder)
 
 
-main()
+if __name__ == "__main__":
+    main()

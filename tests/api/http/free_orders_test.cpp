@@ -19,7 +19,8 @@ plant::Plant walled_in() {
              plant::AreaKind::kObstacle,
              id,
              plant.halls.front().id,
-             {{x_m, y_m}, {x_m + wide_m, y_m}, {x_m + wide_m, y_m + high_m}, {x_m, y_m + high_m}}});
+             {{x_m, y_m}, {x_m + wide_m, y_m}, {x_m + wide_m, y_m + high_m}, {x_m, y_m + high_m}},
+             {}});
     };
     wall("west", 32, 16, 0.5, 8);
     wall("east", 39.5, 16, 0.5, 8);

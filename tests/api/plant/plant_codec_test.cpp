@@ -49,6 +49,33 @@ std::string first_loss(const Json& file, const Json& written, const std::string&
     return file == written ? std::string() : at + ": " + file.dump() + " or " + written.dump();
 }
 
+TEST(PlantNames, InOtherLanguagesAreReadAndWritten) {
+    Json file = document(kPlants + "/pulse-line.json");
+    file["stations"][0]["names"] = {{"zh", "机翼"}, {"pt-BR", "Asas"}};
+    json::FieldErrors errors;
+    const Plant plant = decode_plant(file, errors);
+    ASSERT_TRUE(errors.empty());
+    EXPECT_EQ(plant.stations[0].names, (Names{{"zh", "机翼"}, {"pt-BR", "Asas"}}));
+    EXPECT_EQ(encode_plant(plant, PlantForm::kFile)["stations"][0]["names"],
+              file["stations"][0]["names"]);
+    EXPECT_FALSE(encode_plant(plant, PlantForm::kFile)["markers"][0].contains("names"));
+}
+
+TEST(PlantNames, OfNoLanguageAreRefusedWithTheirPlace) {
+    for (const char* language : {"", "z", "Zh", "chinese", "zh-", "zh_CN", "z1"}) {
+        Json file = document(kPlants + "/pulse-line.json");
+        file["halls"][0]["names"] = {{language, "X"}};
+        const auto faults = faults_of(file);
+        ASSERT_EQ(faults.size(), 1u) << language;
+        EXPECT_NE(faults[0].find("not_a_language"), std::string::npos) << faults[0];
+    }
+    Json file = document(kPlants + "/pulse-line.json");
+    file["names"] = "Pulse line";
+    file["areas"][0]["names"] = {{"zh", 7}};
+    EXPECT_EQ(faults_of(file),
+              (std::vector<std::string>{"/names wrong_type", "/areas/0/names/zh wrong_type"}));
+}
+
 class PlantText : public testing::TestWithParam<const char*> {
 protected:
     Json file_ = document(kPlants + "/" + GetParam() + ".json");

@@ -79,7 +79,18 @@ private:
         }
         if (keyword == "additionalProperties") {
             for (const auto& [name, member] : value.items()) {
-                if (!schema.at("properties").contains(name)) return at + "/" + name + ": unknown";
+                if (schema.contains("properties") && schema["properties"].contains(name)) continue;
+                if (!rule.is_object()) return at + "/" + name + ": unknown";
+                const std::string wrong = check(rule, member, at + "/" + name);
+                if (!wrong.empty()) return wrong;
+            }
+            return {};
+        }
+        if (keyword == "maxProperties") return unless(value.size() <= rule);
+        if (keyword == "propertyNames") {
+            for (const auto& [name, member] : value.items()) {
+                const std::string wrong = check(rule, Json(name), at + "/" + name);
+                if (!wrong.empty()) return wrong;
             }
             return {};
         }

@@ -18,12 +18,14 @@ plant::Plant walled_hall(double gap_m) {
                            plant::AreaKind::kObstacle,
                            "low",
                            hall.id,
-                           {{19.8, 0}, {20.2, 0}, {20.2, 2}, {19.8, 2}}});
+                           {{19.8, 0}, {20.2, 0}, {20.2, 2}, {19.8, 2}},
+                           {}});
     plant.areas.push_back({plant::AreaId("high"),
                            plant::AreaKind::kObstacle,
                            "high",
                            hall.id,
-                           {{19.8, 2 + gap_m}, {20.2, 2 + gap_m}, {20.2, 20}, {19.8, 20}}});
+                           {{19.8, 2 + gap_m}, {20.2, 2 + gap_m}, {20.2, 20}, {19.8, 20}},
+                           {}});
     return plant;
 }
 

@@ -36,17 +36,20 @@ plant::Plant cluttered_hall(std::mt19937_64& random) {
                            plant::AreaKind::kNoGo,
                            "no-go",
                            hall.id,
-                           {{20, 8}, {30, 8}, {24, 12}, {30, 18}, {20, 18}}});
+                           {{20, 8}, {30, 8}, {24, 12}, {30, 18}, {20, 18}},
+                           {}});
     plant.areas.push_back({plant::AreaId("rope"),
                            plant::AreaKind::kObstacle,
                            "rope",
                            hall.id,
-                           {{35, 25}, {45, 31}, {35, 25.02}}});
+                           {{35, 25}, {45, 31}, {35, 25.02}},
+                           {}});
     plant.areas.push_back({plant::AreaId("lane"),
                            plant::AreaKind::kLane,
                            "lane",
                            hall.id,
-                           {{0, 0}, {60, 0}, {60, 40}}});
+                           {{0, 0}, {60, 0}, {60, 40}},
+                           {}});
     return plant;
 }
 

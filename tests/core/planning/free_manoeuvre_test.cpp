@@ -50,8 +50,12 @@ struct World {
         plant.vehicle_types[2].kinematics = plant::Kinematics::kMecanum;
     }
     void area(const char* id, Polygon outline) {
-        plant.areas.push_back({plant::AreaId(id), plant::AreaKind::kObstacle, id,
-                               plant.halls.front().id, std::move(outline)});
+        plant.areas.push_back({plant::AreaId(id),
+                               plant::AreaKind::kObstacle,
+                               id,
+                               plant.halls.front().id,
+                               std::move(outline),
+                               {}});
     }
     FreeFloor floor() const { return {plant, plant.halls.front()}; }
     FreeManoeuvreRequest request(std::size_t type, const Pose2& start, const Pose2& goal) const {

@@ -43,7 +43,7 @@ public:
     void area(const char* id, geometry::Polygon outline,
               plant::AreaKind kind = plant::AreaKind::kObstacle) {
         plant_.areas.push_back(
-            {plant::AreaId(id), kind, id, plant::HallId("hall"), std::move(outline)});
+            {plant::AreaId(id), kind, id, plant::HallId("hall"), std::move(outline), {}});
     }
     LegRequest request(const char* type_id, int from, int to) const {
         LegRequest request;

@@ -103,7 +103,8 @@ TEST(Obstacles, AMarkedCellBesideAnAreaCarriesItsName) {
                            plant::AreaKind::kObstacle,
                            "Jig",
                            plant::HallId("hall"),
-                           {{10, 10}, {15, 10}, {15, 12}, {10, 12}}});
+                           {{10, 10}, {15, 10}, {15, 12}, {10, 12}},
+                           {}});
     const Obstacles obstacles(plant, plant.halls.front());
 
     EXPECT_EQ(obstacles.nearest({{{12, 9}, {13, 9}, {13, 9.5}}}).what, "jig");

@@ -60,12 +60,14 @@ Plant sound_plant() {
     plant.vehicle_types = {cart};
     plant.stations = {station(1, {6, 10, 0}), station(2, {24, 10, kPi / 2})};
     plant.markers = {marker(1, {7.5, 10, 0}), marker(2, {24, 11.5, 0})};
-    plant.areas = {{AreaId("z"), AreaKind::kZone, "zone", HallId("main"), {{1, 1}, {9, 1}, {9, 9}}},
-                   {AreaId("jig"),
-                    AreaKind::kObstacle,
-                    "jig",
-                    HallId("main"),
-                    {{14, 2}, {16, 2}, {16, 4}, {14, 4}}}};
+    plant.areas = {
+        {AreaId("z"), AreaKind::kZone, "zone", HallId("main"), {{1, 1}, {9, 1}, {9, 9}}, {}},
+        {AreaId("jig"),
+         AreaKind::kObstacle,
+         "jig",
+         HallId("main"),
+         {{14, 2}, {16, 2}, {16, 4}, {14, 4}},
+         {}}};
     Vehicle first;
     first.id = VehicleId("C-1");
     first.type = VehicleTypeId("cart");

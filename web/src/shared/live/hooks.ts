@@ -1,5 +1,6 @@
 import { useQuery } from "@tanstack/react-query";
-import { useMemo, useSyncExternalStore } from "react";
+import { useCallback, useMemo, useSyncExternalStore } from "react";
+import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api/client";
 import type {
   Closure,
@@ -12,6 +13,7 @@ import type {
   Vehicle,
 } from "@/shared/api/types";
 import { useNow } from "./clock";
+import { inLanguage } from "./inLanguage";
 import { liveStore, type LinkState, type LiveState } from "./store";
 
 /** A part of the live state. `select` must return a value the state holds (compared by identity). */
@@ -74,12 +76,14 @@ export function useFleet(): Fleet | undefined {
   return useLive((s) => s.fleet);
 }
 
-/** The plant model. Loaded again when the fleet reports another revision. */
+/** The plant model in the language shown. Loaded again when the fleet reports another revision. */
 export function usePlant() {
   const revision = useLive((s) => s.fleet?.plant_revision);
+  const { language } = useTranslation().i18n;
   return useQuery<Plant>({
     queryKey: ["plant", revision],
     queryFn: () => call(api.GET("/api/v1/plant")),
+    select: useCallback((plant: Plant) => inLanguage(plant, language), [language]),
     staleTime: Infinity,
     placeholderData: (previous) => previous,
   });
