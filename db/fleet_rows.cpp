@@ -138,20 +138,31 @@ fleet::Step StepRow::get() const {
 
 void StopRow::set(const fleet::StopRecord& s) {
     numbers = s;
+    has_arrival = s.arrival.has_value();
+    arrival = s.arrival.value_or(fleet::Arrival{});
     for (const auto& [value, name] :
          {std::pair(s.theoretical.x_m, "theoretical.x_m"),
           std::pair(s.theoretical.y_m, "theoretical.y_m"),
           std::pair(s.theoretical.heading_rad, "theoretical.heading_rad"),
-          std::pair(s.measured.x_m, "measured.x_m"), std::pair(s.measured.y_m, "measured.y_m"),
-          std::pair(s.measured.heading_rad, "measured.heading_rad"), std::pair(s.dx_m, "dx_m"),
-          std::pair(s.dy_m, "dy_m"), std::pair(s.dheading_rad, "dheading_rad"),
-          std::pair(s.along_m, "along_m"), std::pair(s.left_m, "left_m"),
+          std::pair(s.measured.x_m, "measured.x_m"),
+          std::pair(s.measured.y_m, "measured.y_m"),
+          std::pair(s.measured.heading_rad, "measured.heading_rad"),
+          std::pair(s.dx_m, "dx_m"),
+          std::pair(s.dy_m, "dy_m"),
+          std::pair(s.dheading_rad, "dheading_rad"),
+          std::pair(s.along_m, "along_m"),
+          std::pair(s.left_m, "left_m"),
           std::pair(s.sigma_xy_m, "sigma_xy_m"),
           std::pair(s.sigma_heading_rad, "sigma_heading_rad"),
           std::pair(s.tolerance.dx_m, "tolerance.dx_m"),
           std::pair(s.tolerance.dy_m, "tolerance.dy_m"),
           std::pair(s.tolerance.dheading_rad, "tolerance.dheading_rad"),
-          std::pair(s.load_kg, "load_kg")}) {
+          std::pair(s.load_kg, "load_kg"),
+          std::pair(arrival.dx_m, "arrival.dx_m"),
+          std::pair(arrival.dy_m, "arrival.dy_m"),
+          std::pair(arrival.dheading_rad, "arrival.dheading_rad"),
+          std::pair(arrival.expected_m, "arrival.expected_m"),
+          std::pair(arrival.expected_rad, "arrival.expected_rad")}) {
         finite(value, name);
     }
     id = stored_id(s.id);
@@ -186,6 +197,8 @@ fleet::StopRecord StopRow::get() const {
     s.method = method;
     s.markers = texts_from_json(markers);
     s.at = time_from_ns(at_ns);
+    s.arrival.reset();
+    if (has_arrival != 0) s.arrival = arrival;
     return s;
 }
 
@@ -242,6 +255,12 @@ void VehicleRow::set(const fleet::VehicleRecord& v) {
     claimed_y_m = finite(claim.pose.y_m, "claim.y_m");
     claimed_heading_rad = finite(claim.pose.heading_rad, "claim.heading_rad");
     in_doubt = v.claim.has_value();
+    const fleet::PoseBasis rests = v.basis.value_or(fleet::PoseBasis{});
+    basis = v.basis ? stored(rests.kind) : "";
+    basis_station = rests.station.str();
+    basis_actor = rests.actor;
+    basis_ns = to_ns(rests.at);
+    basis_driven_m = finite(rests.driven_m, "basis.driven_m");
 }
 
 fleet::VehicleRecord VehicleRow::get() const {
@@ -265,6 +284,14 @@ fleet::VehicleRecord VehicleRow::get() const {
     v.hall = hall;
     if (in_doubt != 0) {
         v.claim = fleet::Whereabouts{{claimed_x_m, claimed_y_m, claimed_heading_rad}, claimed_hall};
+    }
+    if (!basis.empty()) {
+        v.basis = fleet::PoseBasis{{},
+                                   plant::StationId(basis_station),
+                                   basis_actor,
+                                   time_from_ns(basis_ns),
+                                   basis_driven_m};
+        read(basis, v.basis->kind);
     }
     return v;
 }

@@ -58,7 +58,8 @@ Json encode(const StopTarget& t) {
                            {"kind", m.kind},
                            {"size_m", number(m.size_m)},
                            {"pose", encode(m.pose)},
-                           {"sigma_m", number(m.sigma_m)}});
+                           {"sigma_m", number(m.sigma_m)},
+                           {"sigma_rad", number(m.sigma_rad)}});
     }
     return {{"station", t.station_id},
             {"number", t.station_number},
@@ -78,7 +79,8 @@ StopTarget decode_stop_target(const Json& j) {
     t.tolerance_heading_rad = j.at("tolerance").at(2);
     for (const Json& m : j.at("markers")) {
         t.markers.push_back({m.at("payload"), m.at("kind"), m.at("size_m"),
-                             decode_pose(m.at("pose")), m.at("sigma_m")});
+                             decode_pose(m.at("pose")), m.at("sigma_m"),
+                             m.value("sigma_rad", 0.0)});
     }
     return t;
 }
@@ -244,6 +246,12 @@ std::string texts_to_json(const std::vector<std::string>& texts) { return text_o
 
 std::vector<std::string> texts_from_json(const std::string& text) {
     return decoded(text, [](const Json& json) { return json.get<std::vector<std::string>>(); });
+}
+
+std::string names_to_json(const plant::Names& names) { return text_of(Json(names)); }
+
+plant::Names names_from_json(const std::string& text) {
+    return decoded(text, [](const Json& json) { return json.get<plant::Names>(); });
 }
 
 std::string leg_to_json(const Leg& leg) {

@@ -12,6 +12,8 @@ std::string params_to_json(const Params& params);
 Params params_from_json(const std::string& text);
 std::string texts_to_json(const std::vector<std::string>& texts);
 std::vector<std::string> texts_from_json(const std::string& text);
+std::string names_to_json(const plant::Names& names);
+plant::Names names_from_json(const std::string& text);
 std::string leg_to_json(const fleet::Leg& leg);
 fleet::Leg leg_from_json(const std::string& text);
 

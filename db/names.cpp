@@ -28,6 +28,10 @@ constexpr std::array kIntegrations = {std::pair{fleet::Integration::kIgnore, "ig
                                       std::pair{fleet::Integration::kNotice, "notice"},
                                       std::pair{fleet::Integration::kRespect, "respect"},
                                       std::pair{fleet::Integration::kUtilise, "utilise"}};
+constexpr std::array kBases = {std::pair{fleet::PoseBasis::Kind::kVehicle, "vehicle"},
+                               std::pair{fleet::PoseBasis::Kind::kCodes, "codes"},
+                               std::pair{fleet::PoseBasis::Kind::kStop, "stop"},
+                               std::pair{fleet::PoseBasis::Kind::kStatement, "statement"}};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw Error(Error::Kind::kBadValue,
@@ -70,12 +74,14 @@ const char* stored(JobState state) { return name_of(kJobStates, state); }
 const char* stored(StepState state) { return name_of(kStepStates, state); }
 const char* stored(fleet::StepPhase phase) { return name_of(kStepPhases, phase); }
 const char* stored(fleet::Integration level) { return name_of(kIntegrations, level); }
+const char* stored(fleet::PoseBasis::Kind kind) { return name_of(kBases, kind); }
 const char* stored(plant::Tolerance::Shape shape) { return plant::to_string(shape); }
 
 void read(const std::string& name, JobState& to) { find(kJobStates, name, to); }
 void read(const std::string& name, StepState& to) { find(kStepStates, name, to); }
 void read(const std::string& name, fleet::StepPhase& to) { find(kStepPhases, name, to); }
 void read(const std::string& name, fleet::Integration& to) { find(kIntegrations, name, to); }
+void read(const std::string& name, fleet::PoseBasis::Kind& to) { find(kBases, name, to); }
 void read(const std::string& name, plant::Tolerance::Shape& to) {
     find_plain({plant::Tolerance::Shape::kBox, plant::Tolerance::Shape::kEllipse}, name, to);
 }

@@ -49,7 +49,8 @@ Response render_preview(const HistoryContext& context, const fleet::Preview& pre
         }
         expected[i] = known[*mode];
     }
-    return json_response(200, preview_json(preview, expected));
+    const Arrivals arrivals = arrivals_of(context.history, preview.vehicle);
+    return json_response(200, preview_json(preview, expected, arrivals));
 }
 
 using Change = Result<fleet::JobOrder> (fleet::Fleet::*)(fleet::JobOrderId,

@@ -76,6 +76,20 @@ Json job_order_json(const plant::Plant& plant, const fleet::JobOrder& order) {
     return json;
 }
 
+namespace {
+
+Json arrival_json(const fleet::Arrival& arrival) {
+    Json json = {
+        {"dx_m", arrival.dx_m}, {"dy_m", arrival.dy_m}, {"dheading_rad", arrival.dheading_rad}};
+    if (arrival.expected_m > 0) {
+        json["expected_m"] = arrival.expected_m;
+        json["expected_rad"] = arrival.expected_rad;
+    }
+    return json;
+}
+
+}  // namespace
+
 Json stop_record_json(const fleet::StopRecord& stop) {
     Json json = {{"id", stop.id.str()},
                  {"order", stop.order.str()},
@@ -101,6 +115,7 @@ Json stop_record_json(const fleet::StopRecord& stop) {
                  {"markers", stop.markers},
                  {"load_kg", stop.load_kg},
                  {"at", rfc3339(stop.at)}};
+    if (stop.arrival) json["arrival"] = arrival_json(*stop.arrival);
     return json;
 }
 

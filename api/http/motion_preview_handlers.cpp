@@ -16,7 +16,9 @@ Json answer_json(const fleet::MotionQuestion& question, const fleet::MotionTask&
                  {"start", pose_json(task.request.start)},
                  {"target", pose_json(task.target)},
                  {"loaded", task.request.loaded},
-                 {"options", list_json(options, mode_option_json)}};
+                 {"options", list_json(options, [](const planning::ModeOption& option) {
+                      return mode_option_json(option);
+                  })}};
     if (question.station) json["station"] = *question.station;
     return json;
 }

@@ -1,5 +1,7 @@
 #include "api/http/preview_json.hpp"
 
+#include <cmath>
+
 namespace pulseline::api {
 namespace {
 
@@ -50,9 +52,29 @@ Json segment_json(const kinematics::Segment& segment) {
     return json;
 }
 
+constexpr int kStopsLookedAt = 100;
+constexpr std::size_t kArrivalsOfMode = 20;  // older ones tell of another state of repair
+
 }  // namespace
 
-Json mode_option_json(const planning::ModeOption& option) {
+Arrivals arrivals_of(fleet::History& history, const plant::VehicleId& vehicle) {
+    Arrivals arrivals;
+    fleet::StopQuery query;
+    query.vehicle = vehicle;
+    query.limit = kStopsLookedAt;
+    for (const fleet::StopRecord& stop : history.stops(query)) {
+        if (!stop.arrival || stop.arrival->expected_m <= 0) continue;
+        const fleet::Arrival& arrival = *stop.arrival;
+        auto& of_mode = arrivals[stop.mode];
+        if (of_mode.size() == kArrivalsOfMode) continue;
+        of_mode.push_back({std::hypot(arrival.dx_m, arrival.dy_m),
+                           std::abs(arrival.dheading_rad),
+                           {arrival.expected_m, arrival.expected_rad}});
+    }
+    return arrivals;
+}
+
+Json mode_option_json(const planning::ModeOption& option, const Arrivals& arrivals) {
     Json json = {{"mode", plant::to_string(option.mode)},
                  {"feasible", option.plan.has_value()},
                  {"suggested", option.suggested}};
@@ -68,8 +90,13 @@ Json mode_option_json(const planning::ModeOption& option) {
     json["turns"] = plan.turns;
     json["cost"] = plan.cost;
     json["duration_s"] = plan.duration_s;
-    json["expected_deviation"] = {{"position_m", plan.expected.position_m},
-                                  {"heading_rad", plan.expected.heading_rad}};
+    static const std::vector<kinematics::ArrivalMiss> kNone;
+    const auto own = arrivals.find(option.mode);
+    const auto& of_mode = own == arrivals.end() ? kNone : own->second;
+    const auto expected = kinematics::learned_deviation(plan.expected, of_mode);
+    json["expected_deviation"] = {{"position_m", expected.position_m},
+                                  {"heading_rad", expected.heading_rad},
+                                  {"arrivals", of_mode.size()}};
     if (!plan.closures.empty()) {
         json["closures"] = list_json(plan.closures, [](const std::string& id) { return Json(id); });
     }
@@ -115,12 +142,15 @@ Json alternative_json(const planning::LegAlternative& alternative) {
             {"main_reason", text(alternative.main_reason)}};
 }
 
-Json step_json(const fleet::StepPreview& step,
-               const std::optional<fleet::StopStatistics>& expected) {
+Json step_json(const fleet::StepPreview& step, const std::optional<fleet::StopStatistics>& expected,
+               const Arrivals& arrivals) {
     Json json = {{"station", step.station.str()},
                  {"number", step.number},
                  {"start", pose_json(step.start)},
-                 {"options", list_json(step.options, mode_option_json)},
+                 {"options", list_json(step.options,
+                                       [&](const planning::ModeOption& option) {
+                                           return mode_option_json(option, arrivals);
+                                       })},
                  {"alternatives", list_json(step.alternatives, alternative_json)}};
     if (step.chosen) json["chosen"] = plant::to_string(*step.chosen);
     if (expected && expected->stops > 0) {
@@ -136,11 +166,12 @@ Json step_json(const fleet::StepPreview& step,
 }  // namespace
 
 Json preview_json(const fleet::Preview& preview,
-                  const std::vector<std::optional<fleet::StopStatistics>>& expected) {
+                  const std::vector<std::optional<fleet::StopStatistics>>& expected,
+                  const Arrivals& arrivals) {
     Json steps = Json::array();
     for (std::size_t i = 0; i < preview.steps.size(); ++i) {
-        steps.push_back(
-            step_json(preview.steps[i], i < expected.size() ? expected[i] : std::nullopt));
+        steps.push_back(step_json(preview.steps[i],
+                                  i < expected.size() ? expected[i] : std::nullopt, arrivals));
     }
     Json json = {{"vehicle", preview.vehicle.str()},
                  {"accepted", preview.accepted},

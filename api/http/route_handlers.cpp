@@ -18,10 +18,11 @@ double in_k(std::int64_t thousandths) {
 
 template <class Parts>
 Json parts_json(const Parts& parts) {
-    return {{"length", in_k(parts.length)},
-            {"turns", in_k(parts.turns)},
-            {"speed", in_k(parts.speed)},
-            {"accuracy", in_k(parts.accuracy)}};
+    Json json = {
+        {"length", in_k(parts.length)}, {"turns", in_k(parts.turns)}, {"speed", in_k(parts.speed)}};
+    // No plant says yet where a position is uncertain: a cost that is always 0 would promise it.
+    if (parts.accuracy != 0) json["accuracy"] = in_k(parts.accuracy);
+    return json;
 }
 
 Json leg_json(const planning::WhatIfLeg& leg) {

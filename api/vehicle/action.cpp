@@ -64,7 +64,8 @@ Json stop_parameters(const fleet::StopTarget& target) {
                            {"x_m", finite(marker.pose.x_m)},
                            {"y_m", finite(marker.pose.y_m)},
                            {"angle_rad", finite(marker.pose.heading_rad)},
-                           {"sigma_m", finite(marker.sigma_m)}});
+                           {"sigma_m", finite(marker.sigma_m)},
+                           {"sigma_rad", finite(marker.sigma_rad)}});
     }
     return {{"stationId", target.station_id},
             {"stationNumber", target.station_number},
@@ -99,6 +100,7 @@ fleet::StopTarget read_stop(json::ObjectReader& in) {
         read.size_m = marker.number("size_m", {1e-3, 10});
         read.pose = read_pose(marker, "angle_rad");
         read.sigma_m = marker.number_or("sigma_m", 0, limits::kSigma_m);
+        read.sigma_rad = marker.number_or("sigma_rad", 0, limits::kSigma_rad);
         target.markers.push_back(std::move(read));
     });
     return target;
@@ -200,6 +202,7 @@ std::string encode_measurement(const fleet::StopMeasurement& measurement) {
     result["sigma_heading_rad"] = finite(measurement.sigma_heading_rad);
     result["method"] = measurement.method;
     result["markers"] = measurement.markers;
+    if (measurement.arrived) result["arrived"] = pose_json(*measurement.arrived);
     return print(result);
 }
 
@@ -217,6 +220,10 @@ Result<fleet::StopMeasurement> decode_measurement(std::string_view text) {
     in.items_if_any("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
         found.markers.push_back(json::read_text(item, pointer, errors, {1, 200}));
     });
+    if (auto arrived = in.object_if_any("arrived")) {
+        found.arrived = read_pose(*arrived);
+        found.arrived->heading_rad = wrap(found.arrived->heading_rad);
+    }
     if (auto status = errors.status(); !status) return fail(status.error());
     return found;
 }

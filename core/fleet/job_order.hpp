@@ -98,7 +98,19 @@ struct JobOrder {
     std::int64_t revision = 1;     // ETag
 };
 
-/// One measured arrival. Deviation = measured - theoretical in the hall frame.
+/// How far from its station a drive ended before small moves mended it, in the hall frame.
+struct Arrival {
+    double dx_m = 0;
+    double dy_m = 0;
+    double dheading_rad = 0;
+    /// What a usual vehicle of its family would have missed it by after the same way (root mean
+    /// square); 0: the drive did not begin where the vehicle had been measured, so nobody knows.
+    double expected_m = 0;
+    double expected_rad = 0;
+    friend bool operator==(const Arrival&, const Arrival&) = default;
+};
+
+/// One measured stop. Deviation = measured - theoretical in the hall frame.
 struct StopRecord {
     StopRecordId id;
     JobOrderId order;
@@ -124,6 +136,7 @@ struct StopRecord {
     std::vector<std::string> markers;
     double load_kg = 0;
     Time at;
+    std::optional<Arrival> arrival;  // none: the vehicle did not tell
 };
 
 /// One entry of the gapless event sequence.
@@ -180,6 +193,21 @@ struct Pause {
 };
 
 /// What survives a restart about a vehicle.
+/// What a pose that is known rests on.
+struct PoseBasis {
+    enum class Kind {
+        kVehicle,   // the vehicle's own word and no more
+        kCodes,     // surveyed codes that its cameras saw when it became known
+        kStop,      // a stop that was measured at a station
+        kStatement  // a person's word
+    };
+    Kind kind = Kind::kVehicle;
+    plant::StationId station;  // of the stop
+    std::string actor;         // of the statement
+    Time at;
+    double driven_m = 0;  // since then, by the vehicle's own reckoning
+};
+
 struct VehicleRecord {
     plant::VehicleId id;
     bool pose_known = false;
@@ -199,6 +227,7 @@ struct VehicleRecord {
     StopRecordId last_stop;  // newest measured stop, empty before the first
     plant::StationId last_stop_station;
     bool last_stop_inside = false;
+    std::optional<PoseBasis> basis;  // of the pose; none before it was known
 };
 
 }  // namespace pulseline::fleet

@@ -40,7 +40,8 @@ StopTarget stop_target(const plant::Plant& plant, const plant::Station& station)
     for (const auto& id : station.markers) {
         if (const auto* marker = plant::find_marker(plant, id)) {
             target.markers.push_back({marker->payload, plant::to_string(marker->kind),
-                                      marker->size_m, marker->pose, marker->sigma_xy_m});
+                                      marker->size_m, marker->pose, marker->sigma_xy_m,
+                                      marker->sigma_heading_rad});
         }
     }
     return target;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/fleet/mutation.hpp"
@@ -75,6 +76,7 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
     }
     for (auto& vehicle : stored.vehicles) {
         if (vehicle.paused) bring_back(vehicle.paused->at, now);
+        if (vehicle.basis) bring_back(vehicle.basis->at, now);
     }
     for (auto& key : stored.idempotency) bring_back(key.at, now);
     for (auto& closure : stored.closures) bring_back(closure.created, now);
@@ -102,6 +104,20 @@ void take_vehicles_of_plant(FleetState& fleet) {
     }
 }
 
+namespace {
+
+/// What it may have driven since its row was written counts as driven: its pose is no surer.
+void drive_unseen(VehicleRun& run) {
+    if (!run.record.basis || !run.has_leg()) return;
+    const Leg& leg = run.leg();
+    for (std::size_t i = 0; i < leg.edges.size(); ++i) {
+        const bool may_be_driven = i + 1 >= leg.passed_nodes && i + 1 < leg.released_nodes;
+        if (may_be_driven) run.record.basis->driven_m += std::abs(leg.edges[i].segment.length_m);
+    }
+}
+
+}  // namespace
+
 void restore(FleetState& fleet, StoredFleet stored, Time now) {
     fleet.order_number = stored.last_order_number;
     take_vehicles_of_plant(fleet);
@@ -117,6 +133,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         VehicleRun* run = fleet.find(record.id);
         if (!run) continue;
         run->record = std::move(record);
+        drive_unseen(*run);
     }
     open_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);

@@ -86,7 +86,6 @@ struct VehicleRun {
     std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
     std::optional<Time> claim_told;   // newest report that can follow the claim of its record
     bool claim_left = false;          // the newest report cannot
-    std::optional<PoseBasis> basis;   // of the pose, since this server has known it
     std::optional<Time> leg_started;
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;

@@ -3,6 +3,7 @@
 #include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
+#include "core/kinematics/dead_reckoning.hpp"
 #include "core/plant/deviation.hpp"
 
 namespace pulseline::fleet {
@@ -16,6 +17,9 @@ constexpr double kFarFromStation_m = 1;
 constexpr double kFarFromStation_rad = radians(30);
 // Its own pose follows what it has measured, but for the message under way.
 constexpr double kElsewhere_m = 0.3;
+// A vehicle that went round something still shows how it reckons; one that drove elsewhere first
+// does not.
+constexpr double kLongerThanPlanned = 1.2;
 
 /// Why a measurement cannot be true; null: it can.
 const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
@@ -34,6 +38,27 @@ const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant
         run.record.pose_known &&
         geometry::distance(found.position(), run.record.pose.position()) > kElsewhere_m;
     return elsewhere ? "measured_elsewhere" : nullptr;
+}
+
+/// What a usual vehicle would have missed the station by, where the whole drive began at a place
+/// that had been measured; else nothing.
+kinematics::ExpectedDeviation expected_of_drive(const VehicleRun& run) {
+    const auto& basis = run.record.basis;
+    if (!basis || basis->kind != PoseBasis::Kind::kStop || run.leg().attempt != 1) return {};
+    std::vector<kinematics::Segment> segments;
+    double length_m = 0;
+    for (const OrderEdge& edge : run.leg().edges) {
+        segments.push_back(edge.segment);
+        length_m += std::abs(edge.segment.length_m);
+    }
+    if (basis->driven_m > kLongerThanPlanned * length_m + kElsewhere_m) return {};
+    return kinematics::expected_deviation(segments, kinematics::usual_noise(run.type->kinematics));
+}
+
+Arrival arrival_of(const VehicleRun& run, const plant::Station& station, const Pose2& arrived) {
+    const plant::Deviation by = plant::deviation(station, arrived);
+    const auto expected = expected_of_drive(run);
+    return {by.dx_m, by.dy_m, by.dheading_rad, expected.position_m, expected.heading_rad};
 }
 
 StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
@@ -65,6 +90,7 @@ StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::St
     stop.markers = found.markers;
     stop.load_kg = run.state.load_kg;
     stop.at = now;
+    if (found.arrived) stop.arrival = arrival_of(run, station, *found.arrived);
     return stop;
 }
 
@@ -95,6 +121,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
     }
     StopMeasurement found = told;
     found.pose.heading_rad = wrap(told.pose.heading_rad);
+    if (found.arrived && fault_of(fleet, run, *station, *found.arrived)) found.arrived.reset();
     const StopRecord stop = stop_record(fleet, run, *station, found, now);
     fleet.out.records.stops.push_back(stop);
     run.record.pose = found.pose;
@@ -103,7 +130,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
     run.record.last_stop = stop.id;
     run.record.last_stop_station = station->id;
     run.record.last_stop_inside = stop.inside;
-    run.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
+    run.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
     fleet.changed_stations.insert(station->id);
     fleet.store(run);
     add_event(fleet, now, "stop.measured", stop.order, stop.leg, stop.vehicle, {},

@@ -29,6 +29,7 @@ struct StopTarget {
         double size_m = 0;
         Pose2 pose;  // heading: VDA-side name angle_rad
         double sigma_m = 0;
+        double sigma_rad = 0;  // of its direction
     };
     std::vector<SurveyedMarker> markers;
 };
@@ -96,6 +97,8 @@ struct StopMeasurement {
     double sigma_heading_rad = 0;
     std::string method;                // "dual_camera", "single_camera", "analytic"
     std::vector<std::string> markers;  // payloads used
+    /// Where the drive itself had ended: what was measured before the first small move.
+    std::optional<Pose2> arrived = {};
 };
 
 struct ActionState {

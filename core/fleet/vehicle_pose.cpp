@@ -127,10 +127,11 @@ PoseBasis basis_of(const FleetState& fleet, const VehicleRun& run, const Pose2& 
 
 void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
     const bool was_known = run.record.pose_known;
-    if (!was_known || !run.basis) {
-        run.basis = basis_of(fleet, run, told.pose, now);
+    if (!was_known || !run.record.basis) {
+        run.record.basis = basis_of(fleet, run, told.pose, now);
     } else if (moves(run.state)) {
-        run.basis->driven_m += geometry::distance(run.record.pose.position(), told.pose.position());
+        run.record.basis->driven_m +=
+            geometry::distance(run.record.pose.position(), told.pose.position());
     }
     run.record.pose = told.pose;
     run.record.pose_known = true;
@@ -279,7 +280,7 @@ void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, T
         if (is_as_stated(run, where, now)) {
             const std::string actor = run.stated->actor;
             end_doubt(fleet, run, now);
-            run.basis = PoseBasis{PoseBasis::Kind::kStatement, {}, actor, now, 0};
+            run.record.basis = PoseBasis{PoseBasis::Kind::kStatement, {}, actor, now, 0};
         } else if (is_in_doubt(run)) {
             follow_claim(fleet, run, where, now);
         } else if (can_be_at(fleet, run, where, now)) {

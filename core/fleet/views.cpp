@@ -248,7 +248,7 @@ VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bo
     view.reason = std::move(what.reason);
     view.last_heard = run.last_heard;
     view.pose_known = run.record.pose_known;
-    if (run.record.pose_known) view.pose_basis = run.basis;
+    if (run.record.pose_known) view.pose_basis = run.record.basis;
     if (run.record.claim) {
         view.claimed_pose = run.record.claim->pose;
         if (has_stood(run.record)) view.pose = run.record.pose;

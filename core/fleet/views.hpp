@@ -45,20 +45,6 @@ struct LegView {
     std::optional<Time> expected;
 };
 
-/// What a pose that is known rests on.
-struct PoseBasis {
-    enum class Kind {
-        kVehicle,   // the vehicle's own word and no more
-        kCodes,     // surveyed codes that its cameras saw when it became known
-        kStop,      // a stop that was measured at a station
-        kStatement  // a person's word
-    };
-    Kind kind = Kind::kVehicle;
-    plant::StationId station;  // of the stop
-    std::string actor;         // of the statement
-    Time at;
-    double driven_m = 0;  // since then, by the vehicle's own reckoning
-};
 const char* to_string(PoseBasis::Kind kind);  // "stop"
 
 struct VehicleView {

@@ -92,4 +92,21 @@ ExpectedDeviation expected_deviation(std::span<const Segment> segments,
     return growth.deviation();
 }
 
+ExpectedDeviation learned_deviation(const ExpectedDeviation& usual,
+                                    std::span<const ArrivalMiss> arrivals) {
+    constexpr double kFamily = 2;  // arrivals that it counts like
+    constexpr double kAtMost = 10;
+    double position = kFamily;
+    double heading = kFamily;
+    for (const ArrivalMiss& arrival : arrivals) {
+        const double m = std::min(kAtMost, arrival.position_m / arrival.usual.position_m);
+        const double rad = std::min(kAtMost, arrival.heading_rad / arrival.usual.heading_rad);
+        position += m * m;
+        heading += rad * rad;
+    }
+    const double count = kFamily + static_cast<double>(arrivals.size());
+    return {usual.position_m * std::sqrt(position / count),
+            usual.heading_rad * std::sqrt(heading / count)};
+}
+
 }  // namespace pulseline::kinematics

@@ -21,9 +21,10 @@ struct DeadReckoningNoise {
     double stop_rad = 1.1e-3;
 };
 
-/// Of a usual vehicle of the family: what Tang 2020 measured before correcting (3 to 8 mm and some
-/// hundredths of a degree after 20 m) on steered wheels; two fixed wheels measure turns worse, and
-/// rollers slip more, most of all sideways (Wang).
+/// Of a usual vehicle of the family, until its own arrivals tell (learned_deviation): what Tang
+/// 2020 measured before correcting (3 to 8 mm and some hundredths of a degree after 20 m) on
+/// steered wheels; two fixed wheels measure turns worse, and rollers slip more, most of all
+/// sideways (Wang).
 DeadReckoningNoise usual_noise(plant::Kinematics kinematics);
 
 /// Root mean square of the deviation from the pose aimed at, when the vehicle has driven on
@@ -35,5 +36,20 @@ struct ExpectedDeviation {
 
 ExpectedDeviation expected_deviation(std::span<const Segment> segments,
                                      const DeadReckoningNoise& noise);
+
+/// How far a drive ended from where it was to end, and what expected_deviation() with usual_noise()
+/// had said of its way.
+struct ArrivalMiss {
+    double position_m = 0;
+    double heading_rad = 0;
+    ExpectedDeviation usual;  // not 0
+};
+
+/// What to expect of one vehicle after a way of which `usual` is expected: that, times the root
+/// mean square by which its own arrivals (newest ones, of the same motion mode) exceeded or fell
+/// short of what was usual. Without any it is `usual`; the family counts like two arrivals, and one
+/// arrival no more than ten times the usual, so that neither one good stop nor one push says all.
+ExpectedDeviation learned_deviation(const ExpectedDeviation& usual,
+                                    std::span<const ArrivalMiss> arrivals);
 
 }  // namespace pulseline::kinematics

@@ -79,6 +79,7 @@ private:
     double settling_s_ = 0;
     int blind_passes_ = 0;
     std::optional<fleet::StopMeasurement> last_;
+    std::optional<Pose2> arrived_;       // seen first, where the drive had ended
     std::vector<control::Move> driven_;  // since last_, as commanded
 };
 

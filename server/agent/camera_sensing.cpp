@@ -77,8 +77,11 @@ Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& t
     }
     std::vector<localisation::SurveyedCode> survey;
     for (const auto& marker : target.markers) {
-        survey.push_back(
-            {marker.payload, marker.pose, marker.sigma_m, options_.errors.marker.survey_rad});
+        if (!plant::parse_marker_kind(marker.kind)) continue;
+        // An older server does not say how well it knows the direction.
+        const double sigma_rad =
+            marker.sigma_rad > 0 ? marker.sigma_rad : options_.errors.marker.survey_rad;
+        survey.push_back({marker.payload, marker.pose, marker.sigma_m, sigma_rad});
     }
     const auto fix = localisation::locate(seen, survey);
     if (!fix) return fail(fix.error());

@@ -111,10 +111,11 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                                               std::in_place, settings.learned, vehicle.id.str())),
       executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
-      estimate_(true_pose),
+      estimate_(geometry::Pose2{}),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
+    drive_->set_believed({});  // where it stands it is told, or its codes say
     if (settings.servo_drive) {
         look_out_.emplace(world, vehicle, hall_, *drive_,
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));

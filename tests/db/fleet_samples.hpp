@@ -118,6 +118,7 @@ public:
         s.method = "dual_camera";
         s.markers = {"ST02-F", "ST02-B"};
         s.at = at(ms);
+        s.arrival = fleet::Arrival{number(), number(), number(), number(), number()};
         return s;
     }
 
@@ -144,6 +145,8 @@ public:
         v.needs_resume = true;
         v.needs_resume_reason = {"server_restarted", {{"at", std::int64_t{5}}}};
         v.paused = fleet::Pause{"ann", at(7), true};
+        v.basis = fleet::PoseBasis{fleet::PoseBasis::Kind::kStatement, plant::StationId("st07"),
+                                   "eva", at(9), number()};
         v.integration = fleet::Integration::kNotice;
         v.last_stop = fleet::StopRecordId(ids_.next(at(0)));
         v.last_stop_station = plant::StationId("st01");

@@ -78,7 +78,7 @@ PULSELINE_FIELDS(Tolerance, shape, dx_m, dy_m, dheading_rad)
 namespace fleet {
 
 // --- vehicle_messages.hpp
-PULSELINE_FIELDS(StopTarget::SurveyedMarker, payload, kind, size_m, pose, sigma_m)
+PULSELINE_FIELDS(StopTarget::SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
 PULSELINE_FIELDS(StopTarget, station_id, station_number, target, tolerance_x_m, tolerance_y_m,
                  tolerance_heading_rad, markers)
 PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id)
@@ -88,7 +88,7 @@ PULSELINE_FIELDS(OrderNode, node_id, sequence_id, released, pose, has_heading,
 PULSELINE_FIELDS(OrderEdge, edge_id, sequence_id, released, segment, max_speed_mps, corridor)
 PULSELINE_FIELDS(OrderMessage, order_id, order_update_id, nodes, edges)
 PULSELINE_FIELDS(InstantActionsMessage, actions)
-PULSELINE_FIELDS(StopMeasurement, pose, sigma_xy_m, sigma_heading_rad, method, markers)
+PULSELINE_FIELDS(StopMeasurement, pose, sigma_xy_m, sigma_heading_rad, method, markers, arrived)
 PULSELINE_FIELDS(ActionState, id, type, status, result_description, measurement)
 PULSELINE_FIELDS(VehicleError, type, fatal, description, references)
 PULSELINE_FIELDS(BracketLoad, name, force_a_n, force_b_n)
@@ -115,17 +115,20 @@ PULSELINE_FIELDS(JobOrder, id, number, client_order_id, wanted_vehicle, wanted_t
                  from_template, from_schedule, steps, current_step, state, cancel_requested,
                  stop_requested, pause_requested, removed, reason, created_by, created, started,
                  ended, expected, revision)
+PULSELINE_FIELDS(Arrival, dx_m, dy_m, dheading_rad, expected_m, expected_rad)
 PULSELINE_FIELDS(StopRecord, id, order, leg, step, vehicle, station, station_number, mode,
                  theoretical, measured, dx_m, dy_m, dheading_rad, along_m, left_m, sigma_xy_m,
-                 sigma_heading_rad, tolerance, inside, attempt, method, markers, load_kg, at)
+                 sigma_heading_rad, tolerance, inside, attempt, method, markers, load_kg, at,
+                 arrival)
 PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
                  released_nodes, passed_nodes, duration_s, attempt, actions_only, charges)
 PULSELINE_FIELDS(Whereabouts, pose, hall)
 PULSELINE_FIELDS(Pause, actor, at, with_fleet)
+PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,
                  leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
-                 last_stop_station, last_stop_inside)
+                 last_stop_station, last_stop_inside, basis)
 
 // --- leg_plans.hpp
 PULSELINE_FIELDS(LegPlanAnswer, plan, why_not)
@@ -152,7 +155,6 @@ PULSELINE_FIELDS(StoreFault, cause, since)
 PULSELINE_FIELDS(ClockDifference, ahead, since)
 PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
                  duration_s, progress, started, expected)
-PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
 PULSELINE_FIELDS(BracketShare, bracket, share)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,

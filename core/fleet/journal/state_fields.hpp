@@ -83,12 +83,11 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, leg_seen, update_from, update_sent,
            update_sends, order_sent, gave_up, cancelling, floor, seen, seen_before, stated,
-           claim_told, claim_left, basis, leg_started, foreign_since, actions, errors_from,
-           errors_told, charge_wait, charge_retry, made_way, areas, awaited_plan, newest_plan,
-           swept] = it;
+           claim_told, claim_left, leg_started, foreign_since, actions, errors_from, errors_told,
+           charge_wait, charge_retry, made_way, areas, awaited_plan, newest_plan, swept] = it;
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg_seen, update_from, update_sent, update_sends, order_sent,
-          gave_up, cancelling, floor, seen, seen_before, stated, claim_told, claim_left, basis,
+          gave_up, cancelling, floor, seen, seen_before, stated, claim_told, claim_left,
           leg_started, foreign_since, actions, errors_from, errors_told, charge_wait, charge_retry,
           made_way, awaited_plan);
 }

@@ -123,6 +123,41 @@ TEST(JobOrders, DryRunShowsWhatEarlierStopsCameTo) {
     EXPECT_EQ(preview.json()["steps"][0]["expected_deviation"]["stops"], 1) << preview.body;
 }
 
+TEST(JobOrders, DryRunLearnsWhatToExpectFromTheVehiclesOwnArrivals) {
+    ApiWorld api;
+    const auto expected = [&] {
+        const Answer preview =
+            api.post(kOrders + "?dryRun=true",
+                     R"({"vehicle":"V1","steps":[{"station":3,"motion_mode":"linear"}]})");
+        const Json answer = preview.json();
+        for (const Json& option : answer["steps"][0]["options"]) {
+            if (option["mode"] == "linear") return option["expected_deviation"];
+        }
+        return Json::object();
+    };
+    const auto drive_to = [&](int station) {
+        const std::string body = R"({"vehicle":"V1","steps":[{"station":)" +
+                                 std::to_string(station) + R"(,"motion_mode":"linear"}]})";
+        ASSERT_EQ(api.post(kOrders, body).status, 201);
+        api.world.run(120);
+    };
+    api.world.vehicle("V1").arrival_error = geometry::Pose2{0.03, 0, 0};
+    drive_to(2);  // from where nobody had measured it: teaches nothing
+    const Json usual = expected();
+    EXPECT_EQ(usual["arrivals"], 0) << usual.dump();
+    EXPECT_LT(usual["position_m"], 0.01);
+
+    for (const int station : {3, 2, 3, 2, 3, 2, 3, 2}) drive_to(station);
+    const Json learned = expected();
+    EXPECT_EQ(learned["arrivals"], 8) << learned.dump();
+    EXPECT_GT(learned["position_m"], 3 * usual["position_m"].get<double>()) << learned.dump();
+    EXPECT_LT(learned["heading_rad"], usual["heading_rad"]) << "it arrives straighter than usual";
+
+    const Json stop = api.get("/api/v1/stop-records").json()["items"][0];
+    EXPECT_NEAR(stop["arrival"]["dx_m"].get<double>(), 0.03, 1e-9) << stop.dump();
+    EXPECT_GT(stop["arrival"]["expected_m"], 0.0);
+}
+
 TEST(JobOrders, DryRunOfWhatCannotBeSaysWhy) {
     ApiWorld api;
     const Answer preview =

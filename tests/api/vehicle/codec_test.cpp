@@ -57,6 +57,7 @@ TEST(Order, RoundTripKeepsNodesAndActions) {
     EXPECT_EQ(action.stop_target->tolerance_heading_rad, 0.0035);
     ASSERT_EQ(action.stop_target->markers.size(), 2u);
     EXPECT_EQ(action.stop_target->markers[1].pose, expected.markers[1].pose);
+    EXPECT_EQ(action.stop_target->markers[1].sigma_rad, expected.markers[1].sigma_rad);
 }
 
 TEST(Order, ACorridorOfTheCentreAloneIsNone) {
@@ -103,6 +104,8 @@ TEST(State, RoundTripKeepsWhatTheServerUses) {
     ASSERT_TRUE(read->action_states[0].measurement);
     EXPECT_EQ(read->action_states[0].measurement->pose, sent.action_states[0].measurement->pose);
     EXPECT_EQ(read->action_states[0].measurement->markers.size(), 2u);
+    EXPECT_EQ(read->action_states[0].measurement->arrived,
+              sent.action_states[0].measurement->arrived);
     EXPECT_EQ(read->action_states[1].status, fleet::ActionStatus::kFailed);
     EXPECT_EQ(read->action_states[1].result_description, "no_marker_in_view");
     EXPECT_EQ(read->errors[0].references, sent.errors[0].references);

@@ -59,8 +59,8 @@ inline Segment combined(const Pose2& from, double length_m, double direction_rad
 
 inline fleet::StopTarget stop_target() {
     fleet::StopTarget target{"st02", 2, {17, 12.3, 0.01}, 0.025, 0.025, 0.0035, {}};
-    target.markers = {{"ST02-F", "qr", 0.06, {20, 12, 0.1}, 0.0001},
-                      {"ST02-B", "qr", 0.06, {14, 12, 0.2}, 0.0001}};
+    target.markers = {{"ST02-F", "qr", 0.06, {20, 12, 0.1}, 0.0001, 0.0004},
+                      {"ST02-B", "qr", 0.06, {14, 12, 0.2}, 0.0001, 0.0005}};
     return target;
 }
 
@@ -148,8 +148,9 @@ inline fleet::StateMessage state() {
     state.velocity_mps = -0.3;
     state.turn_rate_radps = 0.02;
     state.battery_percent = 81.5;
-    fleet::StopMeasurement found{
-        {17.001, 12.299, 0.0101}, 1e-4, 2e-5, "dual_camera", {"ST02-F", "ST02-B"}};
+    fleet::StopMeasurement found{{17.001, 12.299, 0.0101}, 1e-4, 2e-5, "dual_camera",
+                                 {"ST02-F", "ST02-B"},     {}};
+    found.arrived = Pose2{17.004, 12.305, 0.012};
     state.action_states = {
         {"leg-1-measure", "measureStop", fleet::ActionStatus::kFinished, "", found},
         {"leg-1-adjust", "adjustToMarker", fleet::ActionStatus::kFailed, "no_marker_in_view", {}}};

@@ -267,6 +267,11 @@ bool FakeVehicle::step() {
             action.measurement->pose = {station.x_m + stop_error.x_m, station.y_m + stop_error.y_m,
                                         station.heading_rad + stop_error.heading_rad};
             action.measurement->method = "dual_camera";
+            if (arrival_error) {
+                action.measurement->arrived = {station.x_m + arrival_error->x_m,
+                                               station.y_m + arrival_error->y_m,
+                                               station.heading_rad + arrival_error->heading_rad};
+            }
             if (pose_follows_stop) state.pose = action.measurement->pose;
         }
         return true;

@@ -46,8 +46,9 @@ public:
     const OrderMessage& order() const { return *order_; }
 
     StateMessage state;
-    Pose2 stop_error;               // added to the next measured stops
-    bool pose_follows_stop = true;  // else its own pose stays what it was
+    Pose2 stop_error;                    // added to the next measured stops
+    std::optional<Pose2> arrival_error;  // with it it tells where its drive had ended
+    bool pose_follows_stop = true;       // else its own pose stays what it was
     std::optional<std::string> measure_fails;
     std::string action_fails;               // type of the action that fails
     std::vector<std::string> actions_done;  // types in the order in which they finished

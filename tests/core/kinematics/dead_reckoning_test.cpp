@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "core/kinematics/primitives.hpp"
 #include "tests/core/kinematics/vehicle_types.hpp"
@@ -72,6 +73,58 @@ TEST(ExpectedDeviation, GrowsWithTheWayAndSidewaysOnRollersMost) {
     EXPECT_LT(after({10, 0}), after({10 / std::sqrt(2), 10 / std::sqrt(2)}));
     EXPECT_LT(after({10 / std::sqrt(2), 10 / std::sqrt(2)}), after({0, 10}));
     EXPECT_EQ(expected_deviation({}, noise).position_m, noise.stop_m);
+}
+
+/// Arrivals, after ways of many lengths, of a vehicle that reckons `times` as badly as its family.
+std::vector<ArrivalMiss> arrivals_of(double times, std::size_t count, std::uint64_t seed) {
+    const auto usual = usual_noise(plant::Kinematics::kSteeredPlatform);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> way(2, 80);
+    std::vector<ArrivalMiss> arrivals;
+    while (arrivals.size() < count) {
+        std::vector<Segment> segments;
+        append_straight(segments, {0, 0, 0}, {way(random), 0});
+        const auto expected = expected_deviation(segments, usual);
+        const double sigma_m = times * expected.position_m / std::sqrt(2);
+        arrivals.push_back({std::hypot(sigma_m * normal(random), sigma_m * normal(random)),
+                            std::abs(times * expected.heading_rad * normal(random)), expected});
+    }
+    return arrivals;
+}
+
+TEST(LearnedDeviation, OfAVehicleThatNeverArrivedIsItsFamilys) {
+    const ExpectedDeviation usual{0.004, 0.002};
+    EXPECT_EQ(learned_deviation(usual, {}).position_m, usual.position_m);
+    EXPECT_EQ(learned_deviation(usual, {}).heading_rad, usual.heading_rad);
+}
+
+TEST(LearnedDeviation, BecomesWhatTheVehicleDoesWhetherWorseOrBetterThanItsFamily) {
+    const ExpectedDeviation usual{0.004, 0.002};
+    for (const double times : {0.3, 1.0, 3.0}) {
+        double position = 0;
+        double heading = 0;
+        constexpr int kVehicles = 50;
+        for (int i = 0; i < kVehicles; ++i) {
+            const auto learned =
+                learned_deviation(usual, arrivals_of(times, 20, static_cast<std::uint64_t>(i)));
+            position += learned.position_m / (times * usual.position_m) / kVehicles;
+            heading += learned.heading_rad / (times * usual.heading_rad) / kVehicles;
+        }
+        // The family still counts like 2 of 22: most where the vehicle is far better than it.
+        EXPECT_NEAR(position, times < 1 ? 1.38 : 1, 0.08) << times;
+        EXPECT_NEAR(heading, times < 1 ? 1.38 : 1, 0.08) << times;
+    }
+}
+
+TEST(LearnedDeviation, OnePushDoesNotSayAll) {
+    const ExpectedDeviation usual{0.004, 0.002};
+    auto arrivals = arrivals_of(1, 20, 3);
+    const double before_m = learned_deviation(usual, arrivals).position_m;
+    arrivals.front().position_m = 1e3;
+    const double after_m = learned_deviation(usual, arrivals).position_m;
+    EXPECT_GT(after_m, 1.5 * before_m);
+    EXPECT_LT(after_m, 3 * before_m);
 }
 
 }  // namespace

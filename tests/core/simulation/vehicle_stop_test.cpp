@@ -82,6 +82,21 @@ TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
     }
 }
 
+TEST(StopProcedure, TellsWhereTheDriveHadEndedBesideWhereItStandsNow) {
+    VehicleMotion motion(mecanum(), {}, 5);
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    for (const Pose2& off : {Pose2{0.03, -0.02, 0.004}, Pose2{-0.01, 0.015, -0.003}}) {
+        const Pose2 arrived = motion.true_pose();
+        const auto outcome =
+            adjusted(procedure, motion, target_at(arrived * off), [](const Pose2&) {});
+        ASSERT_TRUE(outcome.succeeded) << outcome.why_not;
+        ASSERT_TRUE(outcome.measurement && outcome.measurement->arrived);
+        EXPECT_LE(distance(outcome.measurement->arrived->position(), arrived.position()), 1e-9);
+        EXPECT_GT(distance(outcome.measurement->pose.position(), arrived.position()), 0.01);
+    }
+}
+
 TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
     MotionErrors errors = testing::exact();
     errors.fine_scale = 0.05;

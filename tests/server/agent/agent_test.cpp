@@ -62,7 +62,7 @@ plant::Plant small_plant() {
 fleet::StopTarget target_of(const plant::Plant& plant) {
     fleet::StopTarget target{"st01", 1, plant.stations[0].pose, 0.025, 0.025, 0.0035, {}};
     for (const auto& marker : plant.markers) {
-        target.markers.push_back({marker.payload, "qr", marker.size_m, marker.pose, 1e-4});
+        target.markers.push_back({marker.payload, "qr", marker.size_m, marker.pose, 1e-4, 5e-4});
     }
     return target;
 }
@@ -99,6 +99,22 @@ TEST(CameraSensing, CoveredCodesFailWithTheReason) {
     const auto blind = sensing.measure(target_of(world.plant));
     ASSERT_FALSE(blind);
     EXPECT_EQ(blind.error().reason.code, "no_marker_in_view");
+}
+
+/// The camera knows of the codes what the order says and nothing of the world.
+TEST(CameraSensing, ASurveyOfTheWrongKindOrSizeShows) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
+    ASSERT_TRUE(sensing.measure(target_of(world.plant)));
+    for (const char* kind : {"apriltag", "landmark", "no kind"}) {
+        auto target = target_of(world.plant);
+        for (auto& marker : target.markers) marker.kind = kind;
+        EXPECT_FALSE(sensing.measure(target)) << kind;
+    }
+    auto target = target_of(world.plant);
+    for (auto& marker : target.markers) marker.size_m = 0.05;  // 0.06 m are printed
+    EXPECT_FALSE(sensing.measure(target));
 }
 
 /// A vehicle with analytic eyes and a clock that the test turns.
@@ -154,6 +170,8 @@ TEST_F(VehicleTest, SaysWhoItIsAndReportsCodesButNoPoseAtFirst) {
     EXPECT_GE(sent[vda5050::Topic::kState], 3);
     EXPECT_EQ(sent[vda5050::Topic::kVisualization], 0);
     EXPECT_FALSE(state.position_initialized);
+    EXPECT_EQ(vehicle.believed_pose(), geometry::Pose2{})
+        << "nobody has told it, and it does not know truth";
     ASSERT_EQ(state.cameras.size(), 2u);
     EXPECT_EQ(state.cameras[0].payload, "ST01-F");
 }

@@ -231,6 +231,17 @@ function ThisStop({ stop }: { stop: StopRecord }) {
             left: number(Math.abs(stop.left_m * 1000), { decimals: 2 }),
           })}
         </dd>
+        {stop.arrival && (
+          <>
+            <dt>{t("arrival")}</dt>
+            <dd>
+              {t("arrival_off", {
+                off: millimetres(Math.hypot(stop.arrival.dx_m, stop.arrival.dy_m), { decimals: 1 }),
+                heading: degrees(Math.abs(stop.arrival.dheading_rad)),
+              })}
+            </dd>
+          </>
+        )}
         <dt>{t("load")}</dt>
         <dd>{mass(stop.load_kg)}</dd>
         <dt>{t("order")}</dt>

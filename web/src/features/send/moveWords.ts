@@ -79,9 +79,10 @@ function straightWords(s: Segment, say: Say): string {
   return say(`words.oblique_${side}`, { length, angle: number((off * 180) / Math.PI, { decimals: 1 }) });
 }
 
-/** What `mode.deviation` shows of an expected deviation. */
+/** What `mode.deviation` shows of an expected deviation, and how many of the vehicle's own arrivals say so. */
 export function deviationValues(expected: NonNullable<ModeOption["expected_deviation"]>) {
   return {
+    count: expected.arrivals,
     position: millimetres(expected.position_m, { decimals: expected.position_m < 0.01 ? 1 : 0 }),
     heading: degrees(expected.heading_rad, { decimals: 2 }),
   };

@@ -126,11 +126,13 @@ describe("modes", () => {
     }
   });
   it("show the expected deviation in mm and degrees", () => {
-    expect(deviationValues({ position_m: 0.0042, heading_rad: 0.002 })).toEqual({
+    expect(deviationValues({ position_m: 0.0042, heading_rad: 0.002, arrivals: 7 })).toEqual({
+      count: 7,
       position: "4.2",
       heading: "0.11",
     });
-    expect(deviationValues({ position_m: 0.0312, heading_rad: 0 })).toEqual({
+    expect(deviationValues({ position_m: 0.0312, heading_rad: 0, arrivals: 0 })).toEqual({
+      count: 0,
       position: "31",
       heading: "0.00",
     });
