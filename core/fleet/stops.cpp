@@ -47,10 +47,13 @@ kinematics::ExpectedDeviation expected_of_drive(const VehicleRun& run) {
     if (!basis || basis->kind != PoseBasis::Kind::kStop || run.leg().attempt != 1) return {};
     std::vector<kinematics::Segment> segments;
     double length_m = 0;
+    bool drives = false;  // else it only measures again where it stands
     for (const OrderEdge& edge : run.leg().edges) {
         segments.push_back(edge.segment);
         length_m += std::abs(edge.segment.length_m);
+        drives = drives || edge.segment.length_m != 0 || edge.segment.turn_rad != 0;
     }
+    if (!drives) return {};
     if (basis->driven_m > kLongerThanPlanned * length_m + kElsewhere_m) return {};
     return kinematics::expected_deviation(segments, kinematics::usual_noise(run.type->kinematics));
 }

@@ -48,6 +48,10 @@ StopProcedure::StopProcedure(Drive& motion, StopSensing& sensing,
       adjustment_(motion.type(), limits) {}
 
 void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
+    // What is measured where an adjustment has ended is still of the drive before that one.
+    const bool adjusted = !correct && last_ && target.station_id == target_.station_id &&
+                          motion_.believed_pose() == last_->pose;
+    if (!adjusted) arrived_.reset();
     target_ = target;
     correct_ = correct;
     running_ = true;
@@ -59,7 +63,6 @@ void StopProcedure::start(const fleet::StopTarget& target, bool correct) {
     approaches_ = 0;
     blind_passes_ = 0;
     last_.reset();
-    arrived_.reset();
     driven_.clear();
     settling_s_ = kSettle_s / motion_.time_factor();
 }
@@ -118,6 +121,7 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
     learn(*measured);
+    // Only a look before any move shows where the drive itself had ended.
     if (!arrived_ && blind_passes_ == 0 && !on_the_way_) arrived_ = measured->pose;
     last_ = *measured;
     last_->arrived = arrived_;

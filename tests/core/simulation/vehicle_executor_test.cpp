@@ -311,6 +311,29 @@ TEST_F(VehicleExecutorTest, AdjustsAndMeasuresAtTheLastNode) {
     ASSERT_TRUE(measured.has_value());
     EXPECT_LT(distance(measured->pose.position(), target.position()), 0.002);
     EXPECT_EQ(*now.pose, measured->pose);
+    ASSERT_TRUE(measured->arrived);
+    EXPECT_LT(distance(measured->arrived->position(), {2, 0}), 0.001)
+        << "where the drive had ended, though it was adjusted before it was measured";
+}
+
+TEST_F(VehicleExecutorTest, ASecondOrderToWhereItStandsArrivesWhereItStands) {
+    const Pose2 target{2.015, -0.01, radians(0.1)};
+    auto message = order("a", 2, 2);
+    message.nodes[1].actions = {stop_action("adjustToMarker", target),
+                                stop_action("measureStop", target)};
+    executor.handle(message);
+    run(60);
+    const Pose2 stood = *state().pose;
+    auto again = order("b", 1, 1, stood.x_m);
+    again.nodes[0].pose = stood;
+    again.nodes[0].actions = message.nodes[1].actions;
+    executor.handle(again);
+    run(60);
+    const auto now = state();
+    ASSERT_EQ(now.order_id, "b");
+    const auto& measured = now.action_states.at(1).measurement;
+    ASSERT_TRUE(measured && measured->arrived);
+    EXPECT_LT(distance(measured->arrived->position(), stood.position()), 1e-6);
 }
 
 TEST_F(VehicleExecutorTest, AStopThatCannotBeSeenFailsWithTheReason) {
