@@ -9,7 +9,6 @@
 
 #include "api/http/common_json.hpp"
 #include "api/http/job_order_json.hpp"
-#include "api/http/plant_json.hpp"
 #include "api/http/vehicle_json.hpp"
 
 namespace pulseline::events {

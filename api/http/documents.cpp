@@ -1,14 +1,15 @@
 #include "api/http/documents.hpp"
 
+#include "api/http/common_json.hpp"
 #include "api/http/etag.hpp"
 #include "api/http/grid_png.hpp"
-#include "api/http/plant_json.hpp"
+#include "api/plant/plant_codec.hpp"
 
 namespace pulseline::api {
 
 Documents make_documents(const plant::Plant& plant) {
     Documents documents;
-    documents.plant_json = dump(plant_json(plant));
+    documents.plant_json = dump(plant::encode_plant(plant, plant::PlantForm::kApi));
     documents.plant_etag = etag_of(plant.revision);
     for (const plant::Hall& hall : plant.halls) {
         if (!hall.grid.empty()) documents.grid_png[hall.id.str()] = grid_png(hall.grid);

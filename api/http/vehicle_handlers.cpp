@@ -6,7 +6,6 @@
 
 #include "api/http/etag.hpp"
 #include "api/http/page.hpp"
-#include "api/http/plant_json.hpp"
 #include "api/http/problem.hpp"
 #include "api/http/requests.hpp"
 #include "api/http/vehicle_json.hpp"

@@ -165,4 +165,14 @@ Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet) {
     return json;
 }
 
+Json station_state_json(const fleet::StationView& station) {
+    Json json = {{"station", station.id.str()},
+                 {"number", station.number},
+                 {"occupied_by", station.occupied_by.str()},
+                 {"reserved_by", station.reserved_by.str()},
+                 {"ready", station.ready}};
+    if (!station.last_stop.empty()) json["last_stop"] = station.last_stop.str();
+    return json;
+}
+
 }  // namespace pulseline::api

@@ -10,5 +10,6 @@ namespace pulseline::api {
 Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
                   const fleet::VehicleView& vehicle);
 Json fleet_json(const plant::Plant& plant, const fleet::FleetView& fleet);
+Json station_state_json(const fleet::StationView& station);
 
 }  // namespace pulseline::api

@@ -112,7 +112,6 @@ Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.
 Json encode(const VehicleType& t);
 Json encode(const Vehicle& v);
 Json encode(const RoadmapNode& n);
-Json encode(const RoadmapEdge& e);
 
 template <class T>
 Json encode_all(const std::vector<T>& items) {
@@ -171,10 +170,12 @@ Json encode(const RoadmapNode& n) {
 
 Json encode(const Corridor& c) { return {{"left_m", c.left_m}, {"right_m", c.right_m}}; }
 
-Json encode(const RoadmapEdge& e) {
+Json encode(const RoadmapEdge& e, PlantForm form) {
     Json json = {{"id", e.id.str()}, {"from", e.from.str()}, {"to", e.to.str()}};
     if (e.max_speed_mps != 0) json["max_speed_mps"] = e.max_speed_mps;
-    if (!e.vehicle_types.empty()) json["vehicle_types"] = encode(e.vehicle_types);
+    if (form == PlantForm::kApi || !e.vehicle_types.empty()) {
+        json["vehicle_types"] = encode(e.vehicle_types);
+    }
     if (e.corridor) json["corridor"] = encode(*e.corridor);
     return json;
 }
@@ -204,22 +205,23 @@ void print(const Json& json, int open, const std::string& indent, std::string& o
 Json encode_plant(const Plant& plant, PlantForm form) {
     Json halls = Json::array();
     for (const Hall& hall : plant.halls) halls.push_back(encode(hall, form));
-    Json json = {
-        {"id", plant.id},
-        {"name", plant.name},
-        {"revision", plant.revision},
-        {"halls", std::move(halls)},
-        {"stations", encode_all(plant.stations)},
-        {"markers", encode_all(plant.markers)},
-        {"areas", encode_all(plant.areas)},
-        {"vehicle_types", encode_all(plant.vehicle_types)},
-        {"vehicles", encode_all(plant.vehicles)},
-        {"roadmap", {{"nodes", encode_all(plant.nodes)}, {"edges", encode_all(plant.edges)}}},
-        {"routing",
-         {{"k_same", plant.routing.k_same},
-          {"k_diff", plant.routing.k_diff},
-          {"reference_step_m", plant.routing.reference_step_m},
-          {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    Json edges = Json::array();
+    for (const RoadmapEdge& edge : plant.edges) edges.push_back(encode(edge, form));
+    Json json = {{"id", plant.id},
+                 {"name", plant.name},
+                 {"revision", plant.revision},
+                 {"halls", std::move(halls)},
+                 {"stations", encode_all(plant.stations)},
+                 {"markers", encode_all(plant.markers)},
+                 {"areas", encode_all(plant.areas)},
+                 {"vehicle_types", encode_all(plant.vehicle_types)},
+                 {"vehicles", encode_all(plant.vehicles)},
+                 {"roadmap", {{"nodes", encode_all(plant.nodes)}, {"edges", std::move(edges)}}},
+                 {"routing",
+                  {{"k_same", plant.routing.k_same},
+                   {"k_diff", plant.routing.k_diff},
+                   {"reference_step_m", plant.routing.reference_step_m},
+                   {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
     put_names(json, plant.names);
     return json;
 }

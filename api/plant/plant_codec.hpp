@@ -10,7 +10,8 @@ namespace pulseline::plant {
 
 enum class PlantForm {
     kFile,  // halls name their occupancy_yaml
-    kApi,   // halls tell the size and place of their grid instead (openapi.yaml, Plant)
+    kApi,   // halls tell the size and place of their grid instead, edges always for whom they are
+            // (openapi.yaml, Plant)
 };
 
 json::Json encode_plant(const Plant& plant, PlantForm form);

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "api/http/job_order_json.hpp"
-#include "api/http/plant_json.hpp"
 #include "api/http/vehicle_json.hpp"
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
