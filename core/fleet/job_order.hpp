@@ -192,7 +192,6 @@ struct Pause {
     friend bool operator==(const Pause&, const Pause&) = default;
 };
 
-/// What survives a restart about a vehicle.
 /// What a pose that is known rests on.
 struct PoseBasis {
     enum class Kind {
@@ -208,6 +207,7 @@ struct PoseBasis {
     double driven_m = 0;  // since then, by the vehicle's own reckoning
 };
 
+/// What survives a restart about a vehicle.
 struct VehicleRecord {
     plant::VehicleId id;
     bool pose_known = false;

@@ -107,7 +107,7 @@ void take_vehicles_of_plant(FleetState& fleet) {
 namespace {
 
 /// What it may have driven since its row was written counts as driven: its pose is no surer.
-void drive_unseen(VehicleRun& run) {
+void count_unseen_drive(VehicleRun& run) {
     if (!run.record.basis || !run.has_leg()) return;
     const Leg& leg = run.leg();
     for (std::size_t i = 0; i < leg.edges.size(); ++i) {
@@ -133,7 +133,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         VehicleRun* run = fleet.find(record.id);
         if (!run) continue;
         run->record = std::move(record);
-        drive_unseen(*run);
+        count_unseen_drive(*run);
     }
     open_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,110 +10,18 @@
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
 #include "api/vehicle/state.hpp"
-#include "server/agent/camera_sensing.hpp"
 #include "server/agent/hand_held.hpp"
-#include "server/agent/options.hpp"
-#include "server/agent/outbox.hpp"
-#include "server/agent/truth_log.hpp"
 #include "server/agent/vehicle.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
-#include "tests/core/simulation/platform.hpp"
 #include "tests/db/temp_folder.hpp"
+#include "tests/server/agent/small_hall.hpp"
 
 namespace pulseline::agent {
 namespace {
 
 using namespace std::chrono_literals;
-
-plant::Plant small_plant() {
-    plant::Plant plant;
-    auto type = simulation::testing::platform_type();
-    for (const double side : {1.0, -1.0}) {
-        plant::Camera camera;
-        camera.name = side > 0 ? "front" : "back";
-        camera.body_from_camera = {5.346 * side, 0, 0};
-        type.cameras.push_back(camera);
-        plant::Marker marker;
-        marker.id = plant::MarkerId(camera.name);
-        marker.payload = side > 0 ? "ST01-F" : "ST01-B";
-        marker.hall = plant::HallId("hall");
-        marker.pose = {20 + 5.346 * side, 10, 0};
-        plant.markers.push_back(marker);
-    }
-    plant.vehicle_types.push_back(type);
-    plant::Station station;
-    station.id = plant::StationId("st01");
-    station.number = 1;
-    station.hall = plant::HallId("hall");
-    station.pose = {20, 10, 0};
-    plant.stations.push_back(station);
-    plant::Vehicle vehicle;
-    vehicle.id = plant::VehicleId("TP-01");
-    vehicle.type = type.id;
-    vehicle.manufacturer = "Tang";
-    vehicle.serial_number = "TP-01";
-    vehicle.home = station.id;
-    plant.vehicles.push_back(vehicle);
-    return plant;
-}
-
-fleet::StopTarget target_of(const plant::Plant& plant) {
-    fleet::StopTarget target{"st01", 1, plant.stations[0].pose, 0.025, 0.025, 0.0035, {}};
-    for (const auto& marker : plant.markers) {
-        target.markers.push_back({marker.payload, "qr", marker.size_m, marker.pose, 1e-4, 5e-4});
-    }
-    return target;
-}
-
-TEST(CameraSensing, MeasuresTheTruePoseFromRenderedImages) {
-    const auto world = simulation::make_world(small_plant(), 1);
-    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20.004, 9.995, 0.001}, 1);
-    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
-    const auto measured = sensing.measure(target_of(world.plant));
-    ASSERT_TRUE(measured) << measured.error().what;
-    EXPECT_EQ(measured->method, "dual_camera");
-    EXPECT_LT(distance(measured->pose.position(), motion.true_pose().position()), 5e-4);
-    EXPECT_NEAR(measured->pose.heading_rad, 0.001, 1e-4);
-}
-
-TEST(CameraSensing, PicturesOutliveTheReadingsOfAPlaceTheVehicleLeft) {
-    const auto world = simulation::make_world(small_plant(), 1);
-    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
-    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
-    sensing.look();
-    sensing.forget();
-    EXPECT_TRUE(sensing.readings().empty());
-    const auto pictures = sensing.pictures();
-    ASSERT_EQ(pictures.size(), 2u);
-    EXPECT_EQ(pictures[0].jpeg.substr(0, 2), "\xff\xd8");
-}
-
-TEST(CameraSensing, CoveredCodesFailWithTheReason) {
-    const auto world = simulation::make_world(small_plant(), 1);
-    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
-    CameraSensing sensing(world, plant::HallId("hall"), motion, false, 3);
-    ASSERT_TRUE(sensing.measure(target_of(world.plant)));
-    sensing.cover();
-    const auto blind = sensing.measure(target_of(world.plant));
-    ASSERT_FALSE(blind);
-    EXPECT_EQ(blind.error().reason.code, "no_marker_in_view");
-}
-
-/// The camera knows of the codes what the order says and nothing of the world.
-TEST(CameraSensing, ASurveyOfTheWrongKindOrSizeShows) {
-    const auto world = simulation::make_world(small_plant(), 1);
-    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
-    CameraSensing sensing(world, plant::HallId("hall"), motion, true, 3);
-    ASSERT_TRUE(sensing.measure(target_of(world.plant)));
-    for (const char* kind : {"apriltag", "landmark", "no kind"}) {
-        auto target = target_of(world.plant);
-        for (auto& marker : target.markers) marker.kind = kind;
-        EXPECT_FALSE(sensing.measure(target)) << kind;
-    }
-    auto target = target_of(world.plant);
-    for (auto& marker : target.markers) marker.size_m = 0.05;  // 0.06 m are printed
-    EXPECT_FALSE(sensing.measure(target));
-}
+using testing::small_plant;
+using testing::target_of;
 
 /// A vehicle with analytic eyes and a clock that the test turns.
 class VehicleTest : public ::testing::Test {
@@ -456,69 +362,6 @@ TEST_F(VehicleTest, AHandHeldControlIsAnsweredAndRefusedInWords) {
     EXPECT_EQ(hand_held(vehicle, R"({"do":"take"})")["operating_mode"], "MANUAL");
     run(100ms);
     EXPECT_EQ(hand_held(vehicle, R"({"do":"give_back"})")["operating_mode"], "AUTOMATIC");
-}
-
-TEST(Outbox, NewestStateAndPictureWinAndEventsGoFirst) {
-    Outbox outbox;
-    outbox.put_picture("front", "picture 1");
-    outbox.put_visualization("pose");
-    outbox.put_state("old");
-    outbox.put_state("new");
-    outbox.put_picture("front", "picture 2");
-    outbox.put_event("hello");
-    std::vector<std::string> order;
-    while (auto frame = outbox.take()) order.push_back(frame->bytes);
-    EXPECT_EQ(order, (std::vector<std::string>{"hello", "new", "pose", "picture 2"}));
-    EXPECT_TRUE(outbox.empty());
-}
-
-TEST(TruthLog, LastLineOfTheVehicleSurvivesATornEnd) {
-    const auto path =
-        std::filesystem::temp_directory_path() / ("truth-" + std::to_string(::getpid()) + ".jsonl");
-    std::filesystem::remove(path);
-    EXPECT_FALSE(last_true_pose(path, "TP-01"));
-    {
-        auto log = TruthLog::open(path);
-        ASSERT_TRUE(log);
-        log->write({"TP-01", {1, 2, 0.5}, true, "o", 2, 4}, 1000);
-        log->write({"TP-02", {9, 9, 0}, false, "", 0, 0}, 1001);
-    }
-    std::ofstream(path, std::ios::app) << R"({"vehicle":"TP-01","x_m":7)";
-    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{1, 2, 0.5}));
-    {
-        auto log = TruthLog::open(path);
-        ASSERT_TRUE(log);
-        log->write({"TP-01", {3, 2, 0.5}, false, "o", 4, 4}, 1002);
-    }
-    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{3, 2, 0.5}));
-    std::filesystem::remove(path);
-    EXPECT_EQ(TruthLog::open("/nonexistent/truth").error().reason.code, "truth_log_unwritable");
-}
-
-TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
-    EXPECT_EQ(parse_server("wss://host:8443/")->port, "8443");
-    EXPECT_EQ(parse_server("ws://host")->port, "80");
-    EXPECT_EQ(parse_server("ws://[::1]:9000")->host, "::1");
-    for (const char* bad : {"http://host", "ws://", "ws://host:port", "ws://host/path:1"}) {
-        EXPECT_FALSE(parse_server(bad)) << bad;
-    }
-    EXPECT_EQ(parse_fault("wheel=drive front@20")->wheel, "drive front");
-    EXPECT_EQ(parse_fault("marker-lost")->after_s, 0);
-    EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->wheel, "back drive");
-    EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
-    EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
-    EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
-    for (const char* bad : {"wheel=", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
-                            "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
-        EXPECT_FALSE(parse_fault(bad)) << bad;
-    }
-    const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");
-    ASSERT_TRUE(list);
-    EXPECT_EQ(list->size(), 2u);
-    EXPECT_EQ(list->at(1).token, "def");
-    for (const char* bad : {"", "Tang/TP-01", "TP-01 abc", "Tang/TP-01 a b"}) {
-        EXPECT_FALSE(parse_vehicle_list(bad)) << bad;
-    }
 }
 
 }  // namespace

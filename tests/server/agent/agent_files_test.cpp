@@ -1,0 +1,81 @@
+// What the agent's program reads and writes beside its link: the queue to the server, the log of
+// the truth, the command line.
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "server/agent/options.hpp"
+#include "server/agent/outbox.hpp"
+#include "server/agent/truth_log.hpp"
+
+namespace pulseline::agent {
+namespace {
+
+TEST(Outbox, NewestStateAndPictureWinAndEventsGoFirst) {
+    Outbox outbox;
+    outbox.put_picture("front", "picture 1");
+    outbox.put_visualization("pose");
+    outbox.put_state("old");
+    outbox.put_state("new");
+    outbox.put_picture("front", "picture 2");
+    outbox.put_event("hello");
+    std::vector<std::string> order;
+    while (auto frame = outbox.take()) order.push_back(frame->bytes);
+    EXPECT_EQ(order, (std::vector<std::string>{"hello", "new", "pose", "picture 2"}));
+    EXPECT_TRUE(outbox.empty());
+}
+
+TEST(TruthLog, LastLineOfTheVehicleSurvivesATornEnd) {
+    const auto path =
+        std::filesystem::temp_directory_path() / ("truth-" + std::to_string(::getpid()) + ".jsonl");
+    std::filesystem::remove(path);
+    EXPECT_FALSE(last_true_pose(path, "TP-01"));
+    {
+        auto log = TruthLog::open(path);
+        ASSERT_TRUE(log);
+        log->write({"TP-01", {1, 2, 0.5}, true, "o", 2, 4}, 1000);
+        log->write({"TP-02", {9, 9, 0}, false, "", 0, 0}, 1001);
+    }
+    std::ofstream(path, std::ios::app) << R"({"vehicle":"TP-01","x_m":7)";
+    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{1, 2, 0.5}));
+    {
+        auto log = TruthLog::open(path);
+        ASSERT_TRUE(log);
+        log->write({"TP-01", {3, 2, 0.5}, false, "o", 4, 4}, 1002);
+    }
+    EXPECT_EQ(*last_true_pose(path, "TP-01"), (geometry::Pose2{3, 2, 0.5}));
+    std::filesystem::remove(path);
+    EXPECT_EQ(TruthLog::open("/nonexistent/truth").error().reason.code, "truth_log_unwritable");
+}
+
+TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
+    EXPECT_EQ(parse_server("wss://host:8443/")->port, "8443");
+    EXPECT_EQ(parse_server("ws://host")->port, "80");
+    EXPECT_EQ(parse_server("ws://[::1]:9000")->host, "::1");
+    for (const char* bad : {"http://host", "ws://", "ws://host:port", "ws://host/path:1"}) {
+        EXPECT_FALSE(parse_server(bad)) << bad;
+    }
+    EXPECT_EQ(parse_fault("wheel=drive front@20")->wheel, "drive front");
+    EXPECT_EQ(parse_fault("marker-lost")->after_s, 0);
+    EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->wheel, "back drive");
+    EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
+    EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
+    EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
+    for (const char* bad : {"wheel=", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
+                            "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
+        EXPECT_FALSE(parse_fault(bad)) << bad;
+    }
+    const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");
+    ASSERT_TRUE(list);
+    EXPECT_EQ(list->size(), 2u);
+    EXPECT_EQ(list->at(1).token, "def");
+    for (const char* bad : {"", "Tang/TP-01", "TP-01 abc", "Tang/TP-01 a b"}) {
+        EXPECT_FALSE(parse_vehicle_list(bad)) << bad;
+    }
+}
+
+}  // namespace
+}  // namespace pulseline::agent
