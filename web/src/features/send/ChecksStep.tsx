@@ -5,6 +5,7 @@ import { checkWords } from "./checkWords";
 import type { ShownCheck } from "./floorCheck";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { countChecks, foldChecks, type Preview } from "./preview";
+import "./ChecksStep.css";
 
 /** Checks that a person may get hurt by. */
 const critical = new Set<ShownCheck["code"]>(["safety", "clearance"]);

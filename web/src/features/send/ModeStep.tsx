@@ -7,6 +7,7 @@ import { useWords } from "@/shared/words/useWords";
 import { capitalise, deviationValues, moveWords } from "./moveWords";
 import { OtherWays } from "./OtherWays";
 import { chosenOption, sortOptions, type Preview, type StepPreview } from "./preview";
+import "./ModeStep.css";
 
 export const modeIcon: Record<MotionMode, ModeIconName> = {
   auto: "m-auto",

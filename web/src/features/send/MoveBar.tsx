@@ -3,6 +3,7 @@ import type { JobOrder, Vehicle } from "@/shared/api/types";
 import { CancelOrder, PauseVehicle } from "@/shared/commands";
 import { Button } from "@/shared/ui";
 import type { MoveProgress } from "./progress";
+import "./CommandBar.css";
 
 export interface MoveBarProps {
   order: JobOrder | undefined;

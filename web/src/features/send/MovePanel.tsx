@@ -7,6 +7,7 @@ import { degrees, millimetres } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { reached, type Milestone, type MoveProgress } from "./progress";
+import "./MovePanel.css";
 
 const milestones: readonly Milestone[] = ["requested", "accepted", "confirmed", "arrived"];
 

@@ -1,6 +1,7 @@
 import { useTranslation } from "react-i18next";
 import type { LegAlternative } from "@/shared/api/types";
 import { duration, length, number } from "@/shared/words/format";
+import "./OtherWays.css";
 
 /** Ways along the roadmap that were not taken, and what most speaks against each. */
 export function OtherWays({ ways }: { ways: readonly LegAlternative[] }) {

@@ -6,6 +6,7 @@ import { number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { AreasLegend } from "./SweptAreas";
 import { areasOf, fits, previewOf, type PreviewInput } from "./previewOverlays";
+import "./PreviewMap.css";
 
 /** The move on the hall's own map: swept areas, way, where it ends, dimensions. A press takes a station while picking. */
 export function PreviewMap(props: PreviewInput & { onPick: (station: number) => void }) {

@@ -5,6 +5,7 @@ import { degrees, duration, kNone, millimetres, number, timeOfDay } from "@/shar
 import { useWords } from "@/shared/words/useWords";
 import { deviationValues } from "./moveWords";
 import type { StepPreview } from "./preview";
+import "./PreviewPanel.css";
 
 /** Time, clearance and expected deviation of the chosen mode, each against its limit. */
 export function Measures(props: {

@@ -36,8 +36,7 @@ import { usePreview, type PreviewQuestion } from "./usePreview";
 import { useSentOrder, useStart } from "./useStart";
 import { sortForSending, usePlace, VehicleStep } from "./VehicleStep";
 import { useWhyNot } from "./whyNot";
-import "./send.css";
-import "./send-narrow.css";
+import "./SendPage.css";
 
 const kNone: readonly never[] = [];
 

@@ -6,6 +6,7 @@ import { useWords } from "@/shared/words/useWords";
 import type { Readiness } from "./preview";
 import { armedLeft_s, kArmMs, kHoldMs } from "./startCommand";
 import type { Start } from "./useStart";
+import "./CommandBar.css";
 
 export interface StartBarProps {
   start: Start;

@@ -4,6 +4,7 @@ import { Icon, NumberPad } from "@/shared/ui";
 import { heading, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { stationOf, type StationEntry } from "./stationEntry";
+import "./StationStep.css";
 
 /** "1–7, 31–33": the numbers there are, so that a wrong one can be put right. */
 export function numberRanges(numbers: readonly number[]): string {

@@ -4,6 +4,7 @@ import { symbolOf } from "@/shared/live";
 import { StatusSymbol } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import "./VehicleStep.css";
 
 /** Platforms first, then by name; a silent one stays in the list, marked. */
 export function sortForSending(vehicles: readonly Vehicle[], plant: Plant | undefined): Vehicle[] {

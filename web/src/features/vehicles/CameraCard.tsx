@@ -3,6 +3,7 @@ import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card, Chip } from "@/shared/ui";
 import { age, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
 import { usePicture } from "./usePicture";
+import "./CameraCard.css";
 
 export type Camera = Vehicle["cameras"][number];
 type CameraType = VehicleType["cameras"][number];

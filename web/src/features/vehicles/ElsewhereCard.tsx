@@ -5,6 +5,7 @@ import { useMayCommand } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Button } from "@/shared/ui";
 import { InitPositionCard } from "./InitPositionCard";
+import "./ElsewhereCard.css";
 
 /** "It stands elsewhere": the way to tell a vehicle its place, on the map or in numbers. Open when it does not know. */
 export function ElsewhereCard({

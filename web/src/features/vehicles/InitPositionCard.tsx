@@ -6,6 +6,7 @@ import { CommandFailed } from "@/shared/commands";
 import { Card, CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { draftOf, emptyDraft, readDraft, type InitDraft } from "./initPosition";
+import "./InitPositionCard.css";
 
 /** A person says where a vehicle stands that lost its position, or says one that cannot be. Nothing moves by it. */
 export function InitPositionCard({

@@ -5,6 +5,7 @@ import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/wor
 import { useWords } from "@/shared/words/useWords";
 import { poseWords } from "./poseBasis";
 import type { Heard } from "./useHeard";
+import "./PoseCard.css";
 
 export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Heard; now: number }) {
   const { t } = useTranslation("vehicles");

@@ -4,6 +4,7 @@ import { Link } from "@/shared/router";
 import { Card, PanelEmpty, StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import "./StopsCard.css";
 
 const kShown = 7;
 

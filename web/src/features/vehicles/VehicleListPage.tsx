@@ -7,6 +7,7 @@ import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { useHeard } from "./useHeard";
 import { useAnswer } from "./WhyCard";
+import "./VehicleListPage.css";
 
 /** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
 export function VehicleListPage() {

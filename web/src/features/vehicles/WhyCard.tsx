@@ -7,6 +7,7 @@ import { age, fixed } from "@/shared/words/format";
 import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { useWords } from "@/shared/words/useWords";
 import { whyRows, type WhyRow } from "./whyRows";
+import "./WhyCard.css";
 
 /** The most urgent thing about a vehicle, in one sentence: what is wrong with it, else why it stands or what it does. */
 export function useAnswer(): (vehicle: Vehicle) => string {

@@ -50,6 +50,11 @@ export function footCorner(name: string, index: number): { x: 1 | -1; y: 1 | -1 
   };
 }
 
+/** Where the vehicle type has the wheel of this name. */
+export function wheelPlace(name: string, type: VehicleType | undefined) {
+  return type?.wheels.find((w) => w.name === name);
+}
+
 export type WheelState = "ok" | "warm" | "fault";
 export const kWarm_c = 65;
 

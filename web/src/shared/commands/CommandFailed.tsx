@@ -1,6 +1,7 @@
 import { useTranslation } from "react-i18next";
 import type { Command } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
+import "./CommandFailed.css";
 
 /** Why the server did not take a command. */
 export function CommandFailed({ command: { asked } }: { command: Command }) {

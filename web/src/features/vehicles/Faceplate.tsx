@@ -1,0 +1,132 @@
+import { useMemo, useState } from "react";
+import { useTranslation } from "react-i18next";
+import type { Vehicle } from "@/shared/api/types";
+import { HeldBar, useHeldWords, useRefusal } from "@/shared/commands";
+import {
+  stale,
+  symbolOf,
+  useJobOrder,
+  useLinkLost,
+  usePlant,
+  useServerNow,
+  useStations,
+  useStopRecords,
+} from "@/shared/live";
+import { Card, PanelEmpty, StatusSymbol, Tabs } from "@/shared/ui";
+import { useNarrow } from "@/shared/ui/useNarrow";
+import { age } from "@/shared/words/format";
+import { CameraCard } from "./CameraCard";
+import { ElsewhereCard } from "./ElsewhereCard";
+import { IntegrationCard } from "./IntegrationCard";
+import { LoadsCard } from "./LoadsCard";
+import { PoseCard } from "./PoseCard";
+import { StopsCard } from "./StopsCard";
+import { useHeard } from "./useHeard";
+import { VehicleChips } from "./VehicleChips";
+import { VehicleCommands } from "./VehicleCommands";
+import { useAnswer, WhyCard } from "./WhyCard";
+import "./Faceplate.css";
+
+const kLate_s = 2;
+
+/** Faceplate of one vehicle (Tang 2020, Fig. 12). */
+export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
+  const { t } = useTranslation("vehicles");
+  const narrow = useNarrow();
+  const plant = usePlant().data;
+  const type = plant?.vehicle_types.find((v) => v.id === vehicle.type);
+  const now = useServerNow(500);
+  const order = useJobOrder(vehicle.order);
+  const stations = useStations();
+  const allStops = useStopRecords();
+  const stops = useMemo(() => allStops.filter((s) => s.vehicle === vehicle.id), [allStops, vehicle.id]);
+  const answer = useAnswer();
+  const held = useHeldWords();
+  const [tab, setTab] = useState("loads");
+  const refused = useRefusal();
+  const heard = useHeard(vehicle);
+  const { heard_s } = heard;
+  const target = stations.find((s) => s.id === vehicle.leg?.station)?.state;
+
+  const lost = useLinkLost();
+  const old = lost || stale(vehicle) || (heard_s ?? Infinity) >= kLate_s;
+  const loads = <LoadsCard vehicle={vehicle} type={type} stale={old} heard_s={heard_s} />;
+  const cameras =
+    vehicle.cameras.length === 0 ? (
+      <Card title={t("tabs.cameras")}>
+        <PanelEmpty what={t("camera.none")} />
+      </Card>
+    ) : (
+      vehicle.cameras.map((c) => (
+        <CameraCard
+          key={c.name}
+          vehicle={vehicle}
+          camera={c}
+          type={type?.cameras.find((x) => x.name === c.name)}
+          now={now}
+        />
+      ))
+    );
+  const why = (
+    <>
+      {!narrow && <HeldBar vehicle={vehicle} />}
+      <ElsewhereCard key={vehicle.id} vehicle={vehicle} plant={plant} refused={refused} />
+      <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
+      <PoseCard vehicle={vehicle} heard={heard} now={now} />
+      <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
+    </>
+  );
+  const last = <StopsCard stops={stops} now={now} />;
+
+  return (
+    <>
+      <div className="card head">
+        <svg viewBox="-6 -1.6 12 3.2" className="hmini" aria-hidden="true">
+          <rect x="-5.25" y="-1.25" width="10.5" height="2.5" rx=".2" fill="var(--veh)" />
+          <path d="M4.7 0L3.3 .85L3.65 0L3.3-.85Z" fill="var(--veh-mark)" />
+        </svg>
+        <div>
+          <h1>{vehicle.name}</h1>
+          <span className="lab nw">{type?.name ?? vehicle.type}</span>
+        </div>
+        <VehicleChips vehicle={vehicle} stale={old} />
+        <div className="grow" />
+        <VehicleCommands vehicle={vehicle} order={order} />
+      </div>
+      {narrow ? (
+        <>
+          <HeldBar vehicle={vehicle} />
+          <div className="card whyl" hidden={answer(vehicle) === held(vehicle)}>
+            <StatusSymbol name={symbolOf(vehicle)} />
+            <b>{answer(vehicle)}</b>
+            <span className="cap">{age(heard_s)}</span>
+          </div>
+          <div className="vtabs">
+            <Tabs
+              label={t("tabs.label")}
+              selected={tab}
+              onSelect={setTab}
+              items={[
+                { id: "loads", title: t("tabs.loads"), content: loads },
+                { id: "cameras", title: t("tabs.cameras"), content: <div className="cams">{cameras}</div> },
+                { id: "why", title: t("tabs.why"), content: <div className="vr">{why}</div> },
+                { id: "stops", title: t("tabs.stops"), content: last },
+              ]}
+            />
+          </div>
+        </>
+      ) : (
+        <div className="vgrid">
+          <div className="vl">
+            {loads}
+            <div className="cams">{cameras}</div>
+          </div>
+          <div className="vr">
+            {why}
+            {last}
+          </div>
+        </div>
+      )}
+    </>
+  );
+}

@@ -1,0 +1,47 @@
+import { useTranslation } from "react-i18next";
+import type { Vehicle, VehicleType } from "@/shared/api/types";
+import { Card } from "@/shared/ui";
+import { age, fixed } from "@/shared/words/format";
+import { feetDown } from "./faceplate";
+import { summarise } from "./loads";
+import { PlatformDrawing } from "./PlatformDrawing";
+
+/** The vehicle from above with what its sensors say of load, wheels and feet. */
+export function LoadsCard({
+  vehicle,
+  type,
+  stale,
+  heard_s,
+}: {
+  vehicle: Vehicle;
+  type: VehicleType | undefined;
+  stale: boolean;
+  heard_s: number | undefined;
+}) {
+  const { t } = useTranslation("vehicles");
+  const summary = summarise(vehicle, type);
+  const parts: string[] = [];
+  if (summary) {
+    parts.push(
+      summary.total_n < 1000
+        ? t("loads.no_load")
+        : summary.balanced
+          ? t("loads.balanced", { count: summary.brackets.length * 2 })
+          : t("loads.unbalanced", { percent: fixed(summary.worst * 100, 1) }),
+    );
+  }
+  if (vehicle.parking_feet.length > 0) {
+    parts.push(t(feetDown(vehicle.parking_feet) ? "loads.feet_lowered" : "loads.feet_raised"));
+  }
+  return (
+    <Card
+      className="pcard"
+      title={t("loads.title")}
+      summary={parts.join(t("join"))}
+      right={age(heard_s)}
+      flush
+    >
+      <PlatformDrawing vehicle={vehicle} type={type} stale={stale} />
+    </Card>
+  );
+}
