@@ -1,6 +1,6 @@
 import type { KeyboardEvent } from "react";
 import { useTranslation } from "react-i18next";
-import type { ModeOption, MotionMode } from "@/shared/api/types";
+import type { ModeOption, MotionMode, Plant } from "@/shared/api/types";
 import { ModeIcon, StatusSymbol, type ModeIconName } from "@/shared/ui";
 import { duration, length } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
@@ -23,6 +23,7 @@ export const modeIcon: Record<MotionMode, ModeIconName> = {
 export interface ModeStepProps {
   preview: Preview;
   step: StepPreview | undefined;
+  plant: Plant | undefined;
   /** Why there are no modes, when it is not that nothing has been chosen yet. */
   instead: string | undefined;
   mode: MotionMode;
@@ -31,7 +32,7 @@ export interface ModeStepProps {
   onLook: (mode: MotionMode | undefined) => void;
 }
 
-export function ModeStep({ preview, step, instead, mode, onMode, onLook }: ModeStepProps) {
+export function ModeStep({ preview, step, plant, instead, mode, onMode, onLook }: ModeStepProps) {
   const { t } = useTranslation("send");
   if (!step) {
     const wait = preview.kind === "loading" ? "checks.asking" : "mode.wait";
@@ -55,7 +56,7 @@ export function ModeStep({ preview, step, instead, mode, onMode, onLook }: ModeS
         ))}
         {options.length > 0 && !options.some((o) => o.feasible) && <p className="lab">{t("mode.none")}</p>}
       </div>
-      <OtherWays ways={step.alternatives} />
+      <OtherWays ways={step.alternatives} plant={plant} />
     </>
   );
 }
@@ -121,8 +122,7 @@ function ModeRow(props: {
   function way(of: ModeOption): string {
     const move = capitalise(moveWords(of.segments ?? [], (key, params) => t(key, params), t("words.join")));
     const places = of.route?.length ?? 0;
-    if (places < 3) return move;
-    return move + t("words.join") + t("mode.via", { count: places, length: length(of.length_m) });
+    return places < 3 ? move : move + t("words.join") + t("mode.via", { count: places });
   }
 
   function facts(of: ModeOption): string {

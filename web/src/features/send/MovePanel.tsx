@@ -6,7 +6,11 @@ import { Button, DeviationBar, StatusSymbol } from "@/shared/ui";
 import { degrees, millimetres } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
+import type { Busy } from "./busy";
 import { reached, type Milestone, type MoveProgress } from "./progress";
+import type { Replacing } from "./replacing";
+import { endedBy } from "./useBusyWords";
+import { WaitsBehind } from "./WaitsBehind";
 import "./MovePanel.css";
 
 const milestones: readonly Milestone[] = ["requested", "accepted", "confirmed", "arrived"];
@@ -16,11 +20,15 @@ export interface MovePanelProps {
   vehicle: Vehicle | undefined;
   progress: MoveProgress;
   orderId: string;
+  /** What its vehicle has to do besides. */
+  busy: Busy | undefined;
+  replacing: Replacing;
   onNew: () => void;
 }
 
 /** The move under way, from the server's order and the vehicle's own reports only. */
-export function MovePanel({ order, vehicle, progress, orderId, onNew }: MovePanelProps) {
+export function MovePanel(props: MovePanelProps) {
+  const { order, vehicle, progress, orderId, busy, replacing, onNew } = props;
   const { t } = useTranslation("send");
   const words = useWords();
   const step = order?.steps[Math.min(order.current_step, order.steps.length - 1)];
@@ -57,6 +65,7 @@ export function MovePanel({ order, vehicle, progress, orderId, onNew }: MovePane
           />
         )}
         {progress.kind === "arrived" && <Arrival stop={progress.stop} />}
+        {vehicle && <WaitsBehind order={order} vehicle={vehicle} busy={busy} replacing={replacing} />}
         {vehicle && <HeldBar vehicle={vehicle} />}
         <p className="lab next">{next()}</p>
         <div className="row links">
@@ -88,6 +97,13 @@ export function MovePanel({ order, vehicle, progress, orderId, onNew }: MovePane
         return order?.reason ? words.reason(order.reason) : t("move.stored");
       case "assigned":
         return reason ? words.reason(reason) : t("move.assigned", { vehicle: vehicleName });
+      case "cancelling": {
+        const by = order && endedBy(order);
+        return t(by === undefined ? "move.cancelling_plain" : "move.cancelling", {
+          by,
+          vehicle: vehicleName,
+        });
+      }
       case "paused":
         return order?.reason ? words.reason(order.reason) : t("move.paused");
       case "held":

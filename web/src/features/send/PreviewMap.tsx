@@ -1,6 +1,7 @@
 import { useMemo, useRef } from "react";
 import { useTranslation } from "react-i18next";
-import type { Vehicle } from "@/shared/api/types";
+import type { Pose, Vehicle } from "@/shared/api/types";
+import { useVehicle } from "@/shared/live";
 import { MapControls, MapView, type MapHandle } from "@/shared/map";
 import { number } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
@@ -10,11 +11,12 @@ import "./PreviewMap.css";
 
 /** The move on the hall's own map: swept areas, way, where it ends, dimensions. A press takes a station while picking. */
 export function PreviewMap(props: PreviewInput & { onPick: (station: number) => void }) {
-  const { plant, vehicle, station, option, options, looked, leg, picking, onPick } = props;
+  const { plant, vehicle, station, option, options, looked, leg, from, picking, onPick } = props;
   const { t } = useTranslation("send");
   const words = useWords();
   const map = useRef<MapHandle>(null);
   const pose = usePlace(vehicle);
+  const nearest = useStill(useVehicle(option?.nearest));
   const { overlays, about } = useMemo(
     () =>
       previewOf(
@@ -26,6 +28,8 @@ export function PreviewMap(props: PreviewInput & { onPick: (station: number) => 
           options,
           looked,
           leg,
+          from,
+          others: nearest ? [nearest] : [],
           picking,
         },
         {
@@ -35,7 +39,22 @@ export function PreviewMap(props: PreviewInput & { onPick: (station: number) => 
       ),
     // Of the vehicle only what is drawn: its reports come ten times a second.
     // eslint-disable-next-line react-hooks/exhaustive-deps
-    [plant, vehicle?.id, vehicle?.load_kg, pose, station, option, options, looked, leg, picking, t],
+    [
+      plant,
+      vehicle?.id,
+      vehicle?.load_kg,
+      vehicle?.leg?.id,
+      pose,
+      nearest,
+      station,
+      option,
+      options,
+      looked,
+      leg,
+      from,
+      picking,
+      t,
+    ],
   );
   const shown = areasOf({ options, option, looked });
   return (
@@ -79,13 +98,20 @@ const kTurned_rad = 0.02;
 /** The vehicle's pose, the same while it only trembles. */
 function usePlace(vehicle: Vehicle | undefined): Pick<Vehicle, "pose"> {
   const last = useRef<Pick<Vehicle, "pose">>({});
-  const was = last.current.pose;
   const now = vehicle?.pose;
-  const same =
-    was !== undefined &&
-    now !== undefined &&
-    Math.hypot(was.x_m - now.x_m, was.y_m - now.y_m) < kMoved_m &&
-    Math.abs(was.heading_rad - now.heading_rad) < kTurned_rad;
-  if (!same && (was !== undefined || now !== undefined)) last.current = now ? { pose: now } : {};
+  if (!isStill(last.current.pose, now)) last.current = now ? { pose: now } : {};
   return last.current;
+}
+
+/** A vehicle as it was reported first at its place, while it only trembles there. */
+function useStill(vehicle: Vehicle | undefined): Vehicle | undefined {
+  const last = useRef<Vehicle>(undefined);
+  if (last.current?.id !== vehicle?.id || !isStill(last.current?.pose, vehicle?.pose)) last.current = vehicle;
+  return last.current;
+}
+
+function isStill(was: Pose | undefined, now: Pose | undefined): boolean {
+  if (was === undefined || now === undefined) return was === now;
+  const moved = Math.hypot(was.x_m - now.x_m, was.y_m - now.y_m) >= kMoved_m;
+  return !moved && Math.abs(was.heading_rad - now.heading_rad) < kTurned_rad;
 }

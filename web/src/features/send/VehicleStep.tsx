@@ -1,7 +1,7 @@
 import { useTranslation } from "react-i18next";
 import type { Plant, Vehicle } from "@/shared/api/types";
 import { symbolOf } from "@/shared/live";
-import { StatusSymbol } from "@/shared/ui";
+import { StatusSymbol, VehicleMini } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import "./VehicleStep.css";
@@ -26,13 +26,14 @@ export function usePlace(): (vehicle: Vehicle) => string {
 
 export interface VehicleStepProps {
   vehicles: readonly Vehicle[];
+  plant: Plant | undefined;
   selected: Vehicle | undefined;
   choosing: boolean;
   onChoose: () => void;
   onSelect: (id: string) => void;
 }
 
-export function VehicleStep({ vehicles, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
+export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
   const { t } = useTranslation("send");
   const place = usePlace();
   if (vehicles.length === 0) return <p className="lab">{t("vehicle.none")}</p>;
@@ -43,7 +44,7 @@ export function VehicleStep({ vehicles, selected, choosing, onChoose, onSelect }
         : t("vehicle.no_load");
     return (
       <div className="vrow">
-        <PlatformMini />
+        <VehicleMini type={plant?.vehicle_types.find((type) => type.id === selected.type)} selected />
         <div className="grow">
           <b className="big">{selected.name}</b>
           <span className="lab">
@@ -100,14 +101,5 @@ function VehicleRow({
         {vehicle.link !== "live" ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
       </span>
     </button>
-  );
-}
-
-function PlatformMini() {
-  return (
-    <svg viewBox="-6 -2 12 4" className="mini" aria-hidden="true">
-      <rect x="-5.25" y="-1.25" width="10.5" height="2.5" rx=".2" fill="var(--veh-sel)" />
-      <path d="M4.6 0L3.3 .85L3.65 0L3.3-.85Z" fill="var(--veh-sel-mark)" />
-    </svg>
   );
 }

@@ -1,16 +1,18 @@
 import type { ModeOption } from "@/shared/api/types";
-import { degrees, millimetres, number, wrap } from "@/shared/words/format";
+import { degrees as inDegrees, millimetres, number, wrap } from "@/shared/words/format";
 
 export type Segment = NonNullable<ModeOption["segments"]>[number];
 type Say = (key: string, params: Record<string, unknown>) => string;
 
-/** Turns below this are corrections of the measured pose; they are named only when nothing else is. */
-const kSmallTurn_rad = 0.02 * (Math.PI / 180);
+/** Turns below this are corrections of the measured pose, the machine's business; they are named only when nothing else is. */
+const kSmallTurn_rad = 0.5 * (Math.PI / 180);
 const kMaxParts = 4;
 
-/** What the wheels will do, as one short sentence: "turn 0.1° left, drive 10.003 m". */
+/** What the wheels will do, as one short sentence: "turn 90.2° left, drive 10.003 m". */
 export function moveWords(segments: readonly Segment[], say: Say, join: string): string {
-  const shown = joined(segments).filter((s) => s.kind !== "rotate" || Math.abs(s.turn_rad) > kSmallTurn_rad);
+  const all = joined(segments);
+  const large = all.filter((s) => s.kind !== "rotate" || Math.abs(s.turn_rad) > kSmallTurn_rad);
+  const shown = large.length > 0 ? large : all;
   if (shown.length > kMaxParts) {
     const length = segments.reduce((sum, s) => sum + Math.abs(s.length_m), 0);
     return say("words.many", { count: shown.length, length: number(length, { decimals: 1 }) });
@@ -47,7 +49,9 @@ export function joined(segments: readonly Segment[]): Segment[] {
 }
 
 export function segmentWords(s: Segment, say: Say): string {
-  const angle = number((Math.abs(s.turn_rad) * 180) / Math.PI, { decimals: 1 });
+  const degrees = (Math.abs(s.turn_rad) * 180) / Math.PI;
+  // Never "0.0°": what is named is something.
+  const angle = number(degrees, { decimals: degrees < 0.1 ? 3 : 1 });
   const side = s.turn_rad >= 0 ? "left" : "right";
   switch (s.kind) {
     case "rotate":
@@ -84,7 +88,7 @@ export function deviationValues(expected: NonNullable<ModeOption["expected_devia
   return {
     count: expected.arrivals,
     position: millimetres(expected.position_m, { decimals: expected.position_m < 0.01 ? 1 : 0 }),
-    heading: degrees(expected.heading_rad, { decimals: 2 }),
+    heading: inDegrees(expected.heading_rad, { decimals: 2 }),
   };
 }
 

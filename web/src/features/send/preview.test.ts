@@ -41,6 +41,7 @@ describe("previewKey", () => {
     pose: { x_m: 1, y_m: 2, heading_rad: 0 },
     link: "live",
     stationsKey: "",
+    after: "",
   };
   it("keeps through the noise of a standing vehicle", () => {
     const noise = { ...input, pose: { x_m: 1.0004, y_m: 1.9996, heading_rad: 0.0001 } };
@@ -54,9 +55,15 @@ describe("previewKey", () => {
     ["link", { link: "lost" }],
     ["occupation", { stationsKey: "TP-02/" }],
     ["lost pose", { pose: undefined }],
+    ["orders before it", { after: "o7" }],
   ])("changes with the %s", (_, change) =>
     expect(previewKey({ ...input, ...change })).not.toBe(previewKey(input)),
   );
+  it("does not hang on where the vehicle is while it ends other orders first", () => {
+    const behind = { ...input, after: "o7" };
+
+    expect(previewKey({ ...behind, pose: { x_m: 9, y_m: 9, heading_rad: 1 } })).toBe(previewKey(behind));
+  });
 });
 
 describe("NewestOnly", () => {
@@ -117,6 +124,7 @@ describe("readiness", () => {
     mode: "auto" as const,
     linkUp: true,
     mayCommand: true,
+    busy: false,
     preview: { kind: "ready", data: data() } as Preview,
   };
   it.each<[string, Partial<typeof ok>, string]>([
@@ -131,9 +139,31 @@ describe("readiness", () => {
       "wrong_type",
     ],
     [
-      "while another has just sent it",
+      "while it drives without an order",
       { vehicle: { id: "TP-01", leg: {}, activity: "moving" } as Vehicle, preview: { kind: "none" } },
       "on_its_way",
+    ],
+    [
+      "behind another order, though it drives",
+      { vehicle: { id: "TP-01", leg: {}, activity: "moving" } as Vehicle, busy: true },
+      "ready",
+    ],
+    [
+      "where it stands already",
+      {
+        preview: {
+          kind: "ready",
+          data: data({
+            steps: [
+              {
+                ...data().steps[0]!,
+                options: [{ ...option("linear", false), reason: { code: "already_there", params: {} } }],
+              },
+            ],
+          }),
+        },
+      },
+      "problem",
     ],
     [
       "while it waits for its own start",

@@ -13,15 +13,19 @@ export interface PreviewInput {
   pose: Pose | undefined;
   link: string;
   stationsKey: string;
+  /** Orders that the vehicle ends first: the move begins where they end, wherever it is now. */
+  after: string;
 }
 
 /** Poses are rounded to what can change the answer (10 mm, 0.1 deg), so noise at rest asks nothing. */
 export function previewKey(input: PreviewInput): string {
-  const p = input.pose;
+  const p = input.after === "" ? input.pose : undefined;
   const pose = p
     ? `${Math.round(p.x_m * 100)},${Math.round(p.y_m * 100)},${Math.round((p.heading_rad * 1800) / Math.PI)}`
     : "-";
-  return [input.vehicle, input.station, input.mode, pose, input.link, input.stationsKey].join("|");
+  return [input.vehicle, input.station, input.mode, pose, input.link, input.stationsKey, input.after].join(
+    "|",
+  );
 }
 
 export type Preview =
@@ -113,7 +117,7 @@ export function chosenOption(step: StepPreview | undefined, mode: MotionMode): M
   return step.options.find((o) => o.mode === mode);
 }
 
-/** While it drives, nothing that is worked out from where it stands is true for long. */
+/** While it drives without an order, nothing that is worked out from where it is stays true for long. */
 export const isOnItsWay = (v: Vehicle) =>
   v.leg !== undefined && (v.activity === "moving" || v.activity === "measuring");
 
@@ -126,7 +130,7 @@ export type Readiness =
   | { kind: "not_allowed" }
   | { kind: "unknown_station"; number: string }
   | { kind: "wrong_type"; number: string }
-  | { kind: "on_its_way"; vehicle: string; order: string | undefined }
+  | { kind: "on_its_way"; vehicle: string }
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
   | { kind: "check"; check: ShownCheck }
@@ -141,6 +145,8 @@ export function readiness(input: {
   mayCommand: boolean;
   preview: Preview;
   floor?: ShownCheck | undefined;
+  /** It has an order, or one waits for it: the move begins after that, from a place that is known. */
+  busy?: boolean;
 }): Readiness {
   if (!input.linkUp) return { kind: "offline" };
   if (!input.mayCommand) return { kind: "not_allowed" };
@@ -149,19 +155,21 @@ export function readiness(input: {
   if (entry.kind === "empty") return { kind: "no_station" };
   if (entry.kind === "unknown") return { kind: "unknown_station", number: entry.digits };
   if (entry.kind === "wrong_type") return { kind: "wrong_type", number: String(entry.station.number) };
-  if (isOnItsWay(input.vehicle)) {
-    return { kind: "on_its_way", vehicle: input.vehicle.id, order: input.vehicle.order };
-  }
+  if (!input.busy && isOnItsWay(input.vehicle)) return { kind: "on_its_way", vehicle: input.vehicle.id };
   const { preview } = input;
   if (preview.kind === "failed") return { kind: "failed" };
   if (preview.kind !== "ready") return { kind: "waiting" };
   const checks: ShownCheck[] = [...(input.floor ? [input.floor] : []), ...preview.data.checks];
   const fail = checks.find((c) => c.result === "fail");
-  const option = chosenOption(preview.data.steps[0], input.mode);
+  const [step] = preview.data.steps;
+  const option = chosenOption(step, input.mode);
   if (option && !option.feasible) return { kind: "infeasible", option };
   if (fail) return { kind: "check", check: fail };
   if (!preview.data.accepted) {
     return preview.data.problem ? { kind: "problem", reason: preview.data.problem } : { kind: "failed" };
   }
-  return { kind: "ready" };
+  if (option) return { kind: "ready" };
+  // Nothing leads there, e.g. because it stands there already: a start would send nothing.
+  const why = step?.options.find((o) => o.reason)?.reason;
+  return why ? { kind: "problem", reason: why } : { kind: "failed" };
 }

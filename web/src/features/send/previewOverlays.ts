@@ -1,6 +1,7 @@
-import type { Leg, ModeOption, MotionMode, Plant, Point, Station, Vehicle } from "@/shared/api/types";
+import type { Leg, ModeOption, MotionMode, Plant, Point, Pose, Station, Vehicle } from "@/shared/api/types";
 import type { MapOverlays, SweptArea } from "@/shared/map";
 import { placed } from "@/shared/math/geometry";
+import { clearanceLine, nearestBody } from "./clearance";
 import { joined } from "./moveWords";
 import { dimension, turnArc, wayOf } from "./moveGeometry";
 
@@ -16,6 +17,10 @@ export interface PreviewInput {
   looked: MotionMode | undefined;
   /** The drive under way, drawn instead of a preview. */
   leg?: Leg | undefined;
+  /** Where the previewed move begins, when that is not where the vehicle stands. */
+  from?: Pose | undefined;
+  /** The others, one of which may be what the move comes nearest to. */
+  others?: readonly Vehicle[];
   picking: boolean;
 }
 
@@ -62,12 +67,14 @@ export function previewOf(
   input: PreviewInput,
   words: { metres: (m: number) => string; degrees: (rad: number) => string },
 ): { overlays: MapOverlays; about: Point[] | undefined } {
-  const { plant, vehicle, station, option, options, leg, picking } = input;
+  const { plant, vehicle, station, option, options, leg, from, picking } = input;
   const type = plant.vehicle_types.find((v) => v.id === vehicle?.type);
   const segments = leg ? [] : (option?.segments ?? []);
   const end = segments.at(-1)?.end ?? (option || leg ? station?.pose : undefined);
   const way = leg ? [] : wayOf(segments);
   const dim = dimension(way, option?.swept ?? []);
+  const nearest = leg ? undefined : nearestBody(option?.nearest, input.others ?? [], plant, vehicle?.hall);
+  const clearance = nearest && clearanceLine(option?.swept ?? [], nearest);
   const turn = joined(segments)
     .reverse()
     .find((s) => s.kind === "rotate" && Math.abs(s.turn_rad) > kNamedTurn_rad);
@@ -79,6 +86,10 @@ export function previewOf(
     ...(station && { target: station.id }),
     ...(dim &&
       option?.length_m !== undefined && { dimension: { ...dim, text: words.metres(option.length_m) } }),
+    ...(clearance &&
+      option?.clearance_m !== undefined && {
+        clearance: { ...clearance, extensions: [], text: words.metres(option.clearance_m) },
+      }),
     ...(turn && {
       turn: {
         points: turnArc(turn, Math.min(kMostTurnArc_m, 0.8 * nose)),
@@ -95,7 +106,8 @@ export function previewOf(
   const about = [
     ...options.flatMap((o) => o.swept ?? []).flat(),
     ...at(end ?? station.pose),
-    ...(leg ? leg.path : at(vehicle?.pose)),
+    ...at(from),
+    ...(leg ? leg.path : from && vehicle?.leg ? vehicle.leg.path : at(vehicle?.pose)),
     ...(dim ? [dim.from, dim.to] : []),
   ];
   return { overlays, about };

@@ -43,6 +43,7 @@ describe("moveProgress", () => {
     ["told to stand, at rest", order({ state: "Interrupted" }), vehicle(paused(true)), "paused"],
     ["blocked", order({}), vehicle({ activity: "blocked" }), "held"],
     ["interrupted", order({ state: "Interrupted" }), vehicle({}), "held"],
+    ["being cancelled, still moving", order({ cancel_requested: true }), vehicle({}), "cancelling"],
     ["ended", order({ state: "Ended" }), vehicle({}), "arrived"],
     ["aborted", order({ state: "Aborted" }), vehicle({}), "aborted"],
   ])("%s", (_, o, v, kind) => expect(moveProgress(o, v, []).kind).toBe(kind));

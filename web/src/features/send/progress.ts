@@ -8,6 +8,7 @@ export type MoveProgress =
   | { kind: "moving"; progress: number; granted: number; expectedAt: string | undefined }
   | { kind: "measuring" }
   | { kind: "held" }
+  | { kind: "cancelling" }
   | { kind: "stopping" }
   | { kind: "paused" }
   | { kind: "arrived"; stop: StopRecord | undefined }
@@ -24,6 +25,7 @@ export function moveProgress(
   const stop = newestStop(order, stops);
   if (order.state === "Ended") return { kind: "arrived", stop };
   if (order.state === "Aborted") return { kind: "aborted" };
+  if (order.cancel_requested) return { kind: "cancelling" };
   const own = vehicle && vehicle.order === order.id ? vehicle : undefined;
   const step = order.steps[order.current_step];
   if (own && haltOf(own) === "stopping") return { kind: "stopping" };
@@ -52,6 +54,7 @@ export function reached(progress: MoveProgress): Milestone[] {
     case "moving":
     case "measuring":
     case "held":
+    case "cancelling":
     case "stopping":
     case "paused":
       return ["requested", "accepted", "confirmed"];

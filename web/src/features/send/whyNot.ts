@@ -1,6 +1,5 @@
 import { useTranslation } from "react-i18next";
-import { useJobOrder, useVehicle } from "@/shared/live";
-import { useExpected } from "@/shared/words/useExpected";
+import { useVehicle } from "@/shared/live";
 import { useWords } from "@/shared/words/useWords";
 import { useCheckText } from "./ChecksStep";
 import type { Readiness } from "./preview";
@@ -25,9 +24,7 @@ export function useWhyNot(r: Readiness): WhyNot {
   const { t } = useTranslation("send");
   const words = useWords();
   const text = useCheckText();
-  const expected = useExpected();
   const mover = useVehicle(r.kind === "on_its_way" ? r.vehicle : undefined);
-  const order = useJobOrder(mover?.order);
   const why = say();
   return { why, instead: kBeforeAsking.has(r.kind) ? why : undefined };
 
@@ -53,9 +50,6 @@ export function useWhyNot(r: Readiness): WhyNot {
 
   function onItsWay(): string {
     const number = mover?.leg ? words.stationNumber(mover.leg.station) : "";
-    const there = expected.clock(order?.expected_at ?? mover?.leg?.expected_at);
-    const values = { vehicle: mover?.name, number, order: order?.name, by: order?.created_by, there };
-    if (order === undefined) return t("start.aside", values);
-    return t(there === undefined ? "start.on_its_way_plain" : "start.on_its_way", values);
+    return t("start.aside", { vehicle: mover?.name, number });
   }
 }

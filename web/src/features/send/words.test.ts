@@ -12,7 +12,7 @@ import en from "./i18n.en.json";
 import { modeIcon } from "./ModeStep";
 import { deviationValues, moveWords, type Segment } from "./moveWords";
 import { dimension, wayOf } from "./moveGeometry";
-import { pressKey, padKeyOf } from "@/shared/ui/padKeys";
+import { isTyping, pressKey, padKeyOf } from "@/shared/ui/padKeys";
 import { lookUpStation } from "./stationEntry";
 import { numberRanges } from "./StationStep";
 
@@ -42,7 +42,7 @@ describe("moveWords", () => {
       segment({ kind: "rotate", turn_rad: Math.PI / 2 }),
     ];
 
-    expect(moveWords(segments, say, ", ")).toBe("turn 0.1° right, drive 10.003 m, turn 90.0° left");
+    expect(moveWords(segments, say, ", ")).toBe("drive 10.003 m, turn 90.0° left");
   });
   it.each([
     [{ length_m: 2, direction_rad: Math.PI }, "reverse 2.000 m"],
@@ -86,8 +86,11 @@ describe("moveWords", () => {
       "move 4.000 m, turning 120.0° left on the way",
     );
   });
-  it("leaves out a turn that nobody can see", () => {
-    expect(moveWords([segment({ kind: "rotate", turn_rad: 1e-5 })], say, ", ")).toBe("");
+  it("leaves out a turn that is the machine's business, unless it is all there is", () => {
+    const tiny = segment({ kind: "rotate", turn_rad: -0.0006 });
+
+    expect(moveWords([tiny, segment({ length_m: 2, direction_rad: 0 })], say, ", ")).toBe("drive 2.000 m");
+    expect(moveWords([tiny], say, ", ")).toBe("turn 0.034° right");
   });
 });
 
@@ -203,6 +206,8 @@ describe("station number", () => {
     expect(pressKey("12", "delete")).toBe("1");
     expect(pressKey("12", "clear")).toBe("");
     expect(padKeyOf("a")).toBeUndefined();
+    for (const tagName of ["INPUT", "TEXTAREA", "SELECT"]) expect(isTyping({ tagName })).toBe(true);
+    expect([isTyping({ tagName: "BODY" }), isTyping(null)]).toEqual([false, false]);
   });
   it("names the numbers there are", () =>
     expect(numberRanges([3, 1, 2, 7, 31, 32])).toBe("1\u20133, 7, 31\u201332"));

@@ -3,14 +3,17 @@ import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/shared/api";
 import { problemText } from "@/shared/i18n/reasons";
 import { setLanguage } from "@/shared/i18n/setup";
-import { signIn } from "@/shared/live/session";
+import { timeOfDay } from "@/shared/i18n/format";
+import { signIn, useSessionState } from "@/shared/live/session";
 import { Button, StatusSymbol } from "@/shared/ui";
 import "./signin.css";
 
 /** Name and password. An error is said in words, beside the form, and the password stays to be corrected. */
 export function SignInPage() {
   const { t, i18n } = useTranslation("signin");
-  const [name, setName] = useState("");
+  const session = useSessionState();
+  const ended = session.kind === "signed_out" ? session.ended : undefined;
+  const [name, setName] = useState(ended?.name ?? "");
   const [password, setPassword] = useState("");
   const [busy, setBusy] = useState(false);
   const [error, setError] = useState<string>();
@@ -74,6 +77,13 @@ export function SignInPage() {
           </div>
         </div>
         <h1>{t("title")}</h1>
+        {ended && (
+          <div className="ended" role="status">
+            <b>{t("ended", { name: ended.name, time: timeOfDay(ended.atMs) })}</b>
+            <span>{t("ended_why")}</span>
+            <span>{t("ended_back")}</span>
+          </div>
+        )}
         <label>
           <span>{t("name")}</span>
           <input

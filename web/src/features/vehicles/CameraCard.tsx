@@ -2,44 +2,48 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card, Chip } from "@/shared/ui";
 import { age, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
+import type { Camera } from "./shownCameras";
 import { usePicture } from "./usePicture";
 import "./CameraCard.css";
 
-export type Camera = Vehicle["cameras"][number];
 type CameraType = VehicleType["cameras"][number];
 
-/** One camera: newest picture, the code found, how far it is off the camera's axis. */
+/** One camera: newest picture, the code found, how far it is off the camera's axis. Without a report it says so and stays. */
 export function CameraCard({
   vehicle,
+  name,
   camera,
   type,
   now,
 }: {
   vehicle: Vehicle;
-  camera: Camera;
+  name: string;
+  camera: Camera | undefined;
   type: CameraType | undefined;
   now: number;
 }) {
   const { t } = useTranslation("vehicles");
-  const title = t(`camera.title.${camera.name}`, { defaultValue: t("camera.other", { name: camera.name }) });
-  const old = secondsSince(camera.image_at, now);
+  const title = t(`camera.title.${name}`, { defaultValue: t("camera.other", { name }) });
+  const old = secondsSince(camera?.image_at, now);
   return (
     <Card
       className="cam"
       title={title}
-      summary={
-        <Chip symbol={camera.found ? "c-ok" : "c-no"}>
-          {camera.found ? camera.payload : whyNot(camera.why_not, t)}
-        </Chip>
-      }
+      summary={<Chip symbol={camera?.found ? "c-ok" : "c-no"}>{found()}</Chip>}
       right={age(old)}
     >
       <div className="camin">
-        <Picture vehicle={vehicle.id} camera={camera} type={type} title={title} />
+        <Picture vehicle={vehicle.id} name={name} camera={camera} type={type} title={title} />
         <Readings camera={camera} />
       </div>
     </Card>
   );
+
+  function found(): string {
+    if (camera === undefined)
+      return t(vehicle.activity === "moving" ? "camera.while_driving" : "camera.not_reported");
+    return camera.found ? camera.payload : whyNot(camera.why_not, t);
+  }
 }
 
 function whyNot(why: string, t: (key: string, options?: Record<string, unknown>) => string): string {
@@ -51,17 +55,19 @@ function whyNot(why: string, t: (key: string, options?: Record<string, unknown>)
 /** The picture changes when the server says that there is a newer one: nothing polls. */
 function Picture({
   vehicle,
+  name,
   camera,
   type,
   title,
 }: {
   vehicle: string;
-  camera: Camera;
+  name: string;
+  camera: Camera | undefined;
   type: CameraType | undefined;
   title: string;
 }) {
   const { t } = useTranslation("vehicles");
-  const shown = usePicture(vehicle, camera.name, camera.image_at);
+  const shown = usePicture(vehicle, name, camera?.image_at);
   return (
     <div className="camimg" style={{ aspectRatio: `${type?.width_px ?? 1280} / ${type?.height_px ?? 1024}` }}>
       {shown === undefined ? (
@@ -69,7 +75,7 @@ function Picture({
       ) : (
         <>
           <img src={shown} alt={t("camera.image", { name: title })} />
-          <Overlay camera={camera} type={type} />
+          {camera && <Overlay camera={camera} type={type} />}
         </>
       )}
     </div>
@@ -112,11 +118,11 @@ function Overlay({ camera, type }: { camera: Camera; type: CameraType | undefine
   );
 }
 
-function Readings({ camera }: { camera: Camera }) {
+function Readings({ camera }: { camera: Camera | undefined }) {
   const { t } = useTranslation("vehicles");
-  const seen = camera.found;
-  const forward = seen ? camera.forward_m : undefined;
-  const left = seen ? camera.left_m : undefined;
+  const seen = camera?.found ? camera : undefined;
+  const forward = seen?.forward_m;
+  const left = seen?.left_m;
   return (
     <div className="cv">
       <Reading
@@ -129,12 +135,7 @@ function Readings({ camera }: { camera: Camera }) {
         value={left === undefined ? kNone : millimetres(Math.abs(left), { decimals: 2 })}
         unit="mm"
       />
-      <Reading
-        caption={t("camera.residual")}
-        value={seen ? fixed(camera.rms_px, 2) : kNone}
-        unit="px"
-        small
-      />
+      <Reading caption={t("camera.residual")} value={seen ? fixed(seen.rms_px, 2) : kNone} unit="px" small />
     </div>
   );
 }

@@ -12,7 +12,7 @@ import {
   useStations,
   useStopRecords,
 } from "@/shared/live";
-import { Card, PanelEmpty, StatusSymbol, Tabs } from "@/shared/ui";
+import { Card, PanelEmpty, StatusSymbol, Tabs, VehicleMini } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { age } from "@/shared/words/format";
 import { CameraCard } from "./CameraCard";
@@ -20,6 +20,7 @@ import { ElsewhereCard } from "./ElsewhereCard";
 import { IntegrationCard } from "./IntegrationCard";
 import { LoadsCard } from "./LoadsCard";
 import { PoseCard } from "./PoseCard";
+import { shownCameras } from "./shownCameras";
 import { StopsCard } from "./StopsCard";
 import { useHeard } from "./useHeard";
 import { VehicleChips } from "./VehicleChips";
@@ -51,18 +52,20 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const lost = useLinkLost();
   const old = lost || stale(vehicle) || (heard_s ?? Infinity) >= kLate_s;
   const loads = <LoadsCard vehicle={vehicle} type={type} stale={old} heard_s={heard_s} />;
+  const shown = shownCameras(vehicle, type);
   const cameras =
-    vehicle.cameras.length === 0 ? (
+    shown.length === 0 ? (
       <Card title={t("tabs.cameras")}>
         <PanelEmpty what={t("camera.none")} />
       </Card>
     ) : (
-      vehicle.cameras.map((c) => (
+      shown.map(({ name, camera }) => (
         <CameraCard
-          key={c.name}
+          key={name}
           vehicle={vehicle}
-          camera={c}
-          type={type?.cameras.find((x) => x.name === c.name)}
+          name={name}
+          camera={camera}
+          type={type?.cameras.find((x) => x.name === name)}
           now={now}
         />
       ))
@@ -81,10 +84,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   return (
     <>
       <div className="card head">
-        <svg viewBox="-6 -1.6 12 3.2" className="hmini" aria-hidden="true">
-          <rect x="-5.25" y="-1.25" width="10.5" height="2.5" rx=".2" fill="var(--veh)" />
-          <path d="M4.7 0L3.3 .85L3.65 0L3.3-.85Z" fill="var(--veh-mark)" />
-        </svg>
+        <VehicleMini type={type} className="hmini" />
         <div>
           <h1>{vehicle.name}</h1>
           <span className="lab nw">{type?.name ?? vehicle.type}</span>

@@ -36,7 +36,7 @@ export function LoadsCard({
   return (
     <Card
       className="pcard"
-      title={t("loads.title")}
+      title={t(titleOf(vehicle, type))}
       summary={parts.join(t("join"))}
       right={age(heard_s)}
       flush
@@ -44,4 +44,12 @@ export function LoadsCard({
       <PlatformDrawing vehicle={vehicle} type={type} stale={stale} />
     </Card>
   );
+}
+
+/** Names only what this vehicle has. */
+function titleOf(vehicle: Vehicle, type: VehicleType | undefined): string {
+  const load = vehicle.brackets.length > 0 || (type?.brackets.length ?? 0) > 0;
+  const feet = vehicle.parking_feet.length > 0;
+  if (load) return feet ? "loads.title" : "loads.title_load";
+  return feet ? "loads.title_feet" : "loads.title_wheels";
 }

@@ -1,18 +1,19 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { symbolOf, useLinkLost, useLive, useVehicles } from "@/shared/live";
+import { symbolOf, useLinkLost, useLive, useServerNow, useVehicles } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
 import { age, fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { byUrgency } from "./urgency";
 import { useHeard } from "./useHeard";
 import { useAnswer } from "./WhyCard";
 import "./VehicleListPage.css";
 
-/** Every vehicle of the plant with what it does and why; a silent one stays in its row. */
+/** Every vehicle of the plant with what it does and why, the most urgent first; a silent one stays. */
 export function VehicleListPage() {
   const { t } = useTranslation("vehicles");
-  const vehicles = useVehicles();
+  const vehicles = byUrgency(useVehicles(), useServerNow(1000));
   const ready = useLive((s) => s.ready);
   const live = vehicles.filter((v) => v.link === "live").length;
   return (

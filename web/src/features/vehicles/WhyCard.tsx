@@ -29,12 +29,17 @@ export function useAnswer(): (vehicle: Vehicle) => string {
   };
 }
 
-/** What to do about that; undefined when nothing is wrong. */
-export function useTodo(): (vehicle: Vehicle) => string | undefined {
+/** What to do about that; undefined when nothing is wrong. An alarm that is no headline says what it is, too. */
+function useTodo(): (vehicle: Vehicle) => string | undefined {
+  const { t } = useTranslation("vehicles");
   const words = useAlarmWords();
+  const answer = useAnswer();
   return (vehicle) => {
     const alarm = alarmOf(vehicle);
-    return alarm === undefined || alarm.priority === "low" ? undefined : words.todo(alarm);
+    if (alarm === undefined) return undefined;
+    const what = words.text(alarm, vehicle);
+    const todo = words.todo(alarm);
+    return what === answer(vehicle) || alarm.priority !== "low" ? todo : t("why.low", { what, todo });
   };
 }
 

@@ -4,6 +4,8 @@ import { footCorner, onSheet, sheetOf } from "./faceplate";
 import { canApply } from "./integration";
 import { draftOf, emptyDraft, parseNumber, readDraft } from "./initPosition";
 import { centreOfLoad, summarise } from "./loads";
+import { shownCameras } from "./shownCameras";
+import { byUrgency } from "./urgency";
 import { newest } from "./useHeard";
 import { whyRows } from "./whyRows";
 
@@ -212,5 +214,56 @@ describe("taking a vehicle out", () => {
   it("needs nothing more for what keeps the floor", () => {
     expect(canApply("utilise", "respect", false)).toBe("yes");
     expect(canApply("respect", "respect", false)).toBe("same");
+  });
+});
+
+describe("list of vehicles", () => {
+  const vehicle = (name: string, over: Partial<Vehicle> = {}) =>
+    ({
+      id: name,
+      name,
+      link: "live",
+      activity: "standing",
+      integration: "utilise",
+      pose_known: true,
+      wheels: [],
+      errors: [],
+      parking_feet: [],
+      ...over,
+    }) as unknown as Vehicle;
+  it("has the one on fire first, then what waits, moves and stands, each by name", () => {
+    const all = [
+      vehicle("DL-10"),
+      vehicle("DL-9"),
+      vehicle("MV-01", { activity: "moving" }),
+      vehicle("MV-02", { activity: "waiting" }),
+      vehicle("OM-01", { link: "late" }),
+      vehicle("OM-02", { pose_known: false }),
+      vehicle("TP-09", { e_stop: "MANUAL" }),
+    ];
+
+    expect(byUrgency(all, 0).map((v) => v.name)).toEqual([
+      "TP-09",
+      "OM-02",
+      "OM-01",
+      "MV-02",
+      "MV-01",
+      "DL-9",
+      "DL-10",
+    ]);
+  });
+});
+
+describe("cameras", () => {
+  const type = { cameras: [{ name: "front" }, { name: "back" }] } as unknown as VehicleType;
+  it("are all there, also while the vehicle reports none", () => {
+    const front = { name: "front", found: true } as Vehicle["cameras"][number];
+
+    expect(shownCameras({ cameras: [] }, type).map((c) => c.name)).toEqual(["front", "back"]);
+    expect(shownCameras({ cameras: [front] }, type)).toEqual([
+      { name: "front", camera: front },
+      { name: "back", camera: undefined },
+    ]);
+    expect(shownCameras({ cameras: [front] }, undefined)).toHaveLength(1);
   });
 });

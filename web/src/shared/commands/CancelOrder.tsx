@@ -11,7 +11,16 @@ import { useOverdue } from "./useOverdue";
 import { useRefusal } from "./useRefusal";
 
 /** Cancels an order; done when the order itself says that it has ended. */
-export function CancelOrder({ order, className }: { order: JobOrder | undefined; className?: string }) {
+export function CancelOrder({
+  order,
+  className,
+  label,
+}: {
+  order: JobOrder | undefined;
+  className?: string;
+  /** Which order, where it is not the one that the page is about. */
+  label?: string;
+}) {
   const { t } = useTranslation("commands");
   const words = useWords();
   const refused = useRefusal();
@@ -38,7 +47,7 @@ export function CancelOrder({ order, className }: { order: JobOrder | undefined;
       <CommandFailed command={cancel} />
       <CommandButton
         {...(className !== undefined && { className })}
-        label={t("cancel")}
+        label={label ?? t("cancel")}
         primary={false}
         progress={progress}
         disabledReason={refused ?? (open || progress.kind !== "ready" ? undefined : t("no_order"))}

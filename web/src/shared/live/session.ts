@@ -9,8 +9,12 @@ import { liveStore } from "./store";
 export type SessionState =
   | { kind: "loading" }
   | { kind: "failed"; problem: ApiProblem }
-  | { kind: "signed_out" }
+  /** `ended`: whose session the server has ended, and when this page heard of it; absent: nobody was signed in, or signed out here. */
+  | { kind: "signed_out"; ended?: { name: string; atMs: number } }
   | { kind: "signed_in"; session: Session };
+
+/** Whom this tab has signed in, so that a page that is loaded again can say whose session has ended meanwhile. */
+const kSignedIn = "pulseline.signed_in";
 
 let state: SessionState = { kind: "loading" };
 let stream: Stream | undefined;
@@ -21,6 +25,7 @@ function become(next: SessionState): void {
   state = next;
   setCsrfToken(next.kind === "signed_in" ? next.session.csrf_token : "");
   if (next.kind === "signed_in") {
+    sessionStorage.setItem(kSignedIn, next.session.name);
     if (stream === undefined) {
       // A 401 here signs out through the handler; anything else is the link's own trouble.
       stream = new Stream(liveStore, () => void call(api.GET("/api/v1/session")).catch(() => {}));
@@ -38,15 +43,22 @@ function become(next: SessionState): void {
 }
 
 setUnauthorisedHandler(() => {
-  if (state.kind === "signed_in") become({ kind: "signed_out" });
+  if (state.kind === "signed_in") becomeEnded();
 });
+
+/** Signed out by the server: it is said, because nobody pressed anything. */
+function becomeEnded(): void {
+  const name = sessionStorage.getItem(kSignedIn);
+  sessionStorage.removeItem(kSignedIn);
+  become({ kind: "signed_out", ...(name !== null && { ended: { name, atMs: Date.now() } }) });
+}
 
 /** Asks the server who is signed in. Called once at start and by "Try again". */
 export async function loadSession(): Promise<void> {
   try {
     become({ kind: "signed_in", session: await call(api.GET("/api/v1/session")) });
   } catch (error) {
-    if (error instanceof ApiProblem && error.status === 401) become({ kind: "signed_out" });
+    if (error instanceof ApiProblem && error.status === 401) becomeEnded();
     else become({ kind: "failed", problem: asProblem(error) });
   }
 }
@@ -63,6 +75,7 @@ export async function signOut(): Promise<void> {
   try {
     await call(api.DELETE("/api/v1/session"));
   } finally {
+    sessionStorage.removeItem(kSignedIn);
     become({ kind: "signed_out" });
   }
 }

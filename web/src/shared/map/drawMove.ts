@@ -43,6 +43,7 @@ export function drawMove(pen: Pen, model: HallModel, overlays: MapOverlays): voi
     pen.stroke(palette.ink, 1.5);
   }
   if (overlays.dimension !== undefined) drawDimension(pen, overlays.dimension);
+  if (overlays.clearance !== undefined) drawDimension(pen, overlays.clearance);
   if (overlays.turn !== undefined && overlays.turn.points.length > 1) drawTurn(pen, overlays.turn);
 }
 

@@ -40,6 +40,8 @@ export interface MapOverlays {
   ghost?: { pose: Pose; type: string; loaded?: boolean };
   /** A length beside a straight drive. */
   dimension?: Dimension;
+  /** From what the move sweeps to what it comes nearest to. */
+  clearance?: Dimension;
   /** Arc of a turn on the spot and its angle in words. */
   turn?: { points: readonly Point[]; text: string };
   /** Station the move leads to. */

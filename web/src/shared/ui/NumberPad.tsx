@@ -1,12 +1,12 @@
-import { useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { Icon } from "./Icon";
 import "./NumberPad.css";
-import { padKeyOf, pressKey, type PadKey } from "./padKeys";
+import { isTyping, padKeyOf, pressKey, type PadKey } from "./padKeys";
 
 const keys: readonly PadKey[] = ["1", "2", "3", "4", "5", "6", "7", "8", "9", "clear", "0", "delete"];
 
-/** Number pad of twelve large keys; the keyboard's digits do the same while it has the focus. */
+/** Number pad of twelve large keys; a keyboard's digits do the same wherever the focus is, but in a field that takes text. */
 export function NumberPad({
   label,
   digits,
@@ -22,18 +22,26 @@ export function NumberPad({
     setHit(key);
     onDigits(pressKey(digits, key));
   };
+  const pad = useRef<HTMLDivElement>(null);
+  const latest = useRef(press);
+  useEffect(() => {
+    latest.current = press;
+  });
+  useEffect(() => {
+    const onKey = (event: KeyboardEvent) => {
+      const key = padKeyOf(event.key);
+      if (key === undefined || event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented)
+        return;
+      // A pad in a folded step is not there for anybody.
+      if (isTyping(event.target) || pad.current?.checkVisibility() !== true) return;
+      event.preventDefault();
+      latest.current(key);
+    };
+    document.addEventListener("keydown", onKey);
+    return () => document.removeEventListener("keydown", onKey);
+  }, []);
   return (
-    <div
-      className="pad"
-      role="group"
-      aria-label={label}
-      onKeyDown={(event) => {
-        const key = padKeyOf(event.key);
-        if (key === undefined || event.ctrlKey || event.metaKey || event.altKey) return;
-        event.preventDefault();
-        press(key);
-      }}
-    >
+    <div className="pad" role="group" aria-label={label} ref={pad}>
       {keys.map((key) => (
         <button
           key={key}

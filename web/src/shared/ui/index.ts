@@ -20,3 +20,4 @@ export { PanelEmpty, PanelFailed, PanelLoading } from "./Panel";
 export { Tabs, type TabItem } from "./Tabs";
 export { freshness, kLateS, kLostS, Value, type Freshness } from "./Value";
 export { NumberPad } from "./NumberPad";
+export { VehicleMini } from "./VehicleMini";

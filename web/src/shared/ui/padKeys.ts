@@ -16,3 +16,9 @@ export function padKeyOf(keyboardKey: string): PadKey | undefined {
   if (keyboardKey === "Delete") return "clear";
   return undefined;
 }
+
+/** Whether a key that goes there is text of somebody's. */
+export function isTyping(target: unknown): boolean {
+  const at = target as { tagName?: string; isContentEditable?: boolean } | null;
+  return at?.isContentEditable === true || /^(INPUT|TEXTAREA|SELECT)$/.test(at?.tagName ?? "");
+}

@@ -1,0 +1,20 @@
+const kKept = ["vehicle", "station", "order"] as const;
+type Kept = (typeof kKept)[number];
+
+/**
+ * The address of Send with what has been chosen: whoever is signed out, goes back or loads the page again
+ * finds vehicle, station and the order that is watched as they were. What `change` does not name stays.
+ */
+export function sendAddress(
+  change: Partial<Record<Kept, string | undefined>>,
+  now: string = window.location.search,
+): string {
+  const was = new URLSearchParams(now);
+  const next = new URLSearchParams();
+  for (const name of kKept) {
+    const value = name in change ? change[name] : was.get(name);
+    if (value) next.set(name, value);
+  }
+  const text = next.toString();
+  return text === "" ? "/send" : `/send?${text}`;
+}

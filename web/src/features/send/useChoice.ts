@@ -1,0 +1,31 @@
+import { useCallback, useState } from "react";
+import type { MotionMode } from "@/shared/api/types";
+import { navigate, useLocation } from "@/shared/router";
+import { sendAddress } from "./sendAddress";
+
+export interface Choice {
+  vehicle: string | undefined;
+  digits: string;
+  mode: MotionMode;
+  chooseVehicle: (id: string) => void;
+  chooseStation: (digits: string) => void;
+  chooseMode: (mode: MotionMode) => void;
+}
+
+/** Vehicle, station and mode chosen so far. Vehicle and station are kept in the address (see sendAddress). */
+export function useChoice(): Choice {
+  const { query } = useLocation();
+  const [mode, chooseMode] = useState<MotionMode>("auto");
+  const choose = useCallback((change: { vehicle?: string; station?: string }) => {
+    navigate(sendAddress(change), { replace: true });
+    chooseMode("auto");
+  }, []);
+  return {
+    vehicle: query.get("vehicle") ?? undefined,
+    digits: query.get("station") ?? "",
+    mode,
+    chooseVehicle: useCallback((vehicle) => choose({ vehicle }), [choose]),
+    chooseStation: useCallback((station) => choose({ station }), [choose]),
+    chooseMode,
+  };
+}

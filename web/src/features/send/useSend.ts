@@ -1,0 +1,117 @@
+import { useMemo } from "react";
+import type { NewJobOrder } from "@/shared/api/types";
+import {
+  useClosures,
+  useCommandsEnabled,
+  useJobOrders,
+  useMayCommand,
+  usePlant,
+  useStations,
+  useVehicle,
+  useVehicles,
+} from "@/shared/live";
+import { busyKey, busyWith } from "./busy";
+import { floorCheck } from "./floorCheck";
+import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview";
+import { lookUpStation, stationOf } from "./stationEntry";
+import { useOnScreen } from "./useOnScreen";
+import { usePreview, type PreviewQuestion } from "./usePreview";
+import { sortForSending } from "./VehicleStep";
+import { useWhyNot } from "./whyNot";
+import type { Choice } from "./useChoice";
+
+export type Send = ReturnType<typeof useSend>;
+
+/** What follows from the choice: what is asked of the planner, what it says, what Start would send and why it may not. */
+export function useSend(choice: Choice, /** A move is watched: nothing is previewed. */ watching: boolean) {
+  const { mode, digits } = choice;
+  const plant = usePlant().data;
+  const allVehicles = useVehicles();
+  const vehicles = useMemo(() => sortForSending(allVehicles, plant), [allVehicles, plant]);
+  const stations = useStations();
+  const states = useMemo(() => stations.flatMap((s) => (s.state ? [s.state] : [])), [stations]);
+  const orders = useJobOrders();
+  const closures = useClosures();
+  const linkUp = useCommandsEnabled();
+  const mayCommand = useMayCommand();
+  const onScreen = useOnScreen();
+
+  const vehicle = useVehicle(choice.vehicle ?? (vehicles.length === 1 ? vehicles[0]?.id : undefined));
+  const entry = lookUpStation(digits, plant, states, vehicle);
+  const station = stationOf(entry);
+  const busy = busyWith(vehicle, orders);
+  const asks =
+    !watching &&
+    onScreen &&
+    vehicle !== undefined &&
+    station !== undefined &&
+    entry.kind !== "wrong_type" &&
+    (busy !== undefined || !isOnItsWay(vehicle)) &&
+    linkUp;
+  const question: PreviewQuestion | undefined = asks
+    ? {
+        key: previewKey({
+          vehicle: vehicle.id,
+          station: station.number,
+          mode,
+          pose: vehicle.pose,
+          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}`,
+          stationsKey: states.map((s) => `${s.occupied_by}/${s.reserved_by}`).join(","),
+          after: busyKey(busy),
+        }),
+        vehicle: vehicle.id,
+        station: station.number,
+        mode,
+      }
+    : undefined;
+  const { preview, retry } = usePreview(question);
+  const data =
+    preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
+  const step = data?.steps[0];
+  const chosen = chosenOption(step, mode);
+  const option = chosen?.feasible ? chosen : undefined;
+  const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
+  const floor = floorCheck(option, closures);
+  const checks = data && [...data.checks, ...(floor ? [floor] : [])];
+  const ready = readiness({
+    vehicle,
+    entry,
+    mode,
+    linkUp,
+    mayCommand,
+    preview,
+    floor,
+    busy: busy !== undefined,
+  });
+  const { why, instead } = useWhyNot(ready);
+  const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
+
+  const body = useMemo<NewJobOrder | undefined>(
+    () =>
+      ready.kind === "ready" && vehicle && station && option
+        ? { vehicle: vehicle.id, priority: 0, steps: [{ station: station.number, motion_mode: option.mode }] }
+        : undefined,
+    [ready.kind, vehicle, station, option],
+  );
+  return {
+    plant,
+    vehicles,
+    vehicle,
+    orders,
+    entry,
+    station,
+    busy,
+    preview,
+    retry,
+    step,
+    option,
+    leadThere,
+    checks,
+    readiness: ready,
+    why,
+    instead,
+    /** Why the server says that no way leads there. */
+    unreachable: noWay ? step.options.find((o) => o.reason)?.reason : undefined,
+    body,
+  };
+}
