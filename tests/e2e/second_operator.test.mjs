@@ -313,6 +313,7 @@ test("an account changed by the administrator while the server was down: the pag
   await page.locator(".ended", { hasText: /服务器于 \d\d:\d\d:\d\d 结束了 anna 的会话/ }).waitFor({ timeout: 20_000 });
   await picture(page, "session-ended-zh");
   await page.reload();
+  await page.locator(".ended").waitFor({ timeout: 15_000 });
   await page.locator("input[type=password]").fill(system.passwords.get("anna"));
   await page.locator("button[type=submit]").click();
   await page.locator(".disp b", { hasText: "2" }).waitFor({ timeout: 15_000 });

@@ -25,7 +25,7 @@ after(async () => {
   await system?.stop();
 });
 
-test("Start says why it is off: another's order under way, a station that is not for the vehicle", async () => {
+test("Start says why it is off for a station that is not for the vehicle; an order under way is named with its arrival", async () => {
   const page = await signedIn(browser, system, "operator");
   await page.goto(`${system.url}/send?vehicle=TP-01&station=15`);
   const start = page.locator("button.go");
@@ -35,11 +35,12 @@ test("Start says why it is off: another's order under way, a station that is not
   await page.goto(`${system.url}/send?vehicle=TP-01&station=3`);
   await page.locator(".mode[role=radio]").first().waitFor({ timeout: 20_000 });
   const order = await client.order("TP-01", [2]);
-  await page.locator("button.go", { hasText: new RegExp(`TP-01 is on its way to 2 \\(${order.name}, by .+, (there \\d\\d:\\d\\d:\\d\\d|late .+)\\)`) }).waitFor({ timeout: 10_000 });
-  assert.equal(await page.getByText(/Checking|already stands/).count(), 0);
+  await page.locator(".busy strong", { hasText: new RegExp(`TP-01 is on its way to 2 \\(${order.name}, by .+, (there \\d\\d:\\d\\d:\\d\\d|late .+)\\)`) }).waitFor({ timeout: 10_000 });
+  assert.equal(await page.getByText(/already stands/).count(), 0);
   await picture(page, "send-busy");
   assert.equal((await client.untilEnded(order.id)).state, "Ended");
   await until("it may be sent on", async () => (await start.getAttribute("data-state")) === "ready", { timeout_s: 15, every_ms: 100 });
+  assert.equal(await page.locator(".busy").count(), 0);
   assert.deepEqual(page.errors, []);
   await page.context().close();
 });

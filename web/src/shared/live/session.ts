@@ -15,6 +15,7 @@ export type SessionState =
 
 /** Whom this tab has signed in, so that a page that is loaded again can say whose session has ended meanwhile. */
 const kSignedIn = "pulseline.signed_in";
+const kEnded = "pulseline.session_ended";
 
 let state: SessionState = { kind: "loading" };
 let stream: Stream | undefined;
@@ -26,6 +27,7 @@ function become(next: SessionState): void {
   setCsrfToken(next.kind === "signed_in" ? next.session.csrf_token : "");
   if (next.kind === "signed_in") {
     sessionStorage.setItem(kSignedIn, next.session.name);
+    sessionStorage.removeItem(kEnded);
     if (stream === undefined) {
       // A 401 here signs out through the handler; anything else is the link's own trouble.
       stream = new Stream(liveStore, () => void call(api.GET("/api/v1/session")).catch(() => {}));
@@ -46,11 +48,18 @@ setUnauthorisedHandler(() => {
   if (state.kind === "signed_in") becomeEnded();
 });
 
-/** Signed out by the server: it is said, because nobody pressed anything. */
+/** Signed out by the server: it is said, because nobody pressed anything, and again when the page is loaded again. */
 function becomeEnded(): void {
+  const told = sessionStorage.getItem(kEnded);
   const name = sessionStorage.getItem(kSignedIn);
-  sessionStorage.removeItem(kSignedIn);
-  become({ kind: "signed_out", ...(name !== null && { ended: { name, atMs: Date.now() } }) });
+  const ended =
+    told !== null
+      ? (JSON.parse(told) as { name: string; atMs: number })
+      : name !== null
+        ? { name, atMs: Date.now() }
+        : undefined;
+  if (ended) sessionStorage.setItem(kEnded, JSON.stringify(ended));
+  become({ kind: "signed_out", ...(ended && { ended }) });
 }
 
 /** Asks the server who is signed in. Called once at start and by "Try again". */
