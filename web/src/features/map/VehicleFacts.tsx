@@ -28,7 +28,7 @@ export function VehicleFacts({ vehicle: v, order, heard, now, old, words }: Vehi
   const { clock } = useExpected();
   const way = useLongWay(v);
   const { leg } = v;
-  const station = leg && words.stationNumber(leg.station);
+  const station = leg ? words.stationNumber(leg.station) : order?.steps[order.current_step]?.number;
   const when = v.activity === "moving" ? expectedIn(leg?.expected_at, now).kind : "none";
   const expected = clock(leg?.expected_at);
   const basis = poseWords(v, words.stationNumber, (at) => dateTime(at, now));

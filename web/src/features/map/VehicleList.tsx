@@ -36,11 +36,14 @@ export function VehicleList(props: VehicleListProps) {
   const groups = grouped(vehicles, find, since);
   const nobody = vehicles.length > 0 && vehicles.every((v) => v.link === "never");
   const list = useRef<HTMLDivElement>(null);
+  // Only the list itself moves: on a phone the page would, away from the map that was pressed.
   useEffect(() => {
-    if (selected === undefined) return;
-    list.current
-      ?.querySelector(`[data-vehicle="${CSS.escape(selected)}"]`)
-      ?.scrollIntoView({ block: "nearest" });
+    const box = list.current;
+    const row = selected && box?.querySelector<HTMLElement>(`[data-vehicle="${CSS.escape(selected)}"]`);
+    if (!box || !row) return;
+    const [frame, at] = [box.getBoundingClientRect(), row.getBoundingClientRect()];
+    if (at.top < frame.top) box.scrollTop -= frame.top - at.top;
+    if (at.bottom > frame.bottom) box.scrollTop += at.bottom - frame.bottom;
   }, [selected]);
   const found = foundStations(stations, find);
   const numberOf = (id: string) => numbers.get(id);
