@@ -102,7 +102,6 @@ export function MapView(props: MapViewProps) {
     () => ({
       old: (age: string) => t("old", { age }),
       north: t("north"),
-      never: t("never"),
       alarm: (kind: string) => t(`tag.${kind}`),
     }),
     [t],

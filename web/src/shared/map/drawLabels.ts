@@ -225,7 +225,7 @@ function vehicleTag(v: DrawnVehicle, input: FrameInput, compact: boolean): Vehic
   const speed = input.live.poses.get(v.vehicle.id)?.speed_mps ?? v.vehicle.speed_mps ?? 0;
   const extra = v.stale
     ? v.vehicle.link === "never"
-      ? input.words.never
+      ? ""
       : Number.isFinite(v.ageS)
         ? input.words.old(age(v.ageS))
         : ""

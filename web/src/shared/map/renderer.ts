@@ -13,8 +13,6 @@ import { toScreen, type Size, type View } from "./view";
 export interface MapWords {
   old: (age: string) => string;
   north: string;
-  /** Of a vehicle that has never told where it stands. */
-  never: string;
   /** A kind of alarm in a word or two. */
   alarm: (kind: AlarmKind) => string;
 }
