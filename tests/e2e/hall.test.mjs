@@ -260,7 +260,7 @@ test("a hundred vehicles that move: none hidden, the list and the pages in reach
   const page = await signedIn(browser, system, "operator");
   await page.locator(".veh").first().waitFor();
   // To and fro in lanes of their own, so that all of them go on moving while they are looked at.
-  await Promise.all(model.vehicles.map((v, i) => client.order(v.id, [2 * i + 2, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 2, 2 * i + 1])));
+  for (const [i, v] of model.vehicles.entries()) await client.order(v.id, [2 * i + 2, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 2, 2 * i + 1]);
   await until("most of them drive", async () => (await client.get("/api/v1/vehicles")).items.filter((v) => v.activity === "moving").length >= 60, { timeout_s: 60, every_ms: 200 });
 
   const { best, mean } = await page.evaluate(async () => {
