@@ -1,7 +1,7 @@
-import { useEffect, useMemo, useRef, useState } from "react";
+import { useCallback, useEffect, useMemo, useRef, useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Closure } from "@/shared/api/types";
-import { useClosures, useMayCommand, usePlant, useVehicle } from "@/shared/live";
+import { useClosures, useMayCommand, usePlant, useVehicle, useVehicles } from "@/shared/live";
 import {
   closurePlace,
   hallModel,
@@ -13,14 +13,16 @@ import {
 } from "@/shared/map";
 import { Link, navigate, useLocation } from "@/shared/router";
 import { Icon, PanelFailed, PanelLoading } from "@/shared/ui";
+import { useNarrow } from "@/shared/ui/useNarrow";
 import { FloorPanel } from "./FloorPanel";
 import { emptyFloor, outlineOf, pressed } from "./floorTool";
 import { Legend } from "./Legend";
-import "./map-page.css";
+import "./MapPage.css";
 import "./map-tools.css";
 import { OrderStrip } from "./OrderStrip";
 import { PlacePanel } from "./PlacePanel";
 import { emptyPlace, placePressed } from "./placeTool";
+import { VehicleCard } from "./VehicleCard";
 import { VehicleList } from "./VehicleList";
 
 const kNoOverlays: MapOverlays = {};
@@ -32,6 +34,12 @@ export function MapPage() {
   const { query } = useLocation();
   const map = useRef<MapHandle>(null);
   const selected = query.get("vehicle") ?? undefined;
+  const shown = useVehicle(selected);
+  const count = useVehicles().length;
+  const narrow = useNarrow();
+  const [listed, setListed] = useState(false);
+  const [fromList, setFromList] = useState(false);
+  const closed = useRef<string>(undefined);
   const [following, setFollowing] = useState(false);
   const [find, setFind] = useState("");
   const [station, setStation] = useState<string>();
@@ -51,10 +59,25 @@ export function MapPage() {
     if (selected === undefined) setFollowing(false);
   }, [selected]);
 
-  const select = (vehicle: string | undefined) =>
+  // The keyboard goes back to the row of the vehicle whose card was closed.
+  useEffect(() => {
+    if (selected !== undefined || closed.current === undefined) return;
+    const row = document.querySelector<HTMLElement>(`[data-vehicle="${CSS.escape(closed.current)}"]`);
+    closed.current = undefined;
+    (row ?? document.querySelector<HTMLElement>("canvas.canvas"))?.focus({ preventScroll: true });
+  }, [selected]);
+
+  const numbers = useMemo(
+    () => new Map((plant.data?.stations ?? []).map((s) => [s.id, String(s.number)])),
+    [plant.data],
+  );
+  const numberOf = useCallback((id: string) => numbers.get(id), [numbers]);
+  const select = (vehicle: string | undefined, inList = false) => {
+    setFromList(inList);
     navigate(vehicle === undefined ? "/map" : `/map?vehicle=${encodeURIComponent(vehicle)}`, {
       replace: true,
     });
+  };
   const pick = (picked: Picked) => {
     if (tool === "floor" && picked.kind === "point" && model) {
       setFloor((draft) => pressed(draft, model.lanes, picked.point, picked.reach_m));
@@ -111,8 +134,11 @@ export function MapPage() {
         : station !== undefined
           ? { target: station }
           : kNoOverlays;
+  const card = tool === undefined && shown !== undefined;
+  // On a tablet what is worked with stands beside the map; else the list is docked under it.
+  const beside = tool !== undefined || card || (narrow && listed);
   return (
-    <div className={`mappage ${tool ? "tooled" : ""}`}>
+    <div className={`mappage ${beside ? "tooled" : ""} ${card ? "carded" : ""}`}>
       <section className="left" aria-label={t("title")}>
         <h1 className="unseen">{t("title")}</h1>
         <MapView
@@ -167,24 +193,37 @@ export function MapPage() {
               find={find}
               onFind={setFind}
               selected={selected}
-              onSelect={(id) => select(id === selected ? undefined : id)}
+              onSelect={(id) => select(id === selected ? undefined : id, true)}
               station={station}
               onStation={showStation}
             />
-            <div className="cta">
-              {selected !== undefined && mayCommand && (
-                <Link className="btn" to={`/map?place=${encodeURIComponent(selected)}`}>
-                  {t("place.link")}
+            {card ? (
+              <VehicleCard
+                vehicle={shown}
+                numberOf={numberOf}
+                takesFocus={fromList}
+                onSelect={(id) => select(id, true)}
+                onClose={() => {
+                  closed.current = shown.id;
+                  select(undefined);
+                }}
+              />
+            ) : (
+              <div className="cta">
+                <button
+                  type="button"
+                  className="btn lt-sm allbtn"
+                  aria-pressed={listed}
+                  onClick={() => setListed((on) => !on)}
+                >
+                  {listed ? t("list.urgent") : t("list.all", { count })}
+                </button>
+                <Link className="btn primary motion" to="/send">
+                  <Icon name="send" />
+                  <span>{t("send")}</span>
                 </Link>
-              )}
-              <Link
-                className="btn primary motion"
-                to={selected === undefined ? "/send" : `/send?vehicle=${encodeURIComponent(selected)}`}
-              >
-                <Icon name="send" />
-                <span>{t("send")}</span>
-              </Link>
-            </div>
+              </div>
+            )}
           </>
         )}
       </aside>

@@ -1,9 +1,10 @@
-import { useMemo, type ReactNode } from "react";
+import { useEffect, useMemo, useRef, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
-import { kGroups, useStations, useVehicles, type Group } from "@/shared/live";
+import { kGroups, useLive, useStations, useVehicles, type Group } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Icon, StatusSymbol, type SymbolName } from "@/shared/ui";
 import { foundStations, grouped } from "./listRows";
+import "./VehicleList.css";
 import { VehicleRow } from "./VehicleRow";
 
 const kSymbol: Record<Group, SymbolName> = {
@@ -30,7 +31,20 @@ export function VehicleList(props: VehicleListProps) {
   const stations = useStations();
   const numbers = useMemo(() => new Map(stations.map((s) => [s.id, String(s.number)])), [stations]);
   const names = useMemo(() => new Map(vehicles.map((v) => [v.id, v.name])), [vehicles]);
-  const groups = grouped(vehicles, find);
+  const since = useLive((s) => s.since);
+  const byId = useLive((s) => s.vehicles);
+  const groups = grouped(vehicles, find, since);
+  const nobody = vehicles.length > 0 && vehicles.every((v) => v.link === "never");
+  const list = useRef<HTMLDivElement>(null);
+  // Only the list itself moves: on a phone the page would, away from the map that was pressed.
+  useEffect(() => {
+    const box = list.current;
+    const row = selected && box?.querySelector<HTMLElement>(`[data-vehicle="${CSS.escape(selected)}"]`);
+    if (!box || !row) return;
+    const [frame, at] = [box.getBoundingClientRect(), row.getBoundingClientRect()];
+    if (at.top < frame.top) box.scrollTop -= frame.top - at.top;
+    if (at.bottom > frame.bottom) box.scrollTop += at.bottom - frame.bottom;
+  }, [selected]);
   const found = foundStations(stations, find);
   const numberOf = (id: string) => numbers.get(id);
   const state = (s: (typeof stations)[number]): ReactNode =>
@@ -51,7 +65,7 @@ export function VehicleList(props: VehicleListProps) {
           onChange={(event) => onFind(event.target.value)}
         />
       </div>
-      <div className="list">
+      <div className="list" ref={list}>
         {found.map((s) => (
           <div key={s.id} className={`veh stn ${props.station === s.id ? "sel" : ""}`}>
             <Icon name="stations" size={20} />
@@ -67,8 +81,17 @@ export function VehicleList(props: VehicleListProps) {
           </div>
         ))}
         {groups.length === 0 && found.length === 0 && (
-          <p className="lab none">{vehicles.length === 0 ? t("empty") : t("not_found")}</p>
+          <p className="lab none">
+            {vehicles.length > 0 ? (
+              t("not_found")
+            ) : (
+              <>
+                <b>{t("empty")}</b> {t("empty_hint")}
+              </>
+            )}
+          </p>
         )}
+        {nobody && <p className="lab none">{t("nobody", { count: vehicles.length })}</p>}
         {kGroups.map((group) => {
           const rows = groups.find((g) => g.group === group)?.vehicles ?? [];
           if (rows.length === 0) return null;
@@ -82,6 +105,7 @@ export function VehicleList(props: VehicleListProps) {
                 <VehicleRow
                   key={vehicle.id}
                   vehicle={vehicle}
+                  vehicles={byId}
                   numberOf={numberOf}
                   selected={vehicle.id === selected}
                   two={group === "attention"}

@@ -79,14 +79,63 @@ it.each<[Partial<Vehicle>, string]>([
   [{ activity: "charging" }, "charging_between"],
 ])("says what %j does", (over, key) => expect(whatOf(vehicle("A", over), numberOf).key).toBe(key));
 
-it("lists open orders, those under way first, then by priority", () => {
+const kNow = Date.parse("2026-11-25T07:00:00Z");
+const at = (s: number) => new Date(kNow + s * 1000).toISOString();
+
+it("lists open orders by urgency: who needs a person, who is late, then by priority, due time and age", () => {
   const all = [
     order(1, { state: "Ended" }),
     order(2),
     order(3, { state: "Running" }),
     order(4, { priority: 5 }),
+    order(5, { state: "Interrupted" }),
+    order(6, { state: "Running", expected_at: at(-80) }),
+    order(7, { due: at(600) }),
+    order(8, { due: at(300) }),
+    order(9, { state: "Interrupted", removed: true }),
+    order(10, { state: "NotAllowedToStart", priority: 9 }),
   ];
-  expect(openOrders(all).map((o) => o.number)).toEqual([3, 4, 2]);
+  expect(openOrders(all, kNow).map((o) => o.number)).toEqual([5, 6, 3, 4, 8, 7, 2, 10]);
+});
+
+it("puts the one first that has waited longest, and leaves those that stand where they are", () => {
+  const waiting = (name: string) => vehicle(name, { activity: "waiting" });
+  const all = [vehicle("Z"), waiting("A"), waiting("B"), waiting("C"), vehicle("Y")];
+  const since = new Map(
+    [
+      ["A", 30],
+      ["B", 10],
+      ["C", 20],
+    ].map(([id, s]) => [String(id), { doing: "waiting", atMs: Number(s) * 1000, exact: true }]),
+  );
+  expect(grouped(all, "", since).map((g) => g.vehicles.map((v) => v.name))).toEqual([
+    ["B", "C", "A"],
+    ["Z", "Y"],
+  ]);
+});
+
+it("files who measures its stop under standing", () => {
+  const leg = { id: "L", station: "st04" } as NonNullable<Vehicle["leg"]>;
+  const measuring = vehicle("A", { activity: "measuring", leg });
+  expect(grouped([measuring], "").map((g) => g.group)).toEqual(["standing"]);
+  expect(whatOf(measuring, numberOf)).toEqual({ key: "measuring", values: { station: "4" } });
+});
+
+const drive = { id: "L", station: "st04", started_at: at(0) } as NonNullable<Vehicle["leg"]>;
+const own = order(1, {
+  steps: [{ station: "st04", number: 4, motion_mode: "auto", state: "driving", leg: "L" }],
+});
+it.each<[string, Partial<Vehicle>, JobOrder | undefined, string]>([
+  ["for its order", { order: "1" }, own, "to"],
+  ["for an order that has yet to come in", { order: "1" }, undefined, "to"],
+  ["aside, by its own reason", { reason: { code: "makes_way", params: {} } }, undefined, "makes_way"],
+  ["aside, by when it last went", { made_way: [at(-90), at(0.05)] }, undefined, "makes_way"],
+  ["to charge", { reason: { code: "goes_charging", params: {} } }, undefined, "charge"],
+  ["aside while its order waits", { order: "1", made_way: [at(0)] }, order(1), "makes_way"],
+  ["without an order", { made_way: [at(-90)] }, undefined, "aside"],
+])("drives %s", (_, over, order, key) => {
+  const moving = vehicle("A", { activity: "moving", leg: drive, ...over });
+  expect(whatOf(moving, numberOf, order).key).toBe(key);
 });
 
 it("counts finished steps and the drive under way", () => {
@@ -96,5 +145,6 @@ it("counts finished steps and the drive under way", () => {
   ] as JobOrder["steps"];
   const leg = { id: "L", progress: 0.5 } as NonNullable<Vehicle["leg"]>;
   expect(orderProgress(order(1, { steps, current_step: 1 }), leg)).toBe(0.75);
+  expect(orderProgress(order(1, { steps, current_step: 1 }), leg, 0.8)).toBe(0.9);
   expect(orderProgress(order(1), undefined)).toBe(0);
 });

@@ -66,7 +66,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
             return (
               <tr key={i} className={i === order.current_step && step.state !== "done" ? "on" : ""}>
                 <td className="b">{step.number}</td>
-                <td>{words.modeShort(step.motion_mode)}</td>
+                <td>{words.modeShort(stop?.mode ?? step.motion_mode)}</td>
                 <td>
                   {t(`words:step.${step.state}`)}
                   <StepActions step={step} />

@@ -3,10 +3,10 @@ import type { JobOrder } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
-import { dateTime } from "@/shared/words/format";
+import { dateTime, duration } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
-import { isOpen, stateSymbol } from "./orderLook";
+import { isOpen, stateSymbol, tookS } from "./orderLook";
 
 export function OrderTable({
   orders,
@@ -28,6 +28,8 @@ export function OrderTable({
           <th>{t("col.why")}</th>
           <th className="n">{t("col.expected")}</th>
           <th className="n">{t("col.created")}</th>
+          <th className="n">{t("col.priority")}</th>
+          <th className="n">{t("col.due")}</th>
         </tr>
       </thead>
       <tbody>
@@ -44,6 +46,7 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
   const words = useWords();
   const expected = useExpected();
   const to = `/orders/${order.id}`;
+  const took = tookS(order);
   const vehicle = order.vehicle || order.wanted_vehicle;
   return (
     <tr
@@ -72,10 +75,20 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
       <td>{vehicle ? words.vehicle(vehicle) : t("any_vehicle")}</td>
       <td className="wrap">{order.reason ? words.reason(order.reason) : ""}</td>
       <td className="n" data-label={t("col.expected")}>
-        {(isOpen(order) && expected.clock(order.expected_at)) || "\u2013"}
+        {isOpen(order)
+          ? (expected.clock(order.expected_at) ?? "\u2013")
+          : took === undefined
+            ? "\u2013"
+            : t("took", { time: duration(took) })}
       </td>
       <td className="n" data-label={t("col.created")}>
         {dateTime(order.created_at, now)}
+      </td>
+      <td className="n" data-label={t("col.priority")}>
+        {order.priority}
+      </td>
+      <td className="n" data-label={t("col.due")}>
+        {order.due === undefined ? "\u2013" : dateTime(order.due, now)}
       </td>
     </tr>
   );

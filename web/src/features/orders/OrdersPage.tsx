@@ -6,7 +6,7 @@ import { Link, navigate } from "@/shared/router";
 import { Button, Card, PanelEmpty, PanelFailed, PanelLoading } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { OrderDetail } from "./OrderDetail";
-import { isOpen } from "./orderLook";
+import { foundOrders, isOpen } from "./orderLook";
 import { OrderTable } from "./OrderTable";
 import { TourForm } from "./TourForm";
 import { useOrder, useOrders } from "./useOrders";
@@ -20,6 +20,9 @@ export function OrdersPage({ id }: { id: string | undefined }) {
   const mayCommand = useMayCommand();
   const { orders, older } = useOrders();
   const [writing, setWriting] = useState(false);
+  const [find, setFind] = useState("");
+  const [onlyOpen, setOnlyOpen] = useState(false);
+  const found = foundOrders(orders, find, onlyOpen);
   const side = writing && id === undefined ? "tour" : id !== undefined ? "order" : undefined;
   const running = orders.filter((o) => o.state === "Running").length;
   const table = (
@@ -52,7 +55,20 @@ export function OrdersPage({ id }: { id: string | undefined }) {
         <PanelEmpty what={t("empty")} when={t("empty_hint")} />
       ) : (
         <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
-          <OrderTable orders={orders} selected={id} />
+          <div className="fields ofind">
+            <label className="field">
+              <span className="cap">{t("find")}</span>
+              <input type="search" value={find} onChange={(event) => setFind(event.target.value)} />
+            </label>
+            <Button pressed={onlyOpen} onPress={() => setOnlyOpen((on) => !on)}>
+              {t("only_open")}
+            </Button>
+          </div>
+          {found.length === 0 ? (
+            <PanelEmpty what={t("none_fits")} when={t("none_fits_hint")} />
+          ) : (
+            <OrderTable orders={found} selected={id} />
+          )}
           {older.hasNextPage && (
             <Button disabled={older.isFetchingNextPage} onPress={() => void older.fetchNextPage()}>
               {older.isFetchingNextPage ? t("loading") : t("older")}

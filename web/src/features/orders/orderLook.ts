@@ -67,3 +67,21 @@ export function pauseProgress(
     return { kind: "under_way", title: t("command.stopping"), small: t("command.pausing") };
   return asked;
 }
+
+/** Orders whose name, stations, vehicle or MES number hold what is asked for. */
+export function foundOrders(orders: readonly JobOrder[], find: string, open: boolean): JobOrder[] {
+  const wanted = find.trim().toLowerCase();
+  const texts = (o: JobOrder) => [o.name, o.vehicle || o.wanted_vehicle, o.client_order_id ?? ""];
+  return orders.filter(
+    (o) =>
+      (!open || isOpen(o)) &&
+      (texts(o).some((text) => text.toLowerCase().includes(wanted)) ||
+        o.steps.some((step) => String(step.number) === wanted)),
+  );
+}
+
+/** How long an ended order took, in seconds; one that never began took no time. */
+export function tookS(order: JobOrder): number | undefined {
+  if (order.started_at === undefined || order.ended_at === undefined) return undefined;
+  return Math.max(0, (Date.parse(order.ended_at) - Date.parse(order.started_at)) / 1000);
+}

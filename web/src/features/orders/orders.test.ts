@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { DryRun, JobOrder, JobState, Plant } from "@/shared/api/types";
-import { actionsOf, mergeOrders } from "./orderLook";
+import { actionsOf, foundOrders, mergeOrders, tookS } from "./orderLook";
 import {
   chosenOf,
   emptyTour,
@@ -154,3 +154,30 @@ describe("tour", () => {
     expect(toRequest({ ...numbers("1"), vehicle: "TP-01" }).vehicle).toBe("TP-01");
   });
 });
+
+it.each([
+  ["jo-2", false, ["b"]],
+  ["tp-01", false, ["a"]],
+  ["7", false, ["b"]],
+  ["mes", false, ["c"]],
+  ["", true, ["a", "b"]],
+  ["nothing", false, []],
+])("finds by %j, only open ones: %s", (find, open, ids) => {
+  const all = [
+    order("a", 1, "Running", { name: "JO-1", vehicle: "TP-01" }),
+    order("b", 2, "AllowedToStart", {
+      name: "JO-2",
+      vehicle: "",
+      wanted_vehicle: "",
+      steps: [{ number: 7 }] as JobOrder["steps"],
+    }),
+    order("c", 3, "Ended", { name: "JO-3", vehicle: "MV-01", client_order_id: "MES-44" }),
+  ];
+  expect(foundOrders(all, find, open).map((o) => o.id)).toEqual(ids);
+});
+
+it.each<[string, Partial<JobOrder>, number | undefined]>([
+  ["took", { started_at: "2026-11-25T07:00:00Z", ended_at: "2026-11-25T07:01:30Z" }, 90],
+  ["never began", { ended_at: "2026-11-25T07:01:30Z" }, undefined],
+  ["runs", { started_at: "2026-11-25T07:00:00Z" }, undefined],
+])("an order that %s", (_, over, seconds) => expect(tookS(order("a", 1, "Ended", over))).toBe(seconds));

@@ -134,11 +134,10 @@ export function alarms(vehicles: Iterable<Vehicle>, nowMs = Date.now()): Alarm[]
   return all.sort((a, b) => kRank[a.priority] - kRank[b.priority]);
 }
 
-/** Where the list files a vehicle. */
+/** Where the list files a vehicle. Who measures its stop stands. */
 export function groupOf(v: Vehicle): Group {
   if (alarmOf(v) !== undefined) return "attention";
-  if (v.activity === "moving" || v.activity === "measuring")
-    return v.activity === "measuring" && v.leg === undefined ? "standing" : "moving";
+  if (v.activity === "moving") return "moving";
   if (v.activity === "waiting" || v.activity === "paused") return "waiting";
   return "standing";
 }

@@ -4,3 +4,7 @@ export { liveStore, type LivePose, type LinkState } from "./store";
 export { useMayCommand, useSession } from "./session";
 export * from "./attention";
 export * from "./pause";
+export { legProgress } from "./legProgress";
+export { sinceOf, type Since } from "./since";
+export { blockerOf, eachOther, waitChain, type WaitChain } from "./waitChain";
+export { newest, useHeard, type Heard } from "./useHeard";

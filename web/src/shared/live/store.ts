@@ -8,6 +8,7 @@ import type {
   StreamFrame,
   Vehicle,
 } from "@/shared/api/types";
+import { sinceSeen, type Since } from "./since";
 
 /** State of the browser's own link to the server. */
 export type LinkState =
@@ -37,6 +38,8 @@ export interface LiveState {
   floorTurn: number;
   /** Server clock minus browser clock, ms; ages of server times are computed with it. */
   clockOffsetMs: number;
+  /** Since when each vehicle does what it does, as far as this page has seen it. */
+  since: ReadonlyMap<string, Since>;
 }
 
 export const emptyState: LiveState = {
@@ -50,6 +53,7 @@ export const emptyState: LiveState = {
   closures: [],
   floorTurn: 0,
   clockOffsetMs: 0,
+  since: new Map(),
 };
 
 const kMaxStopRecords = 500;
@@ -67,6 +71,12 @@ function withStop(map: ReadonlyMap<string, StopRecord>, stop: StopRecord): Reado
   return next;
 }
 
+function withSince(state: LiveState, v: Vehicle, nowMs: number): LiveState["since"] {
+  const known = state.since.get(v.id);
+  const since = sinceSeen(known, v, nowMs, known !== undefined);
+  return since === known ? state.since : withItem(state.since, v.id, since);
+}
+
 function isNewer(old: JobOrder | undefined, next: JobOrder): boolean {
   return old === undefined || next.revision >= old.revision;
 }
@@ -74,7 +84,8 @@ function isNewer(old: JobOrder | undefined, next: JobOrder): boolean {
 /** One frame into the state. Pure. Poses are kept apart (see LiveStore) and change nothing here. */
 export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): LiveState {
   switch (frame.type) {
-    case "snapshot":
+    case "snapshot": {
+      const serverMs = Date.parse(frame.server_time);
       return {
         ...state,
         ready: true,
@@ -84,10 +95,18 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
         stations: byKey(frame.stations, (s) => s.station),
         jobOrders: byKey(frame.job_orders, (o) => o.id),
         stopRecords: byKey(frame.stop_records, (r) => r.id),
-        clockOffsetMs: Date.parse(frame.server_time) - wallMs || 0,
+        clockOffsetMs: serverMs - wallMs || 0,
+        since: new Map(
+          frame.vehicles.map((v) => [v.id, sinceSeen(state.since.get(v.id), v, serverMs, false)]),
+        ),
       };
+    }
     case "vehicle":
-      return { ...state, vehicles: withItem(state.vehicles, frame.vehicle.id, frame.vehicle) };
+      return {
+        ...state,
+        vehicles: withItem(state.vehicles, frame.vehicle.id, frame.vehicle),
+        since: withSince(state, frame.vehicle, wallMs + state.clockOffsetMs),
+      };
     case "station":
       return { ...state, stations: withItem(state.stations, frame.station.station, frame.station) };
     case "job_order":

@@ -10,22 +10,21 @@ import {
 } from "react";
 import { useTranslation } from "react-i18next";
 import type { Plant } from "@/shared/api/types";
-import { useTheme } from "@/shared/i18n/useTheme";
 import { liveStore } from "@/shared/live/store";
-import { boxOf, type Box, type MetricPoint } from "@/shared/math/geometry";
+import { boxOf, type MetricPoint } from "@/shared/math/geometry";
+import { homeView, isPhone, marginsOf, withInSight } from "./home";
 import "./map.css";
-import { readPalette, type Palette } from "./palette";
 import { Picker, type Picked } from "./pick";
-import { CanvasRenderer } from "./renderer";
 import { allLayers, hallModel, type MapLayers, type MapOverlays } from "./scene";
+import { useDrawing } from "./useDrawing";
 import { useGestures, type Gestures } from "./useGestures";
 import {
   fitted,
   kept,
   panned,
   toHall,
+  toScreen,
   zoomAt,
-  type Margins,
   type ScreenPoint,
   type Size,
   type View,
@@ -35,6 +34,7 @@ export type { Picked } from "./pick";
 export type { MapLayers, MapOverlays } from "./scene";
 
 export interface MapHandle {
+  /** About the selected vehicle, where there is one, else about the middle. */
   zoomIn(): void;
   zoomOut(): void;
   /** The whole hall. */
@@ -66,30 +66,11 @@ export interface MapViewProps {
 const kNoOverlays: MapOverlays = {};
 const kKeyPanPx = 60;
 const kKeyZoom = 1.25;
-const kMargins: Margins = { left: 52, top: 36, right: 24, bottom: 34 };
-/** On a phone the room is the hall's: no rulers. */
-const kPhonePx = 560;
-const kPhoneMargins: Margins = { left: 10, top: 10, right: 10, bottom: 10 };
-const marginsOf = (size: Size): Margins => (size.width < kPhonePx ? kPhoneMargins : kMargins);
-const kAgeTickMs = 250;
 
-const kRoom = 0.12;
-const kLeastM = 12;
+const poseOf = (id: string | undefined) =>
+  id === undefined ? undefined : (liveStore.poses.get(id) ?? liveStore.state.vehicles.get(id)?.pose);
 
-/** The view that nobody has changed: the whole hall, or what the page is about with some room round it. */
-function home(hall: Box, about: readonly MetricPoint[] | undefined, size: Size): View {
-  if (about === undefined || about.length === 0) return fitted(hall, size, marginsOf(size));
-  const b = boxOf(about);
-  const x = Math.max(kRoom * (b.maxX - b.minX), (kLeastM - (b.maxX - b.minX)) / 2);
-  const y = Math.max(kRoom * (b.maxY - b.minY), (kLeastM - (b.maxY - b.minY)) / 2);
-  return fitted(
-    { minX: b.minX - x, maxX: b.maxX + x, minY: b.minY - y, maxY: b.maxY + y },
-    size,
-    marginsOf(size),
-  );
-}
-
-/** Map of one hall, drawn to scale. Poses go from the store to the canvas without React. */
+/** Map of one hall, drawn to scale. */
 export function MapView(props: MapViewProps) {
   const {
     plant,
@@ -104,7 +85,6 @@ export function MapView(props: MapViewProps) {
     onFollowEnd,
   } = props;
   const { t, i18n } = useTranslation("mapview");
-  const theme = useTheme();
   const box = useRef<HTMLDivElement>(null);
   const canvas = useRef<HTMLCanvasElement>(null);
   const model = useMemo(() => hallModel(plant, hall), [plant, hall]);
@@ -112,73 +92,32 @@ export function MapView(props: MapViewProps) {
   const [size, setSize] = useState<Size>();
   const view = useRef<View>(undefined);
   const isFitted = useRef(true);
-  const renderer = useRef<CanvasRenderer>(undefined);
-  const palette = useRef<Palette>(undefined);
-  const frame = useRef(0);
 
-  const phone = size !== undefined && size.width < kPhonePx;
+  const phone = size !== undefined && isPhone(size);
   const allOn = useMemo(
     () => ({ ...allLayers, ...layers, ...(phone && { rulers: false }) }),
     [layers, phone],
   );
-  const now = useRef({ model, size, overlays, selected, follow, about, layers: allOn, t });
-  now.current = { model, size, overlays, selected, follow, about, layers: allOn, t };
+  const words = useMemo(
+    () => ({
+      old: (age: string) => t("old", { age }),
+      north: t("north"),
+      alarm: (kind: string) => t(`tag.${kind}`),
+    }),
+    [t],
+  );
 
-  const draw = useRef(() => {});
-  draw.current = () => {
-    frame.current = 0;
-    const { model: m, size: s, follow: f } = now.current;
-    if (canvas.current === null || m === undefined || s === undefined) return;
-    renderer.current ??= new CanvasRenderer(canvas.current);
-    palette.current ??= readPalette(canvas.current);
-    if (view.current === undefined || isFitted.current) view.current = home(m.box, now.current.about, s);
-    const followed =
-      f === undefined ? undefined : (liveStore.poses.get(f) ?? liveStore.state.vehicles.get(f)?.pose);
+  const drawing = useDrawing(canvas, () => {
+    if (model === undefined || size === undefined) return undefined;
+    if (view.current === undefined || isFitted.current) view.current = homeView(model.box, about, size);
+    const followed = poseOf(follow);
     if (followed !== undefined) {
       isFitted.current = false;
       view.current = { ...view.current, cx: followed.x_m, cy: followed.y_m };
     }
-    const { state, poses } = liveStore;
-    renderer.current.draw({
-      view: view.current,
-      size: s,
-      dpr: window.devicePixelRatio || 1,
-      palette: palette.current,
-      model: m,
-      layers: now.current.layers,
-      overlays: now.current.overlays,
-      selected: now.current.selected,
-      live: {
-        vehicles: state.vehicles,
-        stations: state.stations,
-        poses,
-        closures: state.closures,
-        linkLost: state.link.kind === "lost",
-      },
-      words: {
-        old: (age) => now.current.t("old", { age }),
-        north: now.current.t("north"),
-        activity: () => now.current.t("blocked"),
-      },
-      nowMs: performance.now(),
-    });
-  };
-  const request = useRef(() => {
-    if (frame.current === 0) frame.current = requestAnimationFrame(() => draw.current());
+    return { view: view.current, size, model, layers: allOn, overlays, selected, words };
   });
-
-  useEffect(() => {
-    const ask = request.current;
-    const stop = [liveStore.subscribe(ask), liveStore.subscribePoses(ask)];
-    // Ages and labels go on while nothing moves.
-    const timer = setInterval(ask, kAgeTickMs);
-    return () => {
-      clearInterval(timer);
-      stop.forEach((end) => end());
-      cancelAnimationFrame(frame.current);
-      frame.current = 0;
-    };
-  }, []);
+  const { request } = drawing;
 
   useLayoutEffect(() => {
     const element = box.current;
@@ -190,45 +129,47 @@ export function MapView(props: MapViewProps) {
     observer.observe(element);
     return () => observer.disconnect();
   }, []);
-
-  useEffect(() => {
-    palette.current = undefined;
-    request.current();
-  }, [theme]);
-  useEffect(() => request.current());
   const place = about && JSON.stringify(boxOf(about));
   useEffect(() => {
     isFitted.current = true;
-    request.current();
-  }, [model, place]);
+    request();
+  }, [model, place, request]);
+  // Choosing a vehicle may give the drawing less room: the chosen one stays in sight.
+  useEffect(() => {
+    const pose = poseOf(selected);
+    if (pose === undefined || size === undefined || view.current === undefined || isFitted.current) return;
+    view.current = withInSight(view.current, size, pose);
+    request();
+  }, [selected, size, request]);
 
   const change = (next: (v: View, s: Size) => View, ends = true) => {
-    const { size: s, model: m } = now.current;
-    if (view.current === undefined || s === undefined || m === undefined) return;
+    if (view.current === undefined || size === undefined || model === undefined) return;
     isFitted.current = false;
-    view.current = kept(next(view.current, s), m.box);
-    if (ends && now.current.follow !== undefined) onFollowEnd?.();
-    request.current();
+    view.current = kept(next(view.current, size), model.box);
+    if (ends && follow !== undefined) onFollowEnd?.();
+    request();
   };
-  const middle = (s: Size): ScreenPoint => ({ x: s.width / 2, y: s.height / 2 });
-  const zoomBy = (factor: number) => change((v, s) => zoomAt(v, s, middle(s), factor), false);
+  const zoomBy = (factor: number) =>
+    change((v, s) => {
+      const pose = poseOf(selected);
+      if (pose === undefined) return zoomAt(v, s, { x: s.width / 2, y: s.height / 2 }, factor);
+      const seen = withInSight(v, s, pose);
+      return zoomAt(seen, s, toScreen(seen, s, pose), factor);
+    }, false);
   const fit = () => {
     isFitted.current = true;
-    if (now.current.follow !== undefined) onFollowEnd?.();
-    request.current();
+    if (follow !== undefined) onFollowEnd?.();
+    request();
   };
 
   const gestures = useRef<Gestures>(undefined as unknown as Gestures);
   gestures.current = {
     pan: (dx, dy) => change((v) => panned(v, dx, dy)),
     zoom: (at, factor) => change((v, s) => zoomAt(v, s, at, factor), false),
-    press: (at) => {
-      const { size: s } = now.current;
-      if (onPick === undefined || picker === undefined || view.current === undefined || s === undefined)
+    press: (at: ScreenPoint) => {
+      if (onPick === undefined || picker === undefined || view.current === undefined || size === undefined)
         return;
-      onPick(
-        picker.pick(toHall(view.current, s, at), view.current.pxPerM, renderer.current?.drawn ?? [], prefer),
-      );
+      onPick(picker.pick(toHall(view.current, size, at), view.current.pxPerM, drawing.drawn(), prefer));
     },
     hover: () => {},
   };

@@ -25,6 +25,7 @@ export function drawHall(pen: Pen, model: HallModel, layers: MapLayers): void {
   if (layers.roadmap) drawLanes(pen, model);
   g.restore();
   if (layers.markers && detailOf(pen.k) !== "far") drawMarkers(pen, model);
+  drawGates(pen, model);
   drawBrackets(pen, model);
   drawObstacles(pen, model);
   if (layers.labels) drawCaptions(pen, model);
@@ -115,6 +116,33 @@ function drawLanes(pen: Pen, model: HallModel): void {
     }
   }
   pen.stroke(palette["map-chevron"], 1.5);
+}
+
+/** An opening in the wall and its two leaves, as drawings have them. */
+function drawGates(pen: Pen, model: HallModel): void {
+  const { g, palette } = pen;
+  for (const { a, b, inward } of model.gates) {
+    const [p, q] = [pen.at(a.x_m, a.y_m), pen.at(b.x_m, b.y_m)];
+    g.beginPath();
+    g.moveTo(p.x, p.y);
+    g.lineTo(q.x, q.y);
+    pen.stroke(palette["map-floor"], Math.max(6, kWallM * 2 * pen.k) + 1);
+    const leaf = Math.hypot(q.x - p.x, q.y - p.y) / 2;
+    const along = Math.atan2(q.y - p.y, q.x - p.x);
+    // Screen y points down.
+    const open = Math.atan2(-inward.y_m, inward.x_m);
+    g.beginPath();
+    for (const [hinge, shut] of [
+      [p, along],
+      [q, along + Math.PI],
+    ] as const) {
+      const turn = Math.sin(open - shut);
+      g.moveTo(hinge.x, hinge.y);
+      g.lineTo(hinge.x + leaf * Math.cos(open), hinge.y + leaf * Math.sin(open));
+      g.arc(hinge.x, hinge.y, leaf, open, shut, turn > 0);
+    }
+    pen.stroke(palette["map-wall"], 1.5);
+  }
 }
 
 function drawObstacles(pen: Pen, model: HallModel): void {

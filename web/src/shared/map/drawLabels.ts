@@ -7,6 +7,7 @@ import type { Pen } from "./pen";
 import { placePlates, type Plate, type PlateWish } from "./plates";
 import type { FrameInput } from "./renderer";
 import type { DrawnVehicle, HallModel } from "./scene";
+import { tagRule } from "./tagRule";
 import {
   drawStationTag,
   stationTagSize,
@@ -18,7 +19,8 @@ import {
 import { detailOf, toScreen } from "./view";
 
 const kLabelHoldMs = 500;
-const kAllTagsUpTo = 40;
+/** Half the box round an arrow's head. */
+const kHeadPx = 11;
 /** A bracket drawn smaller than this still keeps its plate off the place itself. */
 const kLeastBracketPx = 7;
 const kNarrowPx = 1000;
@@ -36,8 +38,8 @@ export class LabelPainter {
   private plates: ReadonlyMap<string, Plate> = new Map();
   private platesKey: readonly unknown[] = [];
 
-  draw(pen: Pen, input: FrameInput, inView: readonly DrawnVehicle[]): void {
-    const fixedBoxes = this.drawPlates(pen, input);
+  /** `fixedBoxes`: the plates, which tags keep clear of. */
+  drawTags(pen: Pen, input: FrameInput, inView: readonly DrawnVehicle[], fixedBoxes: readonly Box[]): void {
     const { g } = pen;
     const { palette, model, view, size } = input;
     const tags = new Map<string, Shown>();
@@ -50,16 +52,16 @@ export class LabelPainter {
       if (area.kind === "obstacle") soft.push(area.outline.map((p) => toScreen(view, size, p)));
     }
     inView.forEach((v, i) => {
-      const urgent = v.selected || v.blocked || v.critical || v.stale;
-      if (inView.length > kAllTagsUpTo && !urgent && !v.waiting) return;
-      const tag = vehicleTag(v, input, detailOf(view.pxPerM) === "far" && !urgent);
+      const rule = tagRule(v, inView.length);
+      if (rule === undefined) return;
+      const tag = vehicleTag(v, input, detailOf(view.pxPerM) === "far" && rule.brief);
       const tagSize = vehicleTagSize(g, tag, palette);
       const key = v.vehicle.id;
       tags.set(key, { tag, size: tagSize });
       wishes.push({
         key,
-        rank: v.selected ? 0 : v.critical || v.blocked || v.stale ? 1 : v.waiting ? 2 : v.moving ? 4 : 5,
-        must: urgent || inView.length <= kAllTagsUpTo,
+        rank: rule.rank,
+        must: rule.must,
         ...tagSize,
         around: screenBox(bodies[i]!),
       });
@@ -69,7 +71,8 @@ export class LabelPainter {
     if (key !== this.slotsKey || input.nowMs - this.slotsAt >= kLabelHoldMs) {
       this.slotsKey = key;
       this.slotsAt = input.nowMs;
-      const obstacles = { bodies, soft, frame, fixed: fixedBoxes };
+      const heads = inView.flatMap((v) => headBox(v, view, size));
+      const obstacles = { bodies, soft, frame, fixed: fixedBoxes, heads };
       this.slots = new Map(placeLabels(wishes, obstacles, this.slots).map((l) => [l.key, l.slot]));
     }
     // Least important first, so that what matters lies on top.
@@ -83,8 +86,8 @@ export class LabelPainter {
     }
   }
 
-  /** Draws the plates; gives their boxes, which tags keep clear of. */
-  private drawPlates(pen: Pen, input: FrameInput): Box[] {
+  /** Draws the plates; gives their boxes. */
+  drawPlates(pen: Pen, input: FrameInput): Box[] {
     const { model, view, size, live, palette, layers } = input;
     const narrow = size.width < kNarrowPx;
     const wishes = plateWishes(pen, model, view.pxPerM, narrow);
@@ -180,6 +183,15 @@ function frameOf({ model, view, size, layers }: FrameInput): Box {
   };
 }
 
+/** Where the arrow of a vehicle's granted way ends. */
+function headBox(v: DrawnVehicle, view: FrameInput["view"], size: FrameInput["size"]): Box[] {
+  const { leg } = v.vehicle;
+  const end = v.moving || v.selected ? leg?.path[leg.granted_points - 1] : undefined;
+  if (end === undefined) return [];
+  const { x, y } = toScreen(view, size, end);
+  return [{ minX: x - kHeadPx, minY: y - kHeadPx, maxX: x + kHeadPx, maxY: y + kHeadPx }];
+}
+
 /** A hair from a label that had to go far out to its vehicle. */
 function drawLeader(pen: Pen, wish: LabelWish, at: XY): void {
   const { around: b } = wish;
@@ -212,11 +224,13 @@ function vehicleTag(v: DrawnVehicle, input: FrameInput, compact: boolean): Vehic
           : "plain";
   const speed = input.live.poses.get(v.vehicle.id)?.speed_mps ?? v.vehicle.speed_mps ?? 0;
   const extra = v.stale
-    ? Number.isFinite(v.ageS)
-      ? input.words.old(age(v.ageS))
-      : ""
-    : v.blocked || v.critical
-      ? input.words.activity(v.vehicle.id)
+    ? v.vehicle.link === "never"
+      ? ""
+      : Number.isFinite(v.ageS)
+        ? input.words.old(age(v.ageS))
+        : ""
+    : v.alarm !== undefined && (v.blocked || v.critical)
+      ? input.words.alarm(v.alarm)
       : v.selected && Math.abs(speed) > 0.005
         ? `${fixed(speed, 2)} m/s`
         : "";

@@ -7,19 +7,23 @@ import { detailOf } from "./view";
 const kMinLengthPx = 10;
 const kManyInView = 200;
 
-/** Everything that moves, in the order: horizon, grants, preview, loads, vehicles. */
-export function drawLive(
+/** What lies on the floor under the vehicles: horizon, grants, preview, loads. */
+export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays: MapOverlays): void {
+  const few = vehicles.length <= 40;
+  for (const v of vehicles) if (v.selected) drawRoute(pen, v);
+  for (const v of vehicles) if (!v.selected && ((few && v.moving) || v.blocker)) drawOtherRoute(pen, v);
+  drawSwept(pen, overlays);
+  for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
+  for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
+}
+
+/** The vehicles, and over them the move that is looked at. */
+export function drawBodies(
   pen: Pen,
   model: HallModel,
   vehicles: readonly DrawnVehicle[],
   overlays: MapOverlays,
 ): void {
-  const few = vehicles.length <= 40;
-  for (const v of vehicles) if (v.selected) drawRoute(pen, v);
-  for (const v of vehicles) if (!v.selected && few && v.moving) drawOtherRoute(pen, v);
-  drawSwept(pen, overlays);
-  for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
-  for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
   for (const v of vehicles) drawVehicle(pen, v);
   drawMove(pen, model, overlays);
 }

@@ -53,6 +53,15 @@ it("keeps its place while that is free", () => {
   expect(moved[0]?.slot).toBe(6);
 });
 
+it("leaves the head of an arrow free while there is another place", () => {
+  const heads = [{ minX: 239, minY: 217, maxX: 261, maxY: 239 }];
+  const one = [wish("a", 250, 200, { must: true })];
+  const [label] = placeLabels(one, { bodies: [], soft: [], frame, heads }, new Map([["a", 0]]));
+  expect(boxesMeet(boxAt(label!.x, label!.y), heads[0]!)).toBe(false);
+  const everywhere = [{ minX: 0, minY: 0, maxX: 500, maxY: 400 }];
+  expect(placeLabels(one, { bodies: [], soft: [], frame, heads: everywhere }, new Map())).toHaveLength(1);
+});
+
 const spots = fc.array(
   fc.record({
     x: fc.integer({ min: 20, max: 480 }),

@@ -20,6 +20,8 @@ export interface Obstacles {
   soft: readonly XY[][];
   /** Labels that have their place already: number plates, names of closed floor. */
   fixed?: readonly Box[];
+  /** Heads of the arrows that say where moving vehicles go: covered only by what must be said. */
+  heads?: readonly Box[];
   frame: Box;
 }
 
@@ -32,7 +34,7 @@ export interface PlacedLabel {
 
 const kGap = 5;
 export const kSlots = 24;
-const kWeight = { body: 5000, outside: 2000, label: 1000, soft: 20, moved: 30 };
+const kWeight = { body: 5000, outside: 2000, label: 1000, head: 300, soft: 20, moved: 30 };
 
 /** From here on a label stands so far out that a line has to say whose it is. */
 export const kFarSlot = 8;
@@ -87,7 +89,9 @@ export function placeLabels(
   const soft = withBounds(obstacles.soft);
   const hits = (items: typeof bodies, box: Box) =>
     items.reduce((n, item) => n + (boxesMeet(item.bounds, box) && ringMeetsBox(item.ring, box) ? 1 : 0), 0);
-  const { frame, fixed = [] } = obstacles;
+  const { frame, fixed = [], heads = [] } = obstacles;
+  const meets = (boxes: readonly Box[], box: Box) =>
+    boxes.reduce((n, other) => n + (boxesMeet(other, box) ? 1 : 0), 0);
   const taken: Box[] = [...fixed];
   const placed: PlacedLabel[] = [];
   for (const wish of [...wishes].sort((a, b) => a.rank - b.rank)) {
@@ -98,13 +102,14 @@ export function placeLabels(
       const box = boxAt(centre, wish.width, wish.height);
       const outside =
         box.minX < frame.minX || box.minY < frame.minY || box.maxX > frame.maxX || box.maxY > frame.maxY;
-      const clashes = taken.reduce((n, other) => n + (boxesMeet(other, box) ? 1 : 0), 0);
+      const clashes = meets(taken, box);
       const covered = hits(bodies, box);
       if (!wish.must && (outside || clashes > 0 || covered > 0)) continue;
       const cost =
         covered * kWeight.body +
         (outside ? kWeight.outside : 0) +
         clashes * kWeight.label +
+        meets(heads, box) * kWeight.head +
         Math.min(10, hits(soft, box)) * kWeight.soft +
         slot -
         (slot === kept ? kWeight.moved : 0);

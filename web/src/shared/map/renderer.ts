@@ -1,9 +1,10 @@
-import { alarmOf, stale as isStale } from "@/shared/live/attention";
+import { alarmOf, stale as isStale, type AlarmKind } from "@/shared/live/attention";
+import { waitChain } from "@/shared/live/waitChain";
 import { drawHall } from "./drawHall";
 import { drawRulers } from "./drawFrame";
 import { drawClosures } from "./drawClosures";
 import { LabelPainter } from "./drawLabels";
-import { drawLive } from "./drawLive";
+import { drawBodies, drawGround } from "./drawLive";
 import type { Palette } from "./palette";
 import { Pen } from "./pen";
 import type { DrawnVehicle, HallModel, LiveInput, MapLayers, MapOverlays } from "./scene";
@@ -12,7 +13,8 @@ import { toScreen, type Size, type View } from "./view";
 export interface MapWords {
   old: (age: string) => string;
   north: string;
-  activity: (vehicle: string) => string;
+  /** A kind of alarm in a word or two. */
+  alarm: (kind: AlarmKind) => string;
 }
 
 export interface FrameInput {
@@ -69,8 +71,11 @@ export class CanvasRenderer implements Renderer {
       return p.x > -200 && p.y > -200 && p.x < size.width + 200 && p.y < size.height + 200;
     });
     drawClosures(pen, input.model, input.live.closures, input.overlays);
-    drawLive(pen, input.model, inView, input.overlays);
-    if (input.layers.labels) this.labels.draw(pen, input, inView);
+    drawGround(pen, inView, input.overlays);
+    // Number plates lie on the floor: who drives over one is not hidden by it.
+    const plates = input.layers.labels ? this.labels.drawPlates(pen, input) : [];
+    drawBodies(pen, input.model, inView, input.overlays);
+    if (input.layers.labels) this.labels.drawTags(pen, input, inView, plates);
     if (input.layers.rulers) drawRulers(pen, input.model, input.words.north);
   }
 
@@ -90,8 +95,12 @@ export class CanvasRenderer implements Renderer {
 
 function drawnVehicles({ live, model, selected, nowMs }: FrameInput): DrawnVehicle[] {
   const drawn: DrawnVehicle[] = [];
+  const chosen = selected === undefined ? undefined : live.vehicles.get(selected);
+  const blockers = new Set(chosen && waitChain(chosen, live.vehicles).ids);
   for (const vehicle of live.vehicles.values()) {
-    const pose = live.poses.get(vehicle.id) ?? vehicle.pose;
+    // Who has never told is presumed at home, and its floor there is held: drawn so, as what is not known.
+    const told = live.poses.get(vehicle.id) ?? vehicle.pose;
+    const pose = told ?? (vehicle.link === "never" ? model.homeOf.get(vehicle.id) : undefined);
     const type = model.types.get(vehicle.type);
     if (pose === undefined || type === undefined) continue;
     if (vehicle.hall !== undefined && vehicle.hall !== "" && vehicle.hall !== model.hall.id) continue;
@@ -105,6 +114,8 @@ function drawnVehicles({ live, model, selected, nowMs }: FrameInput): DrawnVehic
       stale: live.linkLost || isStale(vehicle) || vehicle.link === "never",
       blocked: alarm?.priority === "high" && alarm.kind !== "silent",
       critical: alarm?.priority === "critical",
+      alarm: alarm?.kind,
+      blocker: blockers.has(vehicle.id),
       waiting: vehicle.activity === "waiting" || vehicle.activity === "paused" || vehicle.needs_resume,
       moving: vehicle.activity === "moving",
       loaded: vehicle.load_kg > 0,

@@ -13,6 +13,8 @@ import type {
   VehicleType,
 } from "@/shared/api/types";
 import { boxOf, type Box } from "@/shared/math/geometry";
+import { gatesOf, type Gate } from "./gates";
+import type { AlarmKind } from "@/shared/live/attention";
 import type { LivePose } from "@/shared/live/store";
 
 export interface SweptArea {
@@ -90,7 +92,10 @@ export interface HallModel {
   markers: readonly Marker[];
   types: ReadonlyMap<string, VehicleType>;
   typeOf: ReadonlyMap<string, string>;
+  /** Where each vehicle is at home, for those at home in this hall. */
+  homeOf: ReadonlyMap<string, Pose>;
   lanes: readonly Lane[];
+  gates: readonly Gate[];
   /** Half length and half width of the bracket drawn at a station. */
   bracket: ReadonlyMap<string, Bracket>;
 }
@@ -155,7 +160,14 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
     markers: here(plant.markers),
     types: new Map(plant.vehicle_types.map((type) => [type.id, type])),
     typeOf: new Map(plant.vehicles.map((v) => [v.id, v.type])),
+    homeOf: new Map(
+      plant.vehicles.flatMap((v) => {
+        const home = stations.find((s) => s.id === v.home);
+        return home === undefined ? [] : [[v.id, home.pose] as const];
+      }),
+    ),
     lanes,
+    gates: gatesOf(here(plant.areas), hall.outline),
     bracket: new Map(stations.map((station) => [station.id, bracketOf(station, plant)])),
   };
 }
@@ -169,6 +181,9 @@ export interface DrawnVehicle {
   stale: boolean;
   blocked: boolean;
   critical: boolean;
+  alarm: AlarmKind | undefined;
+  /** The selected one waits for it, or for one that waits for it. */
+  blocker: boolean;
   waiting: boolean;
   moving: boolean;
   loaded: boolean;
