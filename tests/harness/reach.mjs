@@ -1,8 +1,8 @@
 // What a finger can not reach on the page shown: too wide, too small, cut off or covered. Runs in the page.
 
 /** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. */
-export async function reachFaultsOf(page, { least = 44 } = {}) {
-  return page.evaluate((smallest) => {
+export async function reachFaultsOf(page, { least = 44, pause: hasPause = true } = {}) {
+  return page.evaluate(([smallest, withPause]) => {
     const faults = [];
     const kCommands = "button, a[href], input, select, summary, canvas[tabindex], [role=option], [role=radio], [role=tab]";
     const nameOf = (e) => `${e.tagName.toLowerCase()}.${[...e.classList].join(".")} "${(e.getAttribute("aria-label") ?? e.textContent ?? "").trim().slice(0, 30)}"`;
@@ -12,11 +12,11 @@ export async function reachFaultsOf(page, { least = 44 } = {}) {
       const over = e.scrollWidth - e.clientWidth;
       if (over > 1 && e.clientWidth > 0 && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)) faults.push(`${nameOf(e)} scrolls sideways by ${over} px`);
     }
-    const pause = document.querySelector("button.pause");
+    const pause = withPause ? document.querySelector("button.pause") : undefined;
     if (pause === null) faults.push("there is no Pause fleet");
-    else {
+    else if (pause !== undefined) {
       const r = pause.getBoundingClientRect();
-      if (r.left < 0 || r.top < 0 || r.right > innerWidth + 0.5 || r.bottom > innerHeight + 0.5) faults.push("Pause fleet is off the screen");
+      if (r.left < 0 || r.bottom > innerHeight + 0.5 || Math.abs(r.top) > 0.5 || Math.abs(r.right - innerWidth) > 0.5) faults.push("Pause fleet is not in its corner");
       for (const x of [r.left + 4, (r.left + r.right) / 2, r.right - 4]) {
         if (!pause.contains(document.elementFromPoint(x, (r.top + r.bottom) / 2))) faults.push("Pause fleet is covered");
       }
@@ -43,5 +43,5 @@ export async function reachFaultsOf(page, { least = 44 } = {}) {
     }
     for (const e of document.querySelectorAll("*")) if (e.scrollTop > 0) e.scrollTop = 0;
     return [...new Set(faults)];
-  }, least);
+  }, [least, hasPause]);
 }

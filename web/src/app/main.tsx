@@ -4,10 +4,9 @@ import { createRoot } from "react-dom/client";
 import { ApiProblem } from "@/shared/api/problem";
 import { startI18n } from "@/shared/i18n/setup";
 import { loadSession } from "@/shared/live/session";
-import "@/shared/styles/tokens.css";
-import "@/shared/styles/components.css";
 import "./app.css";
 import { Sprite } from "@/shared/ui";
+import "@/shared/styles/stale.css";
 import { App } from "./App";
 
 const queries = new QueryClient({

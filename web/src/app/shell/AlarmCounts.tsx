@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import { alarms, useLinkLost, useVehicles } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { StatusSymbol, type SymbolName } from "@/shared/ui";
+import "./AlarmCounts.css";
 
 const kRows = [
   { priority: "critical", cls: "has-1", symbol: "a-1" },

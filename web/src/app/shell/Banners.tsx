@@ -17,6 +17,7 @@ import { navigate } from "@/shared/router";
 import { Banner, Button, goGuard } from "@/shared/ui";
 import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { PauseBanner } from "./PauseBanner";
+import "./Banners.css";
 
 /** A cut shorter than this is not worth a word: a page that just loaded, a reconnect. */
 const kGraceMs = 300;

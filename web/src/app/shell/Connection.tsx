@@ -2,6 +2,7 @@ import { useTranslation } from "react-i18next";
 import { age } from "@/shared/i18n/format";
 import { useFleet, useLink } from "@/shared/live";
 import { Icon, StatusSymbol } from "@/shared/ui";
+import "./Connection.css";
 
 /** Link to the server with the age of its newest data, and how many vehicles are heard. */
 export function Connection() {

@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import { fleetHalt, useCommandsEnabled, useFleet, useMayCommand, useVehicles } from "@/shared/live";
 import { goGuard, Icon } from "@/shared/ui";
+import "./PauseFleet.css";
 
 /**
  * Always the top right corner. One press, no dialog, and it can never let anything go: while the fleet is

@@ -6,6 +6,7 @@ import { silent, useVehicles } from "@/shared/live";
 import { Button, CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { resumeGroups, tickedAtFirst } from "./resumeGroups";
+import "./ResumePanel.css";
 
 /** Lists who stands by whose word; the person ticks the vehicles they have looked at and lets them go. */
 export function ResumePanel({ onClose }: { onClose: () => void }) {

@@ -6,13 +6,13 @@ import { useTheme } from "@/shared/i18n/useTheme";
 import { Link, useLocation } from "@/shared/router";
 import { timeOfDay } from "@/shared/i18n/format";
 import { Button, Icon, type IconName } from "@/shared/ui";
-import "./shell-narrow.css";
 import { AlarmCounts } from "./AlarmCounts";
 import { Banners } from "./Banners";
 import { Connection } from "./Connection";
 import { PauseFleet } from "./PauseFleet";
 import { ResumePanel } from "./ResumePanel";
 import { UserMenu } from "./UserMenu";
+import "./Shell.css";
 
 const kScreens: readonly { name: string; icon: IconName }[] = [
   { name: "map", icon: "map" },

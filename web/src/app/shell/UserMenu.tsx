@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import { useSession } from "@/shared/live";
 import { signOut } from "@/shared/live/session";
 import { Button } from "@/shared/ui";
+import "./UserMenu.css";
 
 const initials = (name: string) =>
   name

@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { StatusSymbol, type SymbolName } from "./Icon";
+import "./Banner.css";
 
 /** `held`: no alarm, but a state that a person has made and that a person ends. */
 export type Priority = "critical" | "high" | "low" | "held";

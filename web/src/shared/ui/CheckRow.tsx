@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { age } from "@/shared/words/format";
 import { StatusSymbol } from "./Icon";
+import "./CheckRow.css";
 
 export type CheckResult = "pass" | "note" | "fail";
 

@@ -4,6 +4,7 @@ import { ApiProblem } from "@/shared/api/problem";
 import { problemText } from "@/shared/i18n/reasons";
 import { Button } from "./Button";
 import { StatusSymbol } from "./Icon";
+import "./Panel.css";
 
 /** Grey shapes of the answer, from 300 ms on. No spinner. */
 export function PanelLoading({ what }: { what: string }) {

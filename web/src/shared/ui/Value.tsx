@@ -1,6 +1,7 @@
 import type { ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { age, number, timeOfDay } from "@/shared/words/format";
+import "./Value.css";
 
 /** Freshness of a value. Thresholds as the fleet's: late 2 s, lost 10 s. */
 export type Freshness = "live" | "late" | "lost" | "never";

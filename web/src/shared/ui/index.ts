@@ -1,3 +1,9 @@
+// Looks that the components build on, so that they come before each component's own wherever the bundler puts it.
+import "@/shared/styles/tokens.css";
+import "@/shared/styles/components.css";
+import "@/shared/styles/segmented.css";
+import "@/shared/styles/pages.css";
+import "@/shared/styles/tables.css";
 export { Banner, prioritySymbol, type Priority } from "./Banner";
 export { Button, type ButtonProps } from "./Button";
 export { Card, type CardProps } from "./Card";
