@@ -16,6 +16,8 @@ export interface Words {
   fault: (type: string) => string;
   /** Name of a wheel in words, where it is one that wheels usually have. */
   wheel: (name: string) => string;
+  /** The same as short as drawings need it. */
+  wheelLabel: (name: string) => string;
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
@@ -47,9 +49,12 @@ export function useWords(): Words {
       wall: t("words:wall"),
       map: t("words:map_obstacle"),
     };
+    const ofWheel = (catalog: string, name: string) =>
+      t(`alarms:${catalog}.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name });
     const names: Names = {
       vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? obstacles[id],
       station: (id) => stations.get(id),
+      wheel: (name) => ofWheel("wheel_name", name),
     };
     return {
       names,
@@ -57,8 +62,8 @@ export function useWords(): Words {
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
       fault: (type) => faultText(type, t),
-      wheel: (name) =>
-        t(`alarms:wheel_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name }),
+      wheel: (name) => ofWheel("wheel_name", name),
+      wheelLabel: (name) => ofWheel("wheel_label", name),
       stationNumber: (id) => stations.get(id) ?? id,
       mode: (mode) => t(`words:mode.${mode}`),
       modeShort: (mode) => t(`words:mode_short.${mode}`),

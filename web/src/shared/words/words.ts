@@ -5,6 +5,7 @@ import { parameter } from "./format";
 export interface Names {
   vehicle: (id: string) => string | undefined;
   station: (id: string) => string | undefined;
+  wheel?: (name: string) => string | undefined;
 }
 export const noNames: Names = { vehicle: () => undefined, station: () => undefined };
 
@@ -21,6 +22,7 @@ export function paramText(name: string, value: string | number | boolean, names:
     return names.vehicle(String(value)) ?? names.station(String(value)) ?? String(value);
   if (stationParams.has(name))
     return names.station(String(value)) ?? names.vehicle(String(value)) ?? String(value);
+  if (name === "wheel") return names.wheel?.(String(value)) ?? String(value);
   return typeof value === "number" ? parameter(name, value) : value;
 }
 
@@ -28,7 +30,8 @@ export function paramText(name: string, value: string | number | boolean, names:
 export function named(params: Params, names: Names): Params {
   const out: Params = {};
   for (const [name, value] of Object.entries(params)) {
-    const isId = typeof value === "string" && (vehicleParams.has(name) || stationParams.has(name));
+    const isId =
+      typeof value === "string" && (vehicleParams.has(name) || stationParams.has(name) || name === "wheel");
     out[name] = isId ? paramText(name, value, names) : value;
   }
   return out;

@@ -39,6 +39,11 @@ function allowedOf({ system: { plant: { model } } }) {
     ...model.markers.map((marker) => marker.payload),
     ...inNames.map(([word]) => word),
     /JO-\d+/, // orders are called so on the floor
+    /token:[0-9a-f]+/, // who acted, where it was a program
+    "Work", // what a person wrote beside closed floor
+    "IGPS", "MES", // what the field calls them, iGPS in a caption of capitals
+    "dx", "dy", // the papers' symbols
+    "px",
     "mm", "km", "m/s", "kN", "kg", "min", // units
     "PDF", "SVG", // kinds of files
   ];
