@@ -216,7 +216,7 @@ test("both press Start at the same moment: one drives, the other waits behind it
 });
 
 test("at three sizes and in both languages the note fits, and all of it is in reach", async () => {
-  const order = await client.order("TP-01", [7]);
+  const order = await client.order("TP-01", [7, 2, 7, 2]); // long enough for four pages
   await client.untilVehicle("TP-01", (v) => v.activity === "moving", "drives");
   for (const [width, height, lang, theme] of [[390, 844, "zh", "light"], [390, 844, "en", "dark"], [1024, 768, "en", "light"], [1920, 1080, "zh", "dark"]]) {
     const page = await openSend("anna", 3, { width, height, lang, theme, bypassCSP: true });
