@@ -1,8 +1,8 @@
 // What a finger can not reach on the page shown: too wide, too small, cut off or covered. Runs in the page.
 
-/** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. */
-export async function reachFaultsOf(page, { least = 44, pause: hasPause = true } = {}) {
-  return page.evaluate(([smallest, withPause]) => {
+/** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. `within`: a panel that lies over the rest. */
+export async function reachFaultsOf(page, { least = 44, pause: hasPause = true, within = "body" } = {}) {
+  return page.evaluate(([smallest, withPause, panel]) => {
     const faults = [];
     const kCommands = "button, a[href], input, select, summary, canvas[tabindex], [role=option], [role=radio], [role=tab]";
     const nameOf = (e) => `${e.tagName.toLowerCase()}.${[...e.classList].join(".")} "${(e.getAttribute("aria-label") ?? e.textContent ?? "").trim().slice(0, 30)}"`;
@@ -21,7 +21,7 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true }
         if (!pause.contains(document.elementFromPoint(x, (r.top + r.bottom) / 2))) faults.push("Pause fleet is covered");
       }
     }
-    for (const e of document.querySelectorAll(kCommands)) {
+    for (const e of document.querySelector(panel).querySelectorAll(kCommands)) {
       if (e.closest(".skip, .sr-only, .unseen") !== null || !e.checkVisibility({ visibilityProperty: true })) continue;
       const target = e.tagName === "INPUT" ? (e.closest("label") ?? e) : e;
       target.scrollIntoView({ block: "center", inline: "nearest", behavior: "instant" });
@@ -43,5 +43,5 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true }
     }
     for (const e of document.querySelectorAll("*")) if (e.scrollTop > 0) e.scrollTop = 0;
     return [...new Set(faults)];
-  }, [least, hasPause]);
+  }, [least, hasPause, within]);
 }

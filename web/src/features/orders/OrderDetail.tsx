@@ -3,6 +3,7 @@ import type { JobOrder } from "@/shared/api/types";
 import { useServerNow, useStopRecords } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Card, StatusSymbol } from "@/shared/ui";
+import { useNarrow } from "@/shared/ui/useNarrow";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
@@ -14,6 +15,7 @@ import { doneSteps, isOpen, stateSymbol } from "./orderLook";
 export function OrderDetail({ order }: { order: JobOrder }) {
   const { t } = useTranslation(["orders", "words"]);
   const words = useWords();
+  const narrow = useNarrow();
   const now = useServerNow(60_000);
   const stops = useStopRecords();
   const vehicle = order.vehicle || order.wanted_vehicle;
@@ -22,6 +24,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
   return (
     <Card
       className="odetail"
+      level={narrow ? 1 : 2}
       title={t("detail.title", { name: order.name })}
       right={
         <Link className="btn quiet" to="/orders">
@@ -109,7 +112,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
         <dd>
           {dateTime(order.created_at, now)}
           {t("join")}
-          {t("detail.by", { actor: order.created_by })}
+          {t("detail.by", { actor: words.actor(order.created_by) })}
         </dd>
         <dt>{t("detail.started")}</dt>
         <dd>{dateTime(order.started_at, now)}</dd>

@@ -4,6 +4,7 @@ import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason } from "@/shared/api/types";
 import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
 import { usePlant } from "@/shared/live";
+import { actorText } from "./actor";
 import { faultText } from "./faults";
 import { named, type Names, type Template } from "./words";
 
@@ -13,6 +14,8 @@ export interface Words {
   /** A problem in words: by its code when that is known, else the server's own sentence. */
   problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
   vehicle: (id: string) => string;
+  /** Who did something: a person, or a program with a token. */
+  actor: (actor: string) => string;
   fault: (type: string) => string;
   /** Name of a wheel in words, where it is one that wheels usually have. */
   wheel: (name: string) => string;
@@ -50,12 +53,14 @@ export function useWords(): Words {
     const names: Names = {
       vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? obstacles[id],
       station: (id) => stations.get(id),
+      actor: (actor) => actorText(actor, t),
     };
     return {
       names,
       reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
+      actor: names.actor,
       fault: (type) => faultText(type, t),
       wheel: (name) =>
         t(`alarms:wheel_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name }),

@@ -5,20 +5,25 @@ import { parameter } from "./format";
 export interface Names {
   vehicle: (id: string) => string | undefined;
   station: (id: string) => string | undefined;
+  actor: (actor: string) => string;
 }
-export const noNames: Names = { vehicle: () => undefined, station: () => undefined };
+export const noNames: Names = { vehicle: () => undefined, station: () => undefined, actor: (actor) => actor };
 
 /** Raw template of a key; undefined when there is none. */
 export type Template = (key: string) => string | undefined;
 
 const vehicleParams = new Set(["vehicle", "by", "blocked_by", "nearest", "holder"]);
 const stationParams = new Set(["station", "from", "to"]);
+/** A vehicle or a person: "by" is said of both. */
+const actorParams = new Set(["actor", "by"]);
+const isId = (name: string) => vehicleParams.has(name) || stationParams.has(name) || actorParams.has(name);
 
 /** One parameter in words. */
 export function paramText(name: string, value: string | number | boolean, names: Names): string {
   if (typeof value === "boolean") return value ? "\u2713" : "\u2717";
   if (vehicleParams.has(name))
-    return names.vehicle(String(value)) ?? names.station(String(value)) ?? String(value);
+    return names.vehicle(String(value)) ?? names.station(String(value)) ?? names.actor(String(value));
+  if (actorParams.has(name)) return names.actor(String(value));
   if (stationParams.has(name))
     return names.station(String(value)) ?? names.vehicle(String(value)) ?? String(value);
   return typeof value === "number" ? parameter(name, value) : value;
@@ -28,8 +33,7 @@ export function paramText(name: string, value: string | number | boolean, names:
 export function named(params: Params, names: Names): Params {
   const out: Params = {};
   for (const [name, value] of Object.entries(params)) {
-    const isId = typeof value === "string" && (vehicleParams.has(name) || stationParams.has(name));
-    out[name] = isId ? paramText(name, value, names) : value;
+    out[name] = typeof value === "string" && isId(name) ? paramText(name, value, names) : value;
   }
   return out;
 }
