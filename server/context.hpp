@@ -55,7 +55,4 @@ struct Context {
     fleet::OrderPreviewer orders = {};
 };
 
-/// A request that asks to become a WebSocket, and what came behind it.
-using Upgrade = http::request<http::string_body>;
-
 }  // namespace pulseline::server

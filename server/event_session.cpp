@@ -54,11 +54,10 @@ net::awaitable<Result<std::string>> read_behind(Context& context, const api::Req
     co_return text;
 }
 
-template <class Stream>
-net::awaitable<bool> send_text(Context& context, Stream& stream, unsigned version,
+net::awaitable<bool> send_text(Context& context, ByteStream& stream, unsigned version,
                                const std::string& text) {
     error_code ec;
-    beast::get_lowest_layer(stream).expires_after(context.options.limits.write_time);
+    stream.lowest().expires_after(context.options.limits.write_time);
     if (version >= 11) {
         co_await net::async_write(stream, http::make_chunk(net::buffer(text)), into(ec));
     } else {
@@ -67,8 +66,7 @@ net::awaitable<bool> send_text(Context& context, Stream& stream, unsigned versio
     co_return !ec;
 }
 
-template <class Stream>
-net::awaitable<bool> send_head(Context& context, Stream& stream, const api::Request& request,
+net::awaitable<bool> send_head(Context& context, ByteStream& stream, const api::Request& request,
                                unsigned version) {
     http::response<http::empty_body> head;
     head.version(version);
@@ -82,7 +80,7 @@ net::awaitable<bool> send_head(Context& context, Stream& stream, const api::Requ
     head.keep_alive(false);
     http::response_serializer<http::empty_body> serializer(head);
     error_code ec;
-    beast::get_lowest_layer(stream).expires_after(context.options.limits.write_time);
+    stream.lowest().expires_after(context.options.limits.write_time);
     co_await http::async_write_header(stream, serializer, into(ec));
     co_return !ec;
 }
@@ -115,8 +113,7 @@ struct Counted {
 
 }  // namespace
 
-template <class Stream>
-net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request,
+net::awaitable<void> event_session(Context& context, ByteStream& stream, api::Request request,
                                    unsigned version) {
     const auto slot = context.streams.take(request.identity.name);
     auto start = start_behind(request, context.hub.last_event_seq());
@@ -156,8 +153,5 @@ net::awaitable<void> event_session(Context& context, Stream& stream, api::Reques
         co_await net::async_write(stream, http::make_chunk_last(), into(ec));
     }
 }
-
-template net::awaitable<void> event_session(Context&, PlainStream&, api::Request, unsigned);
-template net::awaitable<void> event_session(Context&, TlsStream&, api::Request, unsigned);
 
 }  // namespace pulseline::server

@@ -40,10 +40,9 @@ void add_security_headers(http::fields& fields, bool tls) {
     if (tls) fields.set("Strict-Transport-Security", "max-age=31536000");
 }
 
-template <class Stream>
-net::awaitable<bool> write_response(Context& context, Stream& stream, const api::Request& request,
-                                    const api::Response& response, unsigned version,
-                                    bool keep_alive, const Asset* asset) {
+net::awaitable<bool> write_response(Context& context, ByteStream& stream,
+                                    const api::Request& request, const api::Response& response,
+                                    unsigned version, bool keep_alive, const Asset* asset) {
     http::response<http::span_body<const char>> out;
     out.version(version);
     out.keep_alive(keep_alive);
@@ -69,7 +68,7 @@ net::awaitable<bool> write_response(Context& context, Stream& stream, const api:
     if (!bodyless) out.content_length(out.body().size());
     if (bodyless || request.method == "HEAD") out.body() = {};
 
-    beast::get_lowest_layer(stream).expires_after(context.options.limits.write_time);
+    stream.lowest().expires_after(context.options.limits.write_time);
     error_code ec;
     http::response_serializer<http::span_body<const char>> serializer(out);
     if (request.method == "HEAD") {
@@ -79,10 +78,5 @@ net::awaitable<bool> write_response(Context& context, Stream& stream, const api:
     }
     co_return !ec && keep_alive;
 }
-
-template net::awaitable<bool> write_response(Context&, PlainStream&, const api::Request&,
-                                             const api::Response&, unsigned, bool, const Asset*);
-template net::awaitable<bool> write_response(Context&, TlsStream&, const api::Request&,
-                                             const api::Response&, unsigned, bool, const Asset*);
 
 }  // namespace pulseline::server

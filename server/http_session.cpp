@@ -20,9 +20,6 @@ constexpr auto kBodyStart = std::chrono::seconds(2);
 
 constexpr std::size_t kMostPathLogged = 256;
 
-template <class Stream>
-constexpr bool kIsTls = std::is_same_v<Stream, TlsStream>;
-
 /// How the reading of a request's head ended.
 struct Incoming {
     error_code ec;
@@ -31,26 +28,23 @@ struct Incoming {
 };
 
 /// Bytes that the other side has not taken yet.
-template <class Stream>
-int unread(Stream& stream) {
+int unread(ByteStream& stream) {
     int bytes = 0;
-    ::ioctl(beast::get_lowest_layer(stream).socket().native_handle(), SIOCOUTQ, &bytes);
+    ::ioctl(stream.lowest().socket().native_handle(), SIOCOUTQ, &bytes);
     return bytes;
 }
 
 /// Abruptly: close() throws away what the other side has not read. Who reads slowly is then cut and
 /// not served by the kernel for as long as it likes.
-template <class Stream>
-void end_abruptly(Stream& stream, bool abruptly) {
+void end_abruptly(ByteStream& stream, bool abruptly) {
     error_code ec;
-    beast::get_lowest_layer(stream).socket().set_option(net::socket_base::linger(abruptly, 0), ec);
+    stream.lowest().socket().set_option(net::socket_base::linger(abruptly, 0), ec);
 }
 
-template <class Stream>
-net::awaitable<Incoming> read_head(Context& context, Stream& stream, beast::flat_buffer& buffer,
+net::awaitable<Incoming> read_head(Context& context, ByteStream& stream, beast::flat_buffer& buffer,
                                    Parser& parser, bool first) {
     const Limits& limits = context.options.limits;
-    auto& socket = beast::get_lowest_layer(stream);
+    auto& socket = stream.lowest();
     Incoming in;
     in.begin = Steady::now();
     if (buffer.size() == 0) {
@@ -116,11 +110,11 @@ BodyRule body_rule(Context& context, api::Request request, const Parser& parser)
 }
 
 /// Reads the body, which must come in time and at a rate that is no siege.
-template <class Stream>
-net::awaitable<error_code> read_body(Context& context, Stream& stream, beast::flat_buffer& buffer,
-                                     Parser& parser, Steady::time_point begin) {
+net::awaitable<error_code> read_body(Context& context, ByteStream& stream,
+                                     beast::flat_buffer& buffer, Parser& parser,
+                                     Steady::time_point begin) {
     const Limits& limits = context.options.limits;
-    auto& socket = beast::get_lowest_layer(stream);
+    auto& socket = stream.lowest();
     error_code ec;
     if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
         static constexpr std::string_view kContinue = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -139,13 +133,12 @@ net::awaitable<error_code> read_body(Context& context, Stream& stream, beast::fl
 
 /// Ends the connection. With `linger` what the client still sends is read and dropped: a close with
 /// unread bytes would reset the connection and take our last answer with it.
-template <class Stream>
-net::awaitable<void> close_gently(Stream& stream, bool linger) {
-    auto& socket = beast::get_lowest_layer(stream);
+net::awaitable<void> close_gently(ByteStream& stream, bool linger) {
+    auto& socket = stream.lowest();
     error_code ec;
     end_abruptly(stream, false);
     socket.expires_after(std::chrono::seconds(1));
-    if constexpr (kIsTls<Stream>) co_await stream.async_shutdown(into(ec));
+    if (stream.is_tls()) co_await stream.say_goodbye();
     socket.socket().shutdown(tcp::socket::shutdown_send, ec);
     std::array<char, 8192> sink{};
     std::size_t total = 0;
@@ -236,34 +229,32 @@ api::Response upgrade_required(const api::Request& request) {
 }
 
 /// A request of which no more is known than that it cannot be answered.
-template <class Stream>
-api::Request unreadable(const Upgrade& message, const std::string& peer) {
+api::Request unreadable(const Upgrade& message, const std::string& peer, bool tls) {
     api::Request partial;
     partial.peer = peer;
-    partial.secure = kIsTls<Stream>;
+    partial.secure = tls;
     partial.method = message.method() == http::verb::head ? "HEAD" : "GET";
     partial.request_id = request_id(message["X-Request-Id"]);
     return partial;
 }
 
 /// The request without its body, or the answer to what is no request.
-template <class Stream>
 tl::expected<api::Request, api::Response> understand(Context& context, const Upgrade& message,
-                                                     const std::string& peer) {
-    auto read = to_request(context.options.limits, context.proxies, message, peer, kIsTls<Stream>);
+                                                     const std::string& peer, bool tls) {
+    auto read = to_request(context.options.limits, context.proxies, message, peer, tls);
     if (read) return std::move(*read);
-    const auto partial = unreadable<Stream>(message, peer);
+    const auto partial = unreadable(message, peer, tls);
     return tl::unexpected<api::Response>(
         api::bad_request(partial, read.error().reason.code, read.error().what));
 }
 
 }  // namespace
 
-template <class Stream>
-net::awaitable<Next> http_session(Context& context, Stream stream, std::string peer) {
+net::awaitable<Next> http_session(Context& context, ByteStream stream, std::string peer) {
     const Limits& limits = context.options.limits;
+    const bool tls = stream.is_tls();
     error_code ignored;
-    beast::get_lowest_layer(stream).socket().set_option(
+    stream.lowest().socket().set_option(
         net::socket_base::send_buffer_size(limits.send_buffer_bytes), ignored);
     beast::flat_buffer buffer(limits.header_bytes + 64 * 1024);
     bool keep = true;
@@ -282,7 +273,7 @@ net::awaitable<Next> http_session(Context& context, Stream stream, std::string p
         std::optional<api::Request> understood;
         BodyRule rule;
         if (!in.ec) {
-            auto read = understand<Stream>(context, parser.get(), peer);
+            auto read = understand(context, parser.get(), peer, tls);
             if (read) {
                 understood = std::move(*read);
             } else {
@@ -299,12 +290,12 @@ net::awaitable<Next> http_session(Context& context, Stream stream, std::string p
         }
         const auto start = Steady::now();
         if (in.ec) {
-            refusal = answer_to(in.ec, unreadable<Stream>(parser.get(), peer), rule.most_bytes);
+            refusal = answer_to(in.ec, unreadable(parser.get(), peer, tls), rule.most_bytes);
             if (!refusal) break;
         }
         if (refusal) {
             linger = true;
-            const auto partial = understood ? *understood : unreadable<Stream>(parser.get(), peer);
+            const auto partial = understood ? *understood : unreadable(parser.get(), peer, tls);
             note(context, partial, "unreadable", refusal->status, start);
             co_await write_response(context, stream, partial, *refusal, version, false);
             break;
@@ -353,8 +344,5 @@ net::awaitable<Next> http_session(Context& context, Stream stream, std::string p
     co_await close_gently(stream, linger);
     co_return std::nullopt;
 }
-
-template net::awaitable<Next> http_session(Context&, PlainStream, std::string);
-template net::awaitable<Next> http_session(Context&, TlsStream, std::string);
 
 }  // namespace pulseline::server

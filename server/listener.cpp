@@ -37,12 +37,12 @@ net::awaitable<Next> first_session(Context& context, tcp::socket socket, Tls* tl
                                    std::string peer) {
     error_code ec;
     socket.set_option(tcp::no_delay(true), ec);
-    PlainStream plain(std::move(socket));
-    if (!tls) co_return co_await http_session(context, std::move(plain), std::move(peer));
-    TlsStream stream(std::move(plain), tls->context);
-    beast::get_lowest_layer(stream).expires_after(context.options.limits.tls_handshake);
-    co_await stream.async_handshake(ssl::stream_base::server, into(ec));
-    if (ec) co_return std::nullopt;
+    if (!tls) {
+        co_return co_await http_session(context, ByteStream(std::move(socket)), std::move(peer));
+    }
+    ByteStream stream(std::move(socket), tls->context);
+    stream.lowest().expires_after(context.options.limits.tls_handshake);
+    if (co_await stream.handshake(ssl::stream_base::server)) co_return std::nullopt;
     co_return co_await http_session(context, std::move(stream), std::move(peer));
 }
 

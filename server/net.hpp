@@ -33,10 +33,6 @@ namespace ssl = boost::asio::ssl;
 using tcp = net::ip::tcp;
 using error_code = boost::system::error_code;
 
-// As beast::tcp_stream, and can be told how many bytes a second it takes.
-using PlainStream = beast::basic_stream<tcp, tcp::socket::executor_type, beast::simple_rate_policy>;
-using TlsStream = beast::ssl_stream<PlainStream>;
-
 /// co_await op(..., into(ec)): an expected ending is a value, not an exception.
 inline auto into(error_code& ec) { return net::redirect_error(net::use_awaitable, ec); }
 

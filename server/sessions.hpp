@@ -4,8 +4,9 @@
 #include <string>
 
 #include "server/context.hpp"
+#include "server/web_socket.hpp"
 
-/// One coroutine each. Stream is PlainStream or TlsStream; both are instantiated in the .cpp.
+/// What a connection is: one coroutine each.
 namespace pulseline::server {
 
 /// What a connection goes on as when its HTTP is over: not started yet, and nothing of what HTTP
@@ -13,29 +14,25 @@ namespace pulseline::server {
 using Next = std::optional<net::awaitable<void>>;
 
 /// Reads, routes and answers requests until the connection ends or becomes something else.
-template <class Stream>
-net::awaitable<Next> http_session(Context& context, Stream stream, std::string peer);
+net::awaitable<Next> http_session(Context& context, ByteStream stream, std::string peer);
 
 /// /api/v1/stream, after the identity and origin were checked.
-template <class Stream>
-net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upgrade,
+net::awaitable<void> stream_session(Context& context, ByteStream stream, Upgrade upgrade,
                                     api::Request request);
 
 /// /api/v1/events.
-template <class Stream>
-net::awaitable<void> event_session(Context& context, Stream& stream, api::Request request,
+net::awaitable<void> event_session(Context& context, ByteStream& stream, api::Request request,
                                    unsigned version);
 
 /// /vehicles/{manufacturer}/{serialNumber}, after the token was checked.
-template <class Stream>
-net::awaitable<void> vehicle_session(Context& context, Stream stream, Upgrade upgrade,
+net::awaitable<void> vehicle_session(Context& context, ByteStream stream, Upgrade upgrade,
                                      plant::VehicleId vehicle);
 
 /// Writes an answer with the headers every answer has. False when the connection is to be closed.
-template <class Stream>
-net::awaitable<bool> write_response(Context& context, Stream& stream, const api::Request& request,
-                                    const api::Response& response, unsigned version,
-                                    bool keep_alive, const Asset* asset = nullptr);
+net::awaitable<bool> write_response(Context& context, ByteStream& stream,
+                                    const api::Request& request, const api::Response& response,
+                                    unsigned version, bool keep_alive,
+                                    const Asset* asset = nullptr);
 
 /// Headers that tell browsers what not to do.
 void add_security_headers(http::fields& fields, bool tls);

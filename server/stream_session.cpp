@@ -42,14 +42,18 @@ private:
     Clock::time_point asked_{};
 };
 
-template <class Stream>
 struct Session {
-    Session(Context& c, Stream s, access::Identity who)
-        : context(c), socket(std::move(s)), identity(std::move(who)), signal(c.io) {}
+    Session(Context& c, ByteStream s, access::Identity who)
+        : context(c),
+          socket(std::move(s), {.most_bytes = c.options.limits.stream_message_bytes,
+                                .idle = c.options.limits.stream_dead,
+                                .pings = true}),
+          identity(std::move(who)),
+          signal(c.io) {}
     ~Session() { context.hub.remove(client); }
 
     Context& context;
-    websocket::stream<Stream> socket;
+    WebSocket socket;
     access::Identity identity;
     StreamClient client;
     Signal signal;
@@ -71,43 +75,34 @@ struct Session {
     }
 };
 
-template <class Stream>
-net::awaitable<void> close_socket(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<void> close_socket(std::shared_ptr<Session> session) {
     // A reader that never reads would never answer either.
     net::steady_timer timer(session->context.io, kCloseTime);
     timer.async_wait([session](const error_code& ec) {
-        if (!ec) beast::get_lowest_layer(session->socket).cancel();
+        if (!ec) session->socket.cancel();
     });
-    error_code ec;
-    co_await session->socket.async_close(
-        websocket::close_reason(static_cast<websocket::close_code>(session->close_with),
-                                session->close_reason),
-        into(ec));
+    co_await session->socket.close(session->close_with, session->close_reason);
     timer.cancel();
-    beast::get_lowest_layer(session->socket).close();
+    session->socket.close_now();
 }
 
 /// The next piece of the frame that is being written, and a ping behind it when one is due.
-template <class Stream>
-net::awaitable<error_code> write_piece(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<error_code> write_piece(std::shared_ptr<Session> session) {
     auto& [frame, at] = session->writing;
     Pace& pace = session->pace;
-    error_code ec;
     const std::size_t bytes = std::min(pace.piece_bytes(), frame->size() - at);
     const bool is_last = at + bytes == frame->size();
-    co_await session->socket.async_write_some(is_last, net::buffer(frame->data() + at, bytes),
-                                              into(ec));
+    error_code ec = co_await session->socket.write_piece({frame->data() + at, bytes}, is_last);
     at += bytes;
     if (is_last) session->writing = {};
     if (!ec && pace.must_ask(Pace::Clock::now())) {
         pace.asked(Pace::Clock::now());
-        co_await session->socket.async_ping(Pace::kMark, into(ec));
+        ec = co_await session->socket.ping(Pace::kMark);
     }
     co_return ec;
 }
 
-template <class Stream>
-net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
     auto& context = session->context;
     while (!session->ended) {
         if (session->client.overflowed) session->close(1013, "too slow, come back");
@@ -131,21 +126,16 @@ net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
     }
     context.hub.remove(session->client);
     session->client.subscribed = false;
-    beast::get_lowest_layer(session->socket).cancel();
+    session->socket.cancel();
 }
 
 /// Dashboards have nothing to say; what they send is only counted.
-template <class Stream>
-net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<void> read_loop(std::shared_ptr<Session> session) {
     const auto& limits = session->context.options.limits;
-    beast::flat_buffer buffer(limits.stream_message_bytes + 1024);
     auto window = std::chrono::steady_clock::now();
     int count = 0;
     for (;;) {
-        error_code ec;
-        co_await session->socket.async_read(buffer, into(ec));
-        if (ec) break;
-        buffer.clear();
+        if (co_await session->socket.read()) break;
         const auto now = std::chrono::steady_clock::now();
         if (now - window >= std::chrono::seconds(1)) {
             window = now;
@@ -167,44 +157,28 @@ void rethrow(const std::exception_ptr& error) {
 
 /// The WebSocket, or none when the other side did not see it through. What only the greeting needs
 /// ends with it: a dashboard stays for days.
-template <class Stream>
-net::awaitable<std::shared_ptr<Session<Stream>>> accept(Context& context, Stream stream,
-                                                        Upgrade upgrade, api::Request request) {
+net::awaitable<std::shared_ptr<Session>> accept(Context& context, ByteStream stream,
+                                                Upgrade upgrade, api::Request request) {
     error_code ec;
     // Old poses in a long kernel queue would look new.
-    beast::get_lowest_layer(stream).socket().set_option(net::socket_base::send_buffer_size(65536),
-                                                        ec);
-    beast::get_lowest_layer(stream).expires_never();  // the WebSocket keeps its own time
-    beast::get_lowest_layer(stream).rate_policy().read_limit(
-        context.options.limits.stream_bytes_per_second);
+    stream.lowest().socket().set_option(net::socket_base::send_buffer_size(65536), ec);
+    stream.lowest().rate_policy().read_limit(context.options.limits.stream_bytes_per_second);
     auto session =
-        std::make_shared<Session<Stream>>(context, std::move(stream), std::move(request.identity));
+        std::make_shared<Session>(context, std::move(stream), std::move(request.identity));
     auto& socket = session->socket;
-    socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10),
-                                                      context.options.limits.stream_dead, true});
-    socket.set_option(websocket::stream_base::decorator(
-        [id = std::move(request.request_id)](websocket::response_type& response) {
-            response.erase(http::field::server);
-            response.set("X-Request-Id", id);
-        }));
-    socket.read_message_max(context.options.limits.stream_message_bytes);
-    socket.auto_fragment(false);
-    socket.text(true);
-    socket.control_callback(
-        [raw = session.get()](websocket::frame_type kind, beast::string_view payload) {
-            if (kind != websocket::frame_type::pong || payload != Pace::kMark) return;
-            raw->pace.answered(Pace::Clock::now());
-            raw->signal.set();
-        });
-    co_await socket.async_accept(upgrade, into(ec));
-    if (ec) co_return nullptr;
+    socket.on_control([raw = session.get()](WebSocket::Control kind, std::string_view payload) {
+        if (kind != WebSocket::Control::kPong || payload != Pace::kMark) return;
+        raw->pace.answered(Pace::Clock::now());
+        raw->signal.set();
+    });
+    const WebSocket::Headers headers{{"X-Request-Id", request.request_id}};
+    if (co_await socket.accept(upgrade, headers)) co_return nullptr;
     co_return session;
 }
 
 }  // namespace
 
-template <class Stream>
-net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upgrade,
+net::awaitable<void> stream_session(Context& context, ByteStream stream, Upgrade upgrade,
                                     api::Request request) {
     const auto slot = context.streams.take(request.identity.name);
     const auto session =
@@ -219,8 +193,5 @@ net::awaitable<void> stream_session(Context& context, Stream stream, Upgrade upg
     net::co_spawn(context.io, read_loop(session), rethrow);
     co_await write_loop(session);
 }
-
-template net::awaitable<void> stream_session(Context&, PlainStream, Upgrade, api::Request);
-template net::awaitable<void> stream_session(Context&, TlsStream, Upgrade, api::Request);
 
 }  // namespace pulseline::server

@@ -8,11 +8,14 @@ constexpr auto kPing = std::chrono::seconds(1);
 constexpr auto kDead = std::chrono::seconds(25);  // of a socket; the fleet counts silence itself
 constexpr auto kCloseTime = std::chrono::seconds(1);
 
-template <class Stream>
-class Session : public VehicleSocket, public std::enable_shared_from_this<Session<Stream>> {
+class Session : public VehicleSocket, public std::enable_shared_from_this<Session> {
 public:
-    Session(Context& c, Stream stream, plant::VehicleId vehicle)
-        : context(c), id(std::move(vehicle)), socket(std::move(stream)), signal(c.io) {}
+    Session(Context& c, ByteStream stream, plant::VehicleId vehicle)
+        : context(c),
+          id(std::move(vehicle)),
+          socket(std::move(stream),
+                 {.most_bytes = c.options.limits.vehicle_binary_bytes, .idle = kDead}),
+          signal(c.io) {}
 
     void send(std::string frame) override {
         if (outbox.size() >= context.options.limits.vehicle_outbox) {
@@ -33,7 +36,7 @@ public:
 
     Context& context;
     const plant::VehicleId id;
-    websocket::stream<Stream> socket;
+    WebSocket socket;
     Signal signal;
     std::deque<std::string> outbox;
     bool ended = false;
@@ -41,9 +44,7 @@ public:
     const char* close_reason = "";
 };
 
-template <class Stream>
-net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
-    error_code ec;
+net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
     while (!session->ended && session->close_with == 0) {
         if (session->outbox.empty()) {
             co_await session->signal.wait(std::chrono::hours(1));
@@ -51,60 +52,47 @@ net::awaitable<void> write_loop(std::shared_ptr<Session<Stream>> session) {
         }
         const std::string frame = std::move(session->outbox.front());
         session->outbox.pop_front();
-        co_await session->socket.async_write(net::buffer(frame), into(ec));
-        if (ec) break;
+        if (co_await session->socket.write(frame)) break;
     }
-    auto& lowest = beast::get_lowest_layer(session->socket);
     if (session->close_with != 0 && !session->ended) {
         net::steady_timer timer(session->context.io, kCloseTime);
         timer.async_wait([session](const error_code& failed) {
-            if (!failed) beast::get_lowest_layer(session->socket).cancel();
+            if (!failed) session->socket.cancel();
         });
-        co_await session->socket.async_close(
-            websocket::close_reason(static_cast<websocket::close_code>(session->close_with),
-                                    session->close_reason),
-            into(ec));
+        co_await session->socket.close(session->close_with, session->close_reason);
         timer.cancel();
     }
-    lowest.close();
+    session->socket.close_now();
 }
 
-template <class Stream>
-net::awaitable<void> ping_loop(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<void> ping_loop(std::shared_ptr<Session> session) {
     net::steady_timer timer(session->context.io);
     while (!session->ended && session->close_with == 0) {
-        error_code ec;
-        co_await session->socket.async_ping({}, into(ec));
-        if (ec) break;
+        if (co_await session->socket.ping()) break;
         timer.expires_after(kPing);
+        error_code ec;
         co_await timer.async_wait(into(ec));
         session->context.gateway.take_withheld(session->id, session.get());
     }
 }
 
-template <class Stream>
-net::awaitable<void> read_loop(std::shared_ptr<Session<Stream>> session) {
+net::awaitable<void> read_loop(std::shared_ptr<Session> session) {
     auto& context = session->context;
     const Limits& limits = context.options.limits;
-    beast::flat_buffer buffer(limits.vehicle_binary_bytes + 4096);
     while (session->close_with == 0) {
-        error_code ec;
-        co_await session->socket.async_read(buffer, into(ec));
-        if (ec) {
+        if (co_await session->socket.read()) {
             session->ended = true;
             break;
         }
-        const std::string_view frame(static_cast<const char*>(buffer.cdata().data()),
-                                     buffer.size());
-        if (!session->socket.got_text()) {
+        const auto frame = session->socket.message();
+        if (!session->socket.message_is_text()) {
             context.gateway.binary(session->id, session.get(), frame);
         } else if (frame.size() > limits.vehicle_text_bytes) {
             session->close(1009, "text messages are at most 64 KB");
         } else {
             context.gateway.text(session->id, session.get(), frame);
         }
-        buffer.clear();
-        buffer.shrink_to_fit();  // between two messages a silent vehicle needs none
+        session->socket.drop_message();
     }
     session->signal.set();  // the writer closes
 }
@@ -119,34 +107,22 @@ void log_end(const std::exception_ptr& error) {
 
 }  // namespace
 
-template <class Stream>
-net::awaitable<void> vehicle_session(Context& context, Stream stream, Upgrade upgrade,
+net::awaitable<void> vehicle_session(Context& context, ByteStream stream, Upgrade upgrade,
                                      plant::VehicleId vehicle) {
-    error_code ec;
-    beast::get_lowest_layer(stream).expires_never();
-    beast::get_lowest_layer(stream).rate_policy().read_limit(
-        context.options.limits.link_bytes_per_second);
-    auto session = std::make_shared<Session<Stream>>(context, std::move(stream), vehicle);
+    stream.lowest().rate_policy().read_limit(context.options.limits.link_bytes_per_second);
+    auto session = std::make_shared<Session>(context, std::move(stream), vehicle);
     auto& socket = session->socket;
-    socket.set_option(websocket::stream_base::timeout{std::chrono::seconds(10), kDead, false});
-    socket.set_option(websocket::stream_base::decorator([](websocket::response_type& response) {
-        response.erase(http::field::server);
-        response.set(http::field::sec_websocket_protocol, "vda5050.v2.json");
-    }));
-    socket.read_message_max(context.options.limits.vehicle_binary_bytes);
-    socket.auto_fragment(false);
-    socket.text(true);
-    co_await socket.async_accept(upgrade, into(ec));
-    if (ec) co_return;
+    const WebSocket::Headers headers{{"Sec-WebSocket-Protocol", "vda5050.v2.json"}};
+    if (co_await socket.accept(upgrade, headers)) co_return;
     upgrade = {};  // a vehicle stays for days
     // A pong is a sign of life like any frame.
-    socket.control_callback([raw = session.get()](websocket::frame_type, beast::string_view) {
+    socket.on_control([raw = session.get()](WebSocket::Control, std::string_view) {
         raw->context.gateway.heard(raw->id, raw);
     });
     struct Closer {
-        Session<Stream>& session;
+        Session& session;
         ~Closer() {
-            session.socket.control_callback();
+            session.socket.on_control({});
             session.context.gateway.closed(session.id, &session);
         }
     };
@@ -157,8 +133,5 @@ net::awaitable<void> vehicle_session(Context& context, Stream stream, Upgrade up
     net::co_spawn(context.io, ping_loop(session), log_end);
     co_await read_loop(session);
 }
-
-template net::awaitable<void> vehicle_session(Context&, PlainStream, Upgrade, plant::VehicleId);
-template net::awaitable<void> vehicle_session(Context&, TlsStream, Upgrade, plant::VehicleId);
 
 }  // namespace pulseline::server

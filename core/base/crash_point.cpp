@@ -1,6 +1,10 @@
 #include "core/base/crash_point.hpp"
 
-#ifdef PULSELINE_CRASH_POINTS
+#ifndef PULSELINE_CRASH_POINTS
+
+void pulseline::crash_point(CrashPoint) {}
+
+#else
 
 #include <array>
 #include <atomic>

@@ -6,18 +6,15 @@ namespace pulseline {
 /// kills it at the n-th passage of that place.
 ///
 /// Only builds with tests have them (CMake option PULSELINE_CRASH_POINTS, on with PULSELINE_TESTS):
-/// a product that dies when its environment says so is a way to stop a plant, and a release build
-/// has not even the comparison. The tests still run the very program that `./dev test` builds.
+/// a product that dies when its environment says so is a way to stop a plant. In a release build
+/// the function is empty. It is a function in both, so that one source is all that tests compile
+/// anew.
 enum class CrashPoint {
 #define CRASH_POINT(name, text) name,
 #include "core/base/crash_points.def"
 #undef CRASH_POINT
 };
 
-#ifdef PULSELINE_CRASH_POINTS
 void crash_point(CrashPoint here);
-#else
-inline void crash_point(CrashPoint) {}
-#endif
 
 }  // namespace pulseline

@@ -1,14 +1,13 @@
 #include "server/agent/link_client.hpp"
 
-#include <openssl/ssl.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <boost/asio/ssl/host_name_verification.hpp>
 #include <random>
 #include <utility>
 
 #include "server/signal.hpp"
+#include "server/web_socket.hpp"
 
 namespace pulseline::agent {
 
@@ -25,6 +24,8 @@ constexpr double kFirstDelay_s = 0.2;
 constexpr double kMostDelay_s = 5;
 constexpr auto kGoodSession = 10s;  // after it the delay starts small again
 constexpr std::size_t kMostBytes = 1024 * 1024;
+constexpr std::uint16_t kNormalEnd = 1000;
+constexpr const char* kSubprotocol = "vda5050.v2.json";
 
 /// "a b" -> "a%20b"; manufacturers have names.
 std::string path_part(const std::string& text) {
@@ -66,14 +67,11 @@ struct LinkClient::Impl {
         vehicle.outbox().wake = [this] { signal.set(); };
     }
 
-    template <class Stream>
-    net::awaitable<void> session(websocket::stream<Stream>& socket);
-    template <class Stream>
-    net::awaitable<void> write_loop(websocket::stream<Stream>& socket);
+    net::awaitable<void> session(WebSocket& socket);
+    net::awaitable<void> write_loop(WebSocket& socket);
     net::awaitable<void> connect();
     net::awaitable<bool> pause_before_retry();
-    template <class Stream>
-    net::awaitable<bool> handshake(websocket::stream<Stream>& socket);
+    net::awaitable<bool> handshake(WebSocket& socket);
 
     const std::string& name() const { return vehicle.plant_vehicle().id.str(); }
 
@@ -100,43 +98,32 @@ struct LinkClient::Impl {
     }
 };
 
-template <class Stream>
-net::awaitable<bool> LinkClient::Impl::handshake(websocket::stream<Stream>& socket) {
-    socket.set_option(websocket::stream_base::timeout{kHandshakeTime, kSilence, true});
-    socket.set_option(
-        websocket::stream_base::decorator([token = identity.token](websocket::request_type& r) {
-            r.set(http::field::authorization, "Bearer " + token);
-            r.set(http::field::sec_websocket_protocol, "vda5050.v2.json");
-            r.set(http::field::user_agent, "pulseline-agent");
-        }));
-    socket.read_message_max(kMostBytes);
-    socket.auto_fragment(false);
-    error_code ec;
-    websocket::response_type response;
+net::awaitable<bool> LinkClient::Impl::handshake(WebSocket& socket) {
     const std::string host = address.host + ":" + address.port;
     const std::string path =
         "/vehicles/" + path_part(identity.manufacturer) + "/" + path_part(identity.serial_number);
-    co_await socket.async_handshake(response, host, path, into(ec));
-    if (ec == websocket::error::upgrade_declined) {
-        std::string body = response.body();
-        body.resize(std::min<std::size_t>(body.size(), 300));
+    // A name of its own: g++ 12 cannot compile a braced list inside an awaited call.
+    const WebSocket::Headers headers{{"Authorization", "Bearer " + identity.token},
+                                     {"Sec-WebSocket-Protocol", kSubprotocol},
+                                     {"User-Agent", "pulseline-agent"}};
+    const auto opened = co_await socket.open(host, path, headers);
+    if (opened.status != 0) {
         trouble(
-            fmt::format("the server refused the vehicle: HTTP {} {}", response.result_int(), body));
+            fmt::format("the server refused the vehicle: HTTP {} {}", opened.status, opened.body));
         co_return false;
     }
-    if (ec) {
-        trouble("the WebSocket handshake failed: " + ec.message());
+    if (opened.ec) {
+        trouble("the WebSocket handshake failed: " + opened.ec.message());
         co_return false;
     }
-    if (response[http::field::sec_websocket_protocol] != "vda5050.v2.json") {
+    if (opened.subprotocol != kSubprotocol) {
         trouble("the server does not speak the subprotocol vda5050.v2.json");
         co_return false;
     }
     co_return true;
 }
 
-template <class Stream>
-net::awaitable<void> LinkClient::Impl::write_loop(websocket::stream<Stream>& socket) {
+net::awaitable<void> LinkClient::Impl::write_loop(WebSocket& socket) {
     error_code ec;
     while (open && !stopping) {
         auto frame = vehicle.outbox().take();
@@ -144,28 +131,24 @@ net::awaitable<void> LinkClient::Impl::write_loop(websocket::stream<Stream>& soc
             co_await signal.wait(1h);
             continue;
         }
-        socket.binary(frame->binary);
-        co_await socket.async_write(net::buffer(frame->bytes), into(ec));
+        ec = co_await socket.write(frame->bytes, !frame->binary);
         if (ec) break;
     }
     if (!open) co_return;
-    auto& lowest = beast::get_lowest_layer(socket);
     net::steady_timer limit(io, kCloseTime);
-    limit.async_wait([&lowest](const error_code& cancelled) {
-        if (!cancelled) lowest.cancel();
+    limit.async_wait([&socket](const error_code& cancelled) {
+        if (!cancelled) socket.cancel();
     });
     if (!ec) {
         const std::string goodbye = vehicle.offline_frame();
-        socket.binary(false);
-        co_await socket.async_write(net::buffer(goodbye), into(ec));
+        ec = co_await socket.write(goodbye);
     }
-    if (!ec) co_await socket.async_close(websocket::close_code::normal, into(ec));
+    if (!ec) co_await socket.close(kNormalEnd, "");
     limit.cancel();
-    lowest.cancel();  // ends the reader whatever became of the close
+    socket.cancel();  // ends the reader whatever became of the close
 }
 
-template <class Stream>
-net::awaitable<void> LinkClient::Impl::session(websocket::stream<Stream>& socket) {
+net::awaitable<void> LinkClient::Impl::session(WebSocket& socket) {
     if (!co_await handshake(socket)) co_return;
     const auto began = Vehicle::Steady::now();
     spdlog::info("{}: connected to {}:{}", name(), address.host, address.port);
@@ -180,31 +163,25 @@ net::awaitable<void> LinkClient::Impl::session(websocket::stream<Stream>& socket
         writing = false;
         written.set();
     });
-    beast::flat_buffer buffer;
     error_code ec;
     for (;;) {
-        co_await socket.async_read(buffer, into(ec));
+        ec = co_await socket.read();
         if (ec) break;
-        if (socket.got_text()) {
-            vehicle.receive({static_cast<const char*>(buffer.cdata().data()), buffer.size()});
-        }
-        buffer.clear();
+        if (socket.message_is_text()) vehicle.receive(socket.message());
     }
     open = false;
-    beast::get_lowest_layer(socket).cancel();
+    socket.cancel();
     signal.set();
     while (writing) co_await written.wait(1h);
     vehicle.link_down();
-    if (ec == websocket::error::closed && socket.reason().code == kReplaced) {
+    if (ec == websocket::error::closed && socket.close_code() == kReplaced) {
         was_replaced = true;
         spdlog::error(
             "{}: another session with this identity took over (close code {}); this one "
             "stays away. End the other program or start only one.",
             name(), kReplaced);
     } else if (!stopping) {
-        const auto& reason = socket.reason();
-        spdlog::warn("{}: the link ended: {} {}", name(), ec.message(),
-                     std::string_view(reason.reason.data(), reason.reason.size()));
+        spdlog::warn("{}: the link ended: {} {}", name(), ec.message(), socket.close_reason());
     }
     if (Vehicle::Steady::now() - began > kGoodSession) delay_s = kFirstDelay_s;
 }
@@ -214,31 +191,26 @@ net::awaitable<void> LinkClient::Impl::connect() {
     tcp::resolver resolver(io);
     const auto found = co_await resolver.async_resolve(address.host, address.port, into(ec));
     if (ec) co_return trouble("cannot resolve " + address.host + ": " + ec.message());
-    PlainStream stream(io);
-    stream.expires_after(kConnectTime);
-    co_await stream.async_connect(found, into(ec));
+    ByteStream stream =
+        address.tls ? ByteStream(tcp::socket(io), tls) : ByteStream(tcp::socket(io));
+    stream.lowest().expires_after(kConnectTime);
+    co_await stream.lowest().async_connect(found, into(ec));
     if (ec) {
         co_return trouble("cannot connect to " + address.host + ":" + address.port + ": " +
                           ec.message());
     }
-    stream.socket().set_option(tcp::no_delay(true), ec);
-    if (!address.tls) {
-        stream.expires_never();
-        websocket::stream<PlainStream> socket(std::move(stream));
-        co_await session(socket);
-        co_return;
+    stream.lowest().socket().set_option(tcp::no_delay(true), ec);
+    if (address.tls) {
+        stream.expect_host(address.host, verify_host);
+        ec = co_await stream.handshake(ssl::stream_base::client);
+        if (ec) {
+            co_return trouble("the TLS handshake failed: " + ec.message() +
+                              "; give --ca FILE for a private authority or --insecure for a test");
+        }
     }
-    websocket::stream<TlsStream> socket(std::move(stream), tls);
-    SSL_set_tlsext_host_name(socket.next_layer().native_handle(), address.host.c_str());
-    if (verify_host) {
-        socket.next_layer().set_verify_callback(ssl::host_name_verification(address.host));
-    }
-    co_await socket.next_layer().async_handshake(ssl::stream_base::client, into(ec));
-    if (ec) {
-        co_return trouble("the TLS handshake failed: " + ec.message() +
-                          "; give --ca FILE for a private authority or --insecure for a test");
-    }
-    beast::get_lowest_layer(socket).expires_never();
+    WebSocket socket(
+        std::move(stream),
+        {.most_bytes = kMostBytes, .idle = kSilence, .pings = true, .opening = kHandshakeTime});
     co_await session(socket);
 }
 

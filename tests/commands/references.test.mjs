@@ -48,6 +48,8 @@ function missingIn(document, least, open) {
 test("every test that tests/faults/README.md names exists", () => assert.deepEqual(missingIn("tests/faults/README.md", 60, /seed \d+ of the fleet judge/), []));
 test("every test that tests/experiments/README.md names exists", () => assert.deepEqual(missingIn("tests/experiments/README.md", 15, /^(later|as it is): .{10,}/), []));
 
+test("every test that tests/e2e/README.md names exists", () => assert.deepEqual(missingIn("tests/e2e/README.md", 40, /^(later|as it is): .{10,}/), []));
+
 const textOf = (file) => readFileSync(join(ROOT, file), "utf8");
 const filesUnder = (folder, ending) => readdirSync(join(ROOT, folder), { recursive: true }).filter((name) => name.endsWith(ending)).map((name) => join(folder, name));
 

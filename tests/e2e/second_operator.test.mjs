@@ -31,10 +31,13 @@ after(async () => {
 
 const ordersOfPlatform = async () => (await client.get("/api/v1/job-orders?vehicle=TP-01")).items;
 const newestOf = async (name) => (await ordersOfPlatform()).filter((o) => o.created_by === name).sort((a, b) => b.number - a.number)[0];
-/** Nothing is under way or waits any more. */
+/** Stopped some centimetres off its station a platform sees its codes no more and starts for nobody. */
+const hasLeft = (v) => v.activity === "moving" && v.at_station === "";
+const openOrders = async () => (await ordersOfPlatform()).filter((o) => !["Ended", "Aborted"].includes(o.state));
+/** Nothing is under way or waits any more; what drives is cancelled last, and between stations. */
 async function free() {
-  for (const order of await ordersOfPlatform()) {
-    if (["Ended", "Aborted"].includes(order.state)) continue;
+  await until("it is between stations, or has nothing to do", async () => (await openOrders()).length === 0 || hasLeft(await client.get("/api/v1/vehicles/TP-01")), { timeout_s: 60, every_ms: 100 });
+  for (const order of (await openOrders()).sort((a, b) => (a.state === "Running") - (b.state === "Running"))) {
     await client.request("POST", `/api/v1/job-orders/${order.id}/cancel`);
     await client.untilEnded(order.id);
   }
@@ -57,7 +60,7 @@ async function sentBy(page, name) {
   await go(page).click();
   await page.locator(".move").waitFor();
   const order = await newestOf(name);
-  await client.untilVehicle("TP-01", (v) => v.order === order.id && v.activity === "moving", "drives for it");
+  await client.untilVehicle("TP-01", (v) => v.order === order.id && hasLeft(v), "drives for it");
   return order;
 }
 const onItsWay = (order, by) => new RegExp(`TP-01 is on its way to ${order.steps[0].number} \\(${order.name}, by ${by}, (there \\d\\d:\\d\\d:\\d\\d|late .+)\\)`);

@@ -9,7 +9,7 @@ namespace pulseline::server::testing {
 
 struct WsClient::Impl {
     net::io_context io;
-    websocket::stream<PlainStream> socket{io};
+    websocket::stream<beast::tcp_stream> socket{io};
     http::response<http::string_body> answer;
     bool open = false;
     std::deque<std::string> changes;  // of the last frame that joined several

@@ -50,6 +50,7 @@ export function Page() {
   if (Feature === undefined) {
     return (
       <div className="card">
+        <h1 className="sr-only">{t("page.not_found")}</h1>
         <PanelEmpty
           what={t("page.not_found")}
           action={

@@ -3,7 +3,6 @@ import type { JobOrder } from "@/shared/api/types";
 import { useServerNow, useStopRecords } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Card, StatusSymbol } from "@/shared/ui";
-import { useNarrow } from "@/shared/ui/useNarrow";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
@@ -15,7 +14,6 @@ import { doneSteps, isOpen, stateSymbol } from "./orderLook";
 export function OrderDetail({ order }: { order: JobOrder }) {
   const { t } = useTranslation(["orders", "words"]);
   const words = useWords();
-  const narrow = useNarrow();
   const now = useServerNow(60_000);
   const stops = useStopRecords();
   const vehicle = order.vehicle || order.wanted_vehicle;
@@ -24,7 +22,6 @@ export function OrderDetail({ order }: { order: JobOrder }) {
   return (
     <Card
       className="odetail"
-      level={narrow ? 1 : 2}
       title={t("detail.title", { name: order.name })}
       right={
         <Link className="btn quiet" to="/orders">

@@ -86,7 +86,10 @@ export function OrdersPage({ id }: { id: string | undefined }) {
       <Selected id={id ?? ""} />
     );
   return narrow ? (
-    panel
+    <>
+      <h1 className="sr-only">{t("title")}</h1>
+      {panel}
+    </>
   ) : (
     <div className="ogrid">
       {table}

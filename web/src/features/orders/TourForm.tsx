@@ -7,7 +7,6 @@ import { useCommandsEnabled, useMayCommand, useVehicles } from "@/shared/live";
 import { navigate } from "@/shared/router";
 import { Button, Card, CommandButton, NumberPad } from "@/shared/ui";
 import { useCommand } from "@/shared/ui/useCommand";
-import { useNarrow } from "@/shared/ui/useNarrow";
 import { useWords } from "@/shared/words/useWords";
 import { duration } from "@/shared/words/format";
 import { chosenOf, emptyTour, faults, toRequest, tour, tourTime } from "./tour";
@@ -23,7 +22,6 @@ function newKey(): string {
 export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose: () => void }) {
   const { t } = useTranslation("orders");
   const words = useWords();
-  const narrow = useNarrow();
   const vehicles = useVehicles();
   const linkUp = useCommandsEnabled();
   const mayCommand = useMayCommand();
@@ -75,7 +73,6 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
   return (
     <Card
       className="odetail tour"
-      level={narrow ? 1 : 2}
       title={t("tour.title")}
       right={
         <Button quiet onPress={onClose}>

@@ -42,7 +42,7 @@ export function WheelLabels({
           <span key={w.name}>
             <span className={`wl ${inside ? `in ${side}` : ""}`} style={place}>
               {state !== "ok" && <StatusSymbol name={state === "warm" ? "a-3" : "a-2"} />}
-              <b>{words.wheel(w.name)}</b> {degrees(w.steering_rad, { decimals: 1, sign: true })}°
+              <b>{words.wheelLabel(w.name)}</b> {degrees(w.steering_rad, { decimals: 1, sign: true })}°
               {middle && (
                 <span>
                   {fixed(w.speed_mps, 2)}

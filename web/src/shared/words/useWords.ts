@@ -5,6 +5,7 @@ import type { MotionMode, Reason } from "@/shared/api/types";
 import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
 import { usePlant } from "@/shared/live";
 import { actorText } from "./actor";
+import { closureName } from "./closures";
 import { faultText } from "./faults";
 import { named, type Names, type Template } from "./words";
 
@@ -19,6 +20,8 @@ export interface Words {
   fault: (type: string) => string;
   /** Name of a wheel in words, where it is one that wheels usually have. */
   wheel: (name: string) => string;
+  /** The same as short as drawings need it. */
+  wheelLabel: (name: string) => string;
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
@@ -50,20 +53,27 @@ export function useWords(): Words {
       wall: t("words:wall"),
       map: t("words:map_obstacle"),
     };
+    const ofWheel = (catalog: string, name: string) =>
+      t(`alarms:${catalog}.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name });
+    const each = (list: string, text: (one: string) => string) =>
+      list.split(", ").map(text).join(t("words:join"));
     const names: Names = {
       vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? obstacles[id],
       station: (id) => stations.get(id),
-      actor: (actor) => actorText(actor, t),
+      actor: (actors) => each(actors, (one) => actorText(one, t)),
+      wheel: (name) => ofWheel("wheel_name", name),
+      closure: (names) => each(names, (one) => closureName(one, t)),
+      fault: (type) => faultText(type, t),
     };
     return {
       names,
       reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
-      actor: names.actor,
+      actor: (actor) => actorText(actor, t),
       fault: (type) => faultText(type, t),
-      wheel: (name) =>
-        t(`alarms:wheel_name.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name }),
+      wheel: (name) => ofWheel("wheel_name", name),
+      wheelLabel: (name) => ofWheel("wheel_label", name),
       stationNumber: (id) => stations.get(id) ?? id,
       mode: (mode) => t(`words:mode.${mode}`),
       modeShort: (mode) => t(`words:mode_short.${mode}`),

@@ -43,7 +43,8 @@ function allowedOf({ orders, system: { plant: { model } } }) {
     ...inNames,
     programOf(orders.done), // the beginning of a token's id
     /JO-\d+/, // orders are called so on the floor
-    "mm", "km", "m/s", "kN", "kg", "min", "dx", "dy", // units and symbols of quantities
+    "MES", // the system that gives orders, called so in both languages
+    "mm", "km", "m/s", "kN", "kg", "min", "px", "dx", "dy", // units and symbols of quantities
     "PDF", "SVG", // kinds of files
   ];
 }

@@ -39,7 +39,7 @@ export function screensOf({ orders, stop }) {
     { name: "send, arrived", path: `/send?order=${orders.done.id}`, ready: ".confirm" },
     { name: "orders", path: "/orders", ready: ".rows" },
     ...Object.entries(orders).map(([name, one]) => order(name, one)),
-    { name: "order, cancel armed", path: `/orders/${orders.waiting.id}`, ready: ".odetail", keep: armed(".odetail .cmd") },
+    { name: "order, cancel armed", path: `/orders/${orders.waiting.id}`, ready: ".odetail", keep: armed(".odetail .cmd:is(:has-text('Cancel'), :has-text('取消'))") },
     {
       name: "tour form",
       path: "/orders",

@@ -10,7 +10,7 @@ const kAgents = {
   "TP-02": { seed: 52, sensing: "analytic", extra: ["--fault", "wheel=front drive@1"] },
   "MV-01": { seed: 53, extra: ["--fault", "camera-dark@1"] },
   "OM-01": { seed: 54 },
-  "DL-01": { seed: 55, sensing: "analytic", timeFactor: 1 }, // drives as long as the walk takes
+  "DL-01": { seed: 55, sensing: "analytic", timeFactor: 1 }, // once round the hall and again: as long as the walk takes
 };
 
 /**
@@ -44,7 +44,7 @@ export async function startTroubledHall() {
   await client.post("/api/v1/closures", { name: "Work", hall: system.plant.model.halls[0].id, outline: corners.map(([x_m, y_m]) => ({ x_m, y_m })) });
   const barred = await client.order("TP-01", [3]);
   await client.untilOrder(barred.id, (o) => o.reason?.code === "floor_closed" || o.steps[0].state !== "pending", "waits for the floor");
-  const driven = await client.order("DL-01", [31, 34, 31, 34, 31, 34]);
+  const driven = await client.order("DL-01", [40, 34, 40, 34]);
   await client.untilVehicle("DL-01", (v) => v.activity === "moving", "drives");
   return { system, client, stop, orders: { done, unmeasured, aborted, waiting, barred, driven } };
 }
