@@ -32,7 +32,7 @@ after(async () => {
 const ordersOfPlatform = async () => (await client.get("/api/v1/job-orders?vehicle=TP-01")).items;
 const newestOf = async (name) => (await ordersOfPlatform()).filter((o) => o.created_by === name).sort((a, b) => b.number - a.number)[0];
 /** Stopped some centimetres off its station a platform sees its codes no more and starts for nobody. */
-const hasLeft = (v) => v.activity === "moving" && v.at_station === "";
+const hasLeft = (v) => v.activity === "moving" && v.pose_basis.driven_m > 1;
 const openOrders = async () => (await ordersOfPlatform()).filter((o) => !["Ended", "Aborted"].includes(o.state));
 /** Nothing is under way or waits any more; what drives is cancelled last, and between stations. */
 async function free() {
