@@ -99,6 +99,7 @@ test("with the link cut nothing looks fresh, and no check passes", async () => {
   await page.locator(".rail a[href='/map']").click();
   await page.locator(".veh.old[data-vehicle='TP-01']").waitFor();
   assert.equal(await page.locator(".veh[data-vehicle]:not(.old)").count(), 0);
+  assert.match(await page.locator(".veh.old[data-vehicle='TP-01']").evaluate((row) => getComputedStyle(row).backgroundImage), /gradient/, "hatched");
   await page.locator(".strip.old").waitFor();
   await picture(page, "map-link-cut-list");
   assert.deepEqual(page.errors, []);

@@ -1,16 +1,17 @@
 // What a finger can not reach on the page shown: too wide, too small, cut off or covered. Runs in the page.
 
-/** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. */
-export async function reachFaultsOf(page, { least = 44, pause: hasPause = true } = {}) {
-  return page.evaluate(([smallest, withPause]) => {
+/** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. `within`: a panel that lies over the rest. */
+export async function reachFaultsOf(page, { least = 44, pause: hasPause = true, within = "body" } = {}) {
+  return page.evaluate(([smallest, withPause, panel]) => {
     const faults = [];
     const kCommands = "button, a[href], input, select, summary, canvas[tabindex], [role=option], [role=radio], [role=tab]";
     const nameOf = (e) => `${e.tagName.toLowerCase()}.${[...e.classList].join(".")} "${(e.getAttribute("aria-label") ?? e.textContent ?? "").trim().slice(0, 30)}"`;
+    const widestIn = (e) => [...e.querySelectorAll("*")].reduce((a, b) => (b.getBoundingClientRect().right > a.getBoundingClientRect().right ? b : a), e.firstElementChild ?? e);
     const wide = document.documentElement.scrollWidth - innerWidth;
     if (wide > 0) faults.push(`the page is ${wide} px too wide`);
     for (const e of document.querySelectorAll("body *")) {
       const over = e.scrollWidth - e.clientWidth;
-      if (over > 1 && e.clientWidth > 0 && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)) faults.push(`${nameOf(e)} scrolls sideways by ${over} px`);
+      if (over > 1 && e.clientWidth > 0 && ["auto", "scroll"].includes(getComputedStyle(e).overflowX)) faults.push(`${nameOf(e)} scrolls sideways by ${over} px, to ${nameOf(widestIn(e))}`);
     }
     const pause = withPause ? document.querySelector("button.pause") : undefined;
     if (pause === null) faults.push("there is no Pause fleet");
@@ -21,7 +22,7 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true }
         if (!pause.contains(document.elementFromPoint(x, (r.top + r.bottom) / 2))) faults.push("Pause fleet is covered");
       }
     }
-    for (const e of document.querySelectorAll(kCommands)) {
+    for (const e of document.querySelector(panel).querySelectorAll(kCommands)) {
       if (e.closest(".skip, .sr-only, .unseen") !== null || !e.checkVisibility({ visibilityProperty: true })) continue;
       const target = e.tagName === "INPUT" ? (e.closest("label") ?? e) : e;
       target.scrollIntoView({ block: "center", inline: "nearest", behavior: "instant" });
@@ -31,7 +32,7 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true }
       else if (target.tagName !== "CANVAS" && (r.top < -0.5 || r.bottom > innerHeight + 0.5)) faults.push(`${nameOf(e)} cannot be scrolled into sight`);
       else {
         const x = (r.left + r.right) / 2;
-        const ys = r.height > 60 ? [r.top + 6, (r.top + r.bottom) / 2, r.bottom - 6] : [(r.top + r.bottom) / 2];
+        const ys = r.height > 60 && target.tagName !== "CANVAS" ? [r.top + 6, (r.top + r.bottom) / 2, r.bottom - 6] : [(r.top + r.bottom) / 2];
         for (const y of ys) {
           const hit = document.elementFromPoint(x, y);
           if (hit === null || !(target.contains(hit) || hit.contains(target))) faults.push(`${nameOf(e)} is covered by ${hit === null ? "nothing" : nameOf(hit)}`);
@@ -43,5 +44,5 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true }
     }
     for (const e of document.querySelectorAll("*")) if (e.scrollTop > 0) e.scrollTop = 0;
     return [...new Set(faults)];
-  }, [least, hasPause]);
+  }, [least, hasPause, within]);
 }

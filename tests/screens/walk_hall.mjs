@@ -10,7 +10,7 @@ const kAgents = {
   "TP-02": { seed: 52, sensing: "analytic", extra: ["--fault", "wheel=front drive@1"] },
   "MV-01": { seed: 53, extra: ["--fault", "camera-dark@1"] },
   "OM-01": { seed: 54 },
-  "DL-01": { seed: 55, sensing: "analytic", timeFactor: 1 }, // drives as long as the walk takes
+  "DL-01": { seed: 55, sensing: "analytic", timeFactor: 1 }, // once round the hall and again: as long as the walk takes
 };
 
 /**
@@ -39,10 +39,12 @@ export async function startTroubledHall() {
   await client.untilOrder(unmeasured.id, (o) => o.state === "Interrupted", "is interrupted");
   await client.untilVehicle("TP-02", (v) => v.wheels.some((w) => w.fault !== ""), "has a broken wheel");
   const [stop] = await client.stops(done.id);
-  const corners = [[12, 23], [18, 23], [18, 28], [12, 28]];
+  const { pose } = system.plant.station(3);
+  const corners = [[-4, -4], [4, -4], [4, 4], [-4, 4]].map(([x, y]) => [pose.x_m + x, pose.y_m + y]);
   await client.post("/api/v1/closures", { name: "Work", hall: system.plant.model.halls[0].id, outline: corners.map(([x_m, y_m]) => ({ x_m, y_m })) });
-  const barred = await client.order("TP-01", [1]);
-  const driven = await client.order("DL-01", [31, 34, 31, 34, 31, 34]);
+  const barred = await client.order("TP-01", [3]);
+  await client.untilOrder(barred.id, (o) => o.reason?.code === "floor_closed" || o.steps[0].state !== "pending", "waits for the floor");
+  const driven = await client.order("DL-01", [40, 34, 40, 34]);
   await client.untilVehicle("DL-01", (v) => v.activity === "moving", "drives");
   return { system, client, stop, orders: { done, unmeasured, aborted, waiting, barred, driven } };
 }

@@ -22,13 +22,14 @@ export function screensOf({ orders, stop }) {
   return [
     { name: "map", path: "/map?vehicle=TP-01", ready: ".veh[data-vehicle]" },
     { name: "map, broken wheel", path: "/map?vehicle=TP-02", ready: ".veh[data-vehicle]" },
-    { name: "user's menu", path: "/map", ready: ".veh[data-vehicle]", open: (page) => press(page, ".who > button"), closed: (page) => page.keyboard.press("Escape") },
+    { name: "user's menu", path: "/map", ready: ".veh[data-vehicle]", open: (page) => press(page, ".who > button"), within: ".menu" },
     { name: "floor tool", path: "/map?floor=1", ready: ".closures li" },
     { name: "floor tool, armed", path: "/map?floor=1", ready: ".closures li", keep: armed(".closures .cmd") },
     { name: "place tool", path: "/map?place=OM-01", ready: ".tool" },
     { name: "place tool, armed", path: "/map?place=OM-01", ready: ".tool", open: (page) => page.locator(".tool").getByRole("button", { name: /^(One step east|向东一步)/ }).click(), keep: armed(".tool .cmd") },
     { name: "send", path: "/send", ready: ".card" },
     { name: "send, a vehicle", path: "/send?vehicle=OM-01", ready: ".card" },
+    { name: "send, closed floor", path: "/send?vehicle=TP-01&station=3", ready: ".checks .chk" },
     { name: "send, chosen", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks" },
     { name: "send, armed", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks", keep: armed(".confirm .armed") },
     { name: "send, broken wheel", path: "/send?vehicle=TP-02&station=7", ready: ".mode[role=radio], .checks" },
@@ -38,7 +39,7 @@ export function screensOf({ orders, stop }) {
     { name: "send, arrived", path: `/send?order=${orders.done.id}`, ready: ".confirm" },
     { name: "orders", path: "/orders", ready: ".rows" },
     ...Object.entries(orders).map(([name, one]) => order(name, one)),
-    { name: "order, cancel armed", path: `/orders/${orders.waiting.id}`, ready: ".odetail", keep: armed(".odetail .cmd") },
+    { name: "order, cancel armed", path: `/orders/${orders.waiting.id}`, ready: ".odetail", keep: armed(".odetail .cmd:is(:has-text('Cancel'), :has-text('取消'))") },
     {
       name: "tour form",
       path: "/orders",
@@ -80,8 +81,8 @@ export function pausedScreens({ orders }) {
   const closed = (page) => page.locator(".resume").press("Escape");
   return [
     { name: "paused: map", path: "/map", ready: ".banner.held" },
-    { name: "paused: resume panel", path: "/map", ready: ".banner.held", open: openPanel, closed },
-    { name: "paused: resume armed", path: "/orders", ready: ".banner.held", open: openPanel, keep: armed(".resume .cmd"), closed },
+    { name: "paused: resume panel", path: "/map", ready: ".banner.held", open: openPanel, within: ".resume", closed },
+    { name: "paused: resume armed", path: "/orders", ready: ".banner.held", open: openPanel, keep: armed(".resume .cmd"), within: ".resume", closed },
     { name: "paused: send", path: "/send?vehicle=OM-01&station=29", ready: ".banner.held" },
     { name: "paused: under way", path: `/send?order=${orders.driven.id}`, ready: ".banner.held" },
     { name: "paused: order", path: `/orders/${orders.driven.id}`, ready: ".banner.held" },

@@ -6,8 +6,8 @@ import { startI18n } from "@/shared/i18n/setup";
 import { loadSession } from "@/shared/live/session";
 import "./app.css";
 import { Sprite } from "@/shared/ui";
-import "@/shared/styles/stale.css";
 import { App } from "./App";
+import "@/shared/styles/stale.css";
 
 const queries = new QueryClient({
   defaultOptions: {

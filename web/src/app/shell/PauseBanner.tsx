@@ -4,10 +4,12 @@ import { fleetHalt, pausedSingly, useFleet, useServerNow, useVehicles, type Flee
 import { useLocation } from "@/shared/router";
 import { Banner, Button, goGuard } from "@/shared/ui";
 import { dateTime } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
 
 /** On every page: who has the fleet or single vehicles stand, since when, and who of them still moves. */
 export function PauseBanner({ onResume }: { onResume: () => void }) {
   const { t } = useTranslation(["common", "commands"]);
+  const words = useWords();
   const held = useHeldWords();
   const refused = useRefusal();
   const now = useServerNow(60_000);
@@ -39,7 +41,7 @@ export function PauseBanner({ onResume }: { onResume: () => void }) {
   );
 
   function ofFleet(h: FleetHalt): [string, string] {
-    const by = h.by ?? t("commands:held.somebody");
+    const by = h.by === undefined ? t("commands:held.somebody") : words.actor(h.by);
     const who = t(h.at === undefined ? "held.fleet_plain" : "held.fleet", { by, time: dateTime(h.at, now) });
     const also = singly.length > 0 ? t("held.also", { names }) : t("held.goes_on");
     return [who, `${progress(h)} ${also}`];

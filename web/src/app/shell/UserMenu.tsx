@@ -2,6 +2,7 @@ import { useEffect, useRef, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { useSession } from "@/shared/live";
 import { signOut } from "@/shared/live/session";
+import { useLocation } from "@/shared/router";
 import { Button } from "@/shared/ui";
 import "./UserMenu.css";
 
@@ -19,6 +20,8 @@ export function UserMenu({ children }: { children: ReactNode }) {
   const session = useSession();
   const [open, setOpen] = useState(false);
   const box = useRef<HTMLDivElement>(null);
+  const { path } = useLocation();
+  useEffect(() => setOpen(false), [path]);
   useEffect(() => {
     if (!open) return;
     const outside = (event: Event) => {

@@ -23,12 +23,12 @@ export interface FloorPanelProps {
 
 /** Closed floor: what is closed, by whom and since when; and the tool that closes more. Presses on the map choose. */
 export function FloorPanel({ model, draft, onDraft, onShow, onClose }: FloorPanelProps) {
-  const { t } = useTranslation("map");
+  const { t } = useTranslation(["map", "words"]);
   const words = useWords();
   const closures = useClosures();
   const refused = useRefused();
   const [name, setName] = useState<(typeof kNames)[number]>("work");
-  const body = toClosure(draft, t(`floor.name.${name}`), model.hall.id);
+  const body = toClosure(draft, t(`words:closure.${name}`), model.hall.id);
   const text = JSON.stringify(body);
   const { asked, run, reset } = useCommand(
     useCallback(async () => {
@@ -58,7 +58,7 @@ export function FloorPanel({ model, draft, onDraft, onShow, onClose }: FloorPane
           <div className="seg names" role="group" aria-label={t("floor.why")}>
             {kNames.map((one) => (
               <button key={one} type="button" aria-pressed={one === name} onClick={() => setName(one)}>
-                {t(`floor.name.${one}`)}
+                {t(`words:closure.${one}`)}
               </button>
             ))}
           </div>
@@ -97,7 +97,7 @@ function Row({
   model: HallModel;
   onShow: (closure: Closure) => void;
 }) {
-  const { t } = useTranslation("map");
+  const { t } = useTranslation(["map", "words"]);
   const words = useWords();
   const refused = useRefused();
   const { id } = closure;
@@ -118,7 +118,7 @@ function Row({
             : t("floor.size_lanes", { count: size.count })}
         </span>
         <span className="lab">
-          {t("floor.by", { by: closure.created_by, time: timeOfDay(closure.created_at) })}
+          {t("floor.by", { by: words.actor(closure.created_by), time: timeOfDay(closure.created_at) })}
         </span>
       </button>
       {!refused.viewer && (

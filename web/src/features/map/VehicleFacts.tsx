@@ -31,7 +31,7 @@ export function VehicleFacts({ vehicle: v, order, heard, now, old, words }: Vehi
   const station = leg ? words.stationNumber(leg.station) : order?.steps[order.current_step]?.number;
   const when = v.activity === "moving" ? expectedIn(leg?.expected_at, now).kind : "none";
   const expected = clock(leg?.expected_at);
-  const basis = poseWords(v, words.stationNumber, (at) => dateTime(at, now));
+  const basis = poseWords(v, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const pose = [
     t(`vehicles:pose.basis.${basis.key}`, basis.values),
     basis.since === undefined ? undefined : t("vehicles:pose.since", { length: basis.since }),

@@ -109,7 +109,7 @@ export function OrderDetail({ order }: { order: JobOrder }) {
         <dd>
           {dateTime(order.created_at, now)}
           {t("join")}
-          {t("detail.by", { actor: order.created_by })}
+          {t("detail.by", { actor: words.actor(order.created_by) })}
         </dd>
         <dt>{t("detail.started")}</dt>
         <dd>{dateTime(order.started_at, now)}</dd>

@@ -7,6 +7,7 @@ import type { Busy } from "./busy";
 import { useBusyWords } from "./useBusyWords";
 import type { Start } from "./useStart";
 import "./BusyNote.css";
+import { useWords } from "@/shared/words/useWords";
 
 export interface BusyNoteProps {
   busy: Busy;
@@ -21,9 +22,10 @@ export interface BusyNoteProps {
 /** The vehicle has something to do already: for whom, where to, until when, and what can be done about it. */
 export function BusyNote({ busy, vehicle, start, body, why }: BusyNoteProps) {
   const { t } = useTranslation("send");
+  const words = useWords();
   const say = useBusyWords();
   const { order } = busy;
-  const names = { order: order.name, by: order.created_by, vehicle: vehicle.name };
+  const names = { order: order.name, by: words.actor(order.created_by), vehicle: vehicle.name };
   const { command } = start;
   return (
     <div className="card busy" role="group" aria-label={t("busy.title")}>

@@ -65,11 +65,7 @@ export function ChecksStep({
 export function useCheckText(): (check: ShownCheck) => string {
   const template = useTemplates("send");
   const words = useWords();
-  return (check) => {
-    const { fault } = check.params;
-    const params = typeof fault === "string" ? { ...check.params, fault: words.fault(fault) } : check.params;
-    return checkWords({ ...check, params }, words.names, template, words.reason);
-  };
+  return (check) => checkWords(check, words.names, template, words.reason);
 }
 
 /** "9 of 9 pass, 1 note" */

@@ -4,6 +4,7 @@ import { CancelOrder, PauseVehicle } from "@/shared/commands";
 import { Button } from "@/shared/ui";
 import type { MoveProgress } from "./progress";
 import "./CommandBar.css";
+import { useWords } from "@/shared/words/useWords";
 
 export interface MoveBarProps {
   order: JobOrder | undefined;
@@ -15,13 +16,16 @@ export interface MoveBarProps {
 /** Command bar of a move that is watched: what makes it stand, and after it the way to the next. */
 export function MoveBar({ order, vehicle, progress, onNext }: MoveBarProps) {
   const { t } = useTranslation(["send", "words"]);
+  const words = useWords();
   const over = progress.kind === "arrived" || progress.kind === "aborted";
   return (
     <div className="card confirm">
       <div className="grow say">
         <strong>{order?.name ?? ""}</strong>
         <span className="lab">
-          {order ? t("move.state", { state: t(`words:job.${order.state}`), by: order.created_by }) : ""}
+          {order
+            ? t("move.state", { state: t(`words:job.${order.state}`), by: words.actor(order.created_by) })
+            : ""}
         </span>
       </div>
       {over ? (

@@ -25,7 +25,7 @@ export function WaitsBehind({ order, vehicle, busy, replacing }: WaitsBehindProp
   const instead = order?.state === "Aborted";
   const outcome = replacingWords();
   if (!outcome && !(busy && (waits || instead))) return null;
-  const names = busy && { order: busy.order.name, by: busy.order.created_by };
+  const names = busy && { order: busy.order.name, by: words.actor(busy.order.created_by) };
   return (
     <div className="behind">
       {outcome && (
@@ -59,7 +59,11 @@ export function WaitsBehind({ order, vehicle, busy, replacing }: WaitsBehindProp
   function replacingWords(): { text: string; failed: boolean } | undefined {
     if (replacing.kind === "none" || order === undefined) return undefined;
     const other = busy?.order.id === replacing.order.id ? busy.order : undefined;
-    const names = { other: replacing.order.name, by: replacing.order.created_by, order: order.name };
+    const names = {
+      other: replacing.order.name,
+      by: words.actor(replacing.order.created_by),
+      order: order.name,
+    };
     if (replacing.kind === "had_ended") return { text: t("behind.had_ended", names), failed: false };
     // What the stream says is newer than an answer that did not come.
     const failed = replacing.kind === "failed" && other !== undefined && !other.cancel_requested;

@@ -22,7 +22,7 @@ export function useBusyWords(): (busy: Busy, vehicle: Vehicle) => string {
       vehicle: vehicle.name,
       number: goesTo(order) ?? "",
       order: order.name,
-      by: order.created_by,
+      by: words.actor(order.created_by),
       there: expected.clock(order.expected_at ?? vehicle.leg?.expected_at),
     };
     return said() + (busy.waiting.length > 0 ? t("busy.more", more()) : "");
@@ -39,7 +39,7 @@ export function useBusyWords(): (busy: Busy, vehicle: Vehicle) => string {
       return reason ? t("busy.held", { ...values, why: words.reason(reason) }) : t("busy.has", values);
     }
     function more() {
-      const orders = busy.waiting.map((o) => t("busy.one", { order: o.name, by: o.created_by }));
+      const orders = busy.waiting.map((o) => t("busy.one", { order: o.name, by: words.actor(o.created_by) }));
       return { count: busy.waiting.length, orders: orders.join(t("words.join")), vehicle: vehicle.name };
     }
   };

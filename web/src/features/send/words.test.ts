@@ -171,6 +171,19 @@ describe("checkWords", () => {
     [{ code: "mode", result: "note", params: { reason: "vehicle_busy" } }, "why vehicle_busy"],
     [{ code: "codes_in_view", params: { back: "B", found: 1, cameras: 2 } }, "1 of 2 cameras see a code"],
   ])("%o", (check, text) => expect(words(check).replaceAll("\u2009", "\u00a0")).toBe(text));
+  it("gives a reason its fault as the vehicle names it", () => {
+    const check = {
+      code: "mode",
+      result: "fail",
+      params: { reason: "wheel_fault", wheel: "front drive", fault: "steering_drive_fault" },
+    } as unknown as Check;
+    const names = { ...noNames, fault: () => "fault of the steering drive" };
+    const reason = (r: Reason) => `${r.params["wheel"]}: ${r.params["fault"]}`;
+    expect(checkWords(check, names, template, reason)).toBe("front drive: steering_drive_fault");
+    expect(checkWords({ ...check, code: "wheels" }, names, template, reason)).toBe(
+      "Wheel front drive: fault of the steering drive",
+    );
+  });
   it("shows what it carries when it has no words for it", () => {
     expect(words({ code: "battery", result: "pass", params: { charge_percent: 50 } })).toContain("charge 50");
   });

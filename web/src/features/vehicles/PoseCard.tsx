@@ -3,7 +3,7 @@ import type { Vehicle } from "@/shared/api/types";
 import { Card, StatusSymbol, Value } from "@/shared/ui";
 import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { poseWords } from "./poseBasis";
+import { poseWords } from "@/shared/words/poseBasis";
 import type { Heard } from "./useHeard";
 import "./PoseCard.css";
 
@@ -14,7 +14,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const atMs = heard.pose_s === undefined ? undefined : now - heard.pose_s * 1000;
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   const words = useWords();
-  const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now));
+  const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
   const measured = basis.key === "stop" || basis.key === "codes";
   // What has been driven since is reckoned, not measured.

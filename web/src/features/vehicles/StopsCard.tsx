@@ -19,6 +19,7 @@ export function StopsCard({ stops, now }: { stops: readonly StopRecord[]; now: n
   return (
     <Card
       className="stops"
+      scrolls
       title={t("stops.title")}
       summary={
         first &&
@@ -32,7 +33,7 @@ export function StopsCard({ stops, now }: { stops: readonly StopRecord[]; now: n
         <PanelEmpty what={t("stops.empty")} when={t("stops.empty_hint")} />
       ) : (
         <>
-          <table>
+          <table className="rows">
             <thead>
               <tr>
                 <th>{t("stops.time")}</th>
@@ -54,10 +55,18 @@ export function StopsCard({ stops, now }: { stops: readonly StopRecord[]; now: n
                       {dateTime(s.at, now)}
                     </Link>
                   </td>
-                  <td className="b">{s.number}</td>
-                  <td className="n">{millimetres(s.dx_m, { decimals: 2, sign: true })}</td>
-                  <td className="n">{millimetres(s.dy_m, { decimals: 2, sign: true })}</td>
-                  <td className="n">{degrees(s.dheading_rad, { sign: true })}</td>
+                  <td className="b" data-label={t("stops.station")}>
+                    {s.number}
+                  </td>
+                  <td className="n" data-label="dx mm">
+                    {millimetres(s.dx_m, { decimals: 2, sign: true })}
+                  </td>
+                  <td className="n" data-label="dy mm">
+                    {millimetres(s.dy_m, { decimals: 2, sign: true })}
+                  </td>
+                  <td className="n" data-label="dθ °">
+                    {degrees(s.dheading_rad, { sign: true })}
+                  </td>
                   <td>{words.modeShort(s.mode)}</td>
                   <td>
                     <StatusSymbol name={s.inside ? "c-ok" : "a-2"} />

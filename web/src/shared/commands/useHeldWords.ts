@@ -13,7 +13,7 @@ export function useHeldWords(): (vehicle: Vehicle) => string {
   return (v) => {
     const why = v.needs_resume_reason && words.reason(v.needs_resume_reason);
     if (!v.paused) return why ?? "";
-    const by = v.pause?.by ?? t("held.somebody");
+    const by = v.pause?.by === undefined ? t("held.somebody") : words.actor(v.pause.by);
     const key = v.pause?.with_fleet ? "held.fleet" : "held.singly";
     const who =
       v.pause?.at === undefined ? t(`${key}_plain`, { by }) : t(key, { by, time: dateTime(v.pause.at, now) });

@@ -12,6 +12,7 @@ import type {
   StopRecord,
   Vehicle,
 } from "@/shared/api/types";
+import { closureName } from "@/shared/words/closures";
 import { useNow } from "./clock";
 import { inLanguage } from "./inLanguage";
 import { liveStore, type LinkState, type LiveState } from "./store";
@@ -68,8 +69,14 @@ export function useStations(): readonly LiveStation[] {
 }
 
 /** Floor that people have closed, oldest first. */
+/** Closed floor, named in the language shown where the name is one that the page offers. */
 export function useClosures(): readonly Closure[] {
-  return useLive((s) => s.closures);
+  const { t } = useTranslation();
+  const closures = useLive((s) => s.closures);
+  return useMemo(
+    () => closures.map((closure) => ({ ...closure, name: closureName(closure.name, t) })),
+    [closures, t],
+  );
 }
 
 export function useFleet(): Fleet | undefined {

@@ -13,6 +13,7 @@ import type { Plant } from "@/shared/api/types";
 import { liveStore } from "@/shared/live/store";
 import { boxOf, type MetricPoint } from "@/shared/math/geometry";
 import { homeView, isPhone, marginsOf, withInSight } from "./home";
+import { closureName } from "@/shared/words/closures";
 import "./map.css";
 import { Picker, type Picked } from "./pick";
 import { allLayers, hallModel, type MapLayers, type MapOverlays } from "./scene";
@@ -102,6 +103,7 @@ export function MapView(props: MapViewProps) {
     () => ({
       old: (age: string) => t("old", { age }),
       north: t("north"),
+      closure: (name: string) => closureName(name, t),
       alarm: (kind: string) => t(`tag.${kind}`),
     }),
     [t],

@@ -10,13 +10,17 @@ export interface Caption {
   height: number;
 }
 
+/** Capitals, but for a word that has its own: iGPS is a name. */
+export const inCapitals = (name: string): string =>
+  name.replace(/\S+/g, (word) => (/.[A-Z]/.test(word) ? word : word.toLocaleUpperCase()));
+
 /** Names of zones that are wide enough for them. They are floor: drawn with the hall, below all that moves. */
 export function captionsOf(pen: Pen, model: HallModel): Caption[] {
   pen.g.font = `700 13px ${pen.palette.font}`;
   return model.areas.flatMap((area) => {
     if (area.kind !== "zone" || area.name === "") return [];
     const box = boxOf(area.outline);
-    const text = area.name.toLocaleUpperCase();
+    const text = inCapitals(area.name);
     const width = pen.g.measureText(text).width + 12;
     return width > (box.maxX - box.minX) * pen.k - 8 ? [] : [{ text, area: box, width, height: 18 }];
   });

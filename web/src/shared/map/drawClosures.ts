@@ -1,5 +1,6 @@
 import type { Closure, Point } from "@/shared/api/types";
 import type { Pen } from "./pen";
+import type { MapWords } from "./renderer";
 import type { HallModel, Lane, MapOverlays } from "./scene";
 
 /** A closed lane is barred between its nodes; who stands at one of them is not on it. */
@@ -37,12 +38,13 @@ export function drawClosures(
   model: HallModel,
   closures: readonly Closure[],
   overlays: MapOverlays,
+  words: Pick<MapWords, "closure">,
 ): void {
   const { palette } = pen;
   for (const closure of closures) {
     if (closurePlace(model, closure) !== undefined) drawShape(pen, model, closure, palette["ink-2"]);
   }
-  for (const closure of closures) drawName(pen, model, closure);
+  for (const closure of closures) drawName(pen, model, closure, words.closure(closure.name));
   const { closing } = overlays;
   if (closing === undefined) return;
   drawShape(pen, model, closing, palette.accent);
@@ -91,12 +93,12 @@ function drawShape(pen: Pen, model: HallModel, shape: Shape, ink: string): void 
 }
 
 /** The name with a bar through a circle, on the floor: vehicles and their tags lie above it. */
-function drawName(pen: Pen, model: HallModel, closure: Closure): void {
+function drawName(pen: Pen, model: HallModel, closure: Closure, name: string): void {
   const place = closurePlace(model, closure);
   if (place === undefined) return;
   const { g, palette } = pen;
   g.font = `700 13px ${palette.font}`;
-  const width = g.measureText(closure.name).width + 30;
+  const width = g.measureText(name).width + 30;
   const p = pen.at(place.x_m, place.y_m);
   const [x, y] = [Math.round(p.x - width / 2) + 0.5, Math.round(p.y - 11) + 0.5];
   g.beginPath();
@@ -111,5 +113,5 @@ function drawName(pen: Pen, model: HallModel, closure: Closure): void {
   g.fillStyle = palette.ink;
   g.textAlign = "left";
   g.textBaseline = "middle";
-  g.fillText(closure.name, x + 24, y + 11.5);
+  g.fillText(name, x + 24, y + 11.5);
 }

@@ -13,6 +13,8 @@ import { toScreen, type Size, type View } from "./view";
 export interface MapWords {
   old: (age: string) => string;
   north: string;
+  /** Why floor is closed. */
+  closure: (name: string) => string;
   /** A kind of alarm in a word or two. */
   alarm: (kind: AlarmKind) => string;
 }
@@ -70,7 +72,7 @@ export class CanvasRenderer implements Renderer {
       const p = toScreen(view, size, v.pose);
       return p.x > -200 && p.y > -200 && p.x < size.width + 200 && p.y < size.height + 200;
     });
-    drawClosures(pen, input.model, input.live.closures, input.overlays);
+    drawClosures(pen, input.model, input.live.closures, input.overlays, input.words);
     drawGround(pen, inView, input.overlays);
     // Number plates lie on the floor: who drives over one is not hidden by it.
     const plates = input.layers.labels ? this.labels.drawPlates(pen, input) : [];

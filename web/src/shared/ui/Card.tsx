@@ -11,11 +11,13 @@ export interface CardProps {
   className?: string;
   /** Without the padding of `.in`, for tables and lists. */
   flush?: boolean;
+  /** Its content may be longer than it: the keyboard reaches it, too. */
+  scrolls?: boolean;
   /** Title as h1 for the first card of a page. */
   level?: 1 | 2 | 3;
 }
 
-export function Card({ title, summary, right, children, className, flush, level = 2 }: CardProps) {
+export function Card({ title, summary, right, children, className, flush, scrolls, level = 2 }: CardProps) {
   const Title = `h${level}` as "h1" | "h2" | "h3";
   return (
     <section className={`card ${className ?? ""}`} aria-label={title}>
@@ -27,7 +29,13 @@ export function Card({ title, summary, right, children, className, flush, level 
           {right !== undefined && <span className="cap nw">{right}</span>}
         </header>
       )}
-      {flush ? children : <div className="in">{children}</div>}
+      {flush ? (
+        children
+      ) : (
+        <div className="in" {...(scrolls && { tabIndex: 0, role: "group", "aria-label": title })}>
+          {children}
+        </div>
+      )}
     </section>
   );
 }

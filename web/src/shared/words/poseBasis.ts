@@ -17,6 +17,7 @@ export function poseWords(
   v: Vehicle,
   number: (station: string) => string,
   time: (at: string) => string,
+  who: (actor: string) => string,
 ): PoseWords {
   const basis = v.pose_basis;
   if (!v.pose_known) return { key: "unknown", values: {}, since: undefined };
@@ -29,7 +30,7 @@ export function poseWords(
     case "codes":
       return { key: "codes", values: { time: at }, since };
     case "statement":
-      return { key: "statement", values: { by: basis.by ?? "", time: at }, since };
+      return { key: "statement", values: { by: who(basis.by ?? ""), time: at }, since };
     case "vehicle":
       return { key: "vehicle", values: { time: at }, since };
   }

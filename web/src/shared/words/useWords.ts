@@ -4,6 +4,8 @@ import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason } from "@/shared/api/types";
 import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
 import { usePlant } from "@/shared/live";
+import { actorText } from "./actor";
+import { closureName } from "./closures";
 import { faultText } from "./faults";
 import { named, type Names, type Template } from "./words";
 
@@ -13,6 +15,8 @@ export interface Words {
   /** A problem in words: by its code when that is known, else the server's own sentence. */
   problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
   vehicle: (id: string) => string;
+  /** Who did something: a person, or a program with a token. */
+  actor: (actor: string) => string;
   fault: (type: string) => string;
   /** Name of a wheel in words, where it is one that wheels usually have. */
   wheel: (name: string) => string;
@@ -51,16 +55,22 @@ export function useWords(): Words {
     };
     const ofWheel = (catalog: string, name: string) =>
       t(`alarms:${catalog}.${name.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: name });
+    const each = (list: string, text: (one: string) => string) =>
+      list.split(", ").map(text).join(t("words:join"));
     const names: Names = {
       vehicle: (id) => vehicles.get(id) ?? areas.get(id) ?? obstacles[id],
       station: (id) => stations.get(id),
+      actor: (actors) => each(actors, (one) => actorText(one, t)),
       wheel: (name) => ofWheel("wheel_name", name),
+      closure: (names) => each(names, (one) => closureName(one, t)),
+      fault: (type) => faultText(type, t),
     };
     return {
       names,
       reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
       problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
       vehicle: (id) => vehicles.get(id) ?? id,
+      actor: (actor) => actorText(actor, t),
       fault: (type) => faultText(type, t),
       wheel: (name) => ofWheel("wheel_name", name),
       wheelLabel: (name) => ofWheel("wheel_label", name),

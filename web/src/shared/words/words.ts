@@ -1,37 +1,56 @@
 import type { Params } from "@/shared/api/types";
 import { parameter } from "./format";
 
-/** Names a person knows for the ids that parameters carry. */
-export interface Names {
-  vehicle: (id: string) => string | undefined;
-  station: (id: string) => string | undefined;
-  wheel?: (name: string) => string | undefined;
-}
-export const noNames: Names = { vehicle: () => undefined, station: () => undefined };
+/** Names a person knows for the ids and codes that parameters carry. */
+export type Names = Readonly<
+  Record<"vehicle" | "station" | "actor" | "wheel" | "closure" | "fault", (id: string) => string | undefined>
+>;
+const none = () => undefined;
+export const noNames: Names = {
+  vehicle: none,
+  station: none,
+  actor: none,
+  wheel: none,
+  closure: none,
+  fault: none,
+};
 
 /** Raw template of a key; undefined when there is none. */
 export type Template = (key: string) => string | undefined;
 
-const vehicleParams = new Set(["vehicle", "by", "blocked_by", "nearest", "holder"]);
-const stationParams = new Set(["station", "from", "to"]);
+/** Of what a parameter is the id, the likeliest first: "by" is said of vehicles and of people. */
+const kNamed: Readonly<Record<string, readonly (keyof Names)[]>> = {
+  vehicle: ["vehicle", "station"],
+  by: ["vehicle", "station", "actor"],
+  blocked_by: ["vehicle", "station"],
+  nearest: ["vehicle", "station"],
+  holder: ["vehicle", "station"],
+  station: ["station", "vehicle"],
+  from: ["station", "vehicle"],
+  to: ["station", "vehicle"],
+  actor: ["actor"],
+  wheel: ["wheel"],
+  closure: ["closure"],
+  fault: ["fault"],
+};
 
 /** One parameter in words. */
 export function paramText(name: string, value: string | number | boolean, names: Names): string {
   if (typeof value === "boolean") return value ? "\u2713" : "\u2717";
-  if (vehicleParams.has(name))
-    return names.vehicle(String(value)) ?? names.station(String(value)) ?? String(value);
-  if (stationParams.has(name))
-    return names.station(String(value)) ?? names.vehicle(String(value)) ?? String(value);
-  if (name === "wheel") return names.wheel?.(String(value)) ?? String(value);
+  const kinds = Object.hasOwn(kNamed, name) ? (kNamed[name] ?? []) : [];
+  for (const kind of kinds) {
+    const text = names[kind](String(value));
+    if (text !== undefined) return text;
+  }
+  if (kinds.length > 0) return String(value);
   return typeof value === "number" ? parameter(name, value) : value;
 }
 
-/** Ids in a reason replaced by the names people use. */
+/** Ids in a reason replaced by the names people use; its faults are put into words with it. */
 export function named(params: Params, names: Names): Params {
   const out: Params = {};
   for (const [name, value] of Object.entries(params)) {
-    const isId =
-      typeof value === "string" && (vehicleParams.has(name) || stationParams.has(name) || name === "wheel");
+    const isId = typeof value === "string" && Object.hasOwn(kNamed, name) && name !== "fault";
     out[name] = isId ? paramText(name, value, names) : value;
   }
   return out;

@@ -8,6 +8,7 @@ const said = (pose_basis: Basis | undefined, pose_known = true) =>
     { pose_known, ...(pose_basis && { pose_basis }) } as Vehicle,
     (station) => station.slice(2),
     (at) => at.slice(11, 19),
+    (actor) => actor,
   );
 const at = "2026-11-24T20:15:03Z";
 

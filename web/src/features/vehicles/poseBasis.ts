@@ -1,1 +1,0 @@
-export { poseWords, type PoseWords } from "@/shared/words/poseBasis";
