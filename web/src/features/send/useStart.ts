@@ -1,4 +1,4 @@
-import { useQuery } from "@tanstack/react-query";
+import { useQuery, useQueryClient } from "@tanstack/react-query";
 import { useCallback, useEffect, useReducer, useRef, useState } from "react";
 import { api, ApiProblem, call } from "@/shared/api";
 import type { JobOrder, NewJobOrder } from "@/shared/api/types";
@@ -37,6 +37,7 @@ export function useStart(subject: Subject | undefined): Start {
   const [command, dispatch] = useReducer(startCommand, { kind: "idle" });
   const [replacing, setReplacing] = useState<Replacing>({ kind: "none" });
   const { query } = useLocation();
+  const queries = useQueryClient();
   const nowMs = useNow(200).monoMs;
   const subjectText = subject === undefined ? undefined : JSON.stringify(subject);
   const subjectRef = useRef(subject);
@@ -66,6 +67,8 @@ export function useStart(subject: Subject | undefined): Start {
     ).then(
       (data) => {
         const order = data as JobOrder;
+        // A link cut at this moment leaves the answer as all that is known of the order.
+        queries.setQueryData(sentOrderKey(order.id), order);
         const station = sent.body.steps[0]?.station;
         dispatch({ kind: "accepted", orderId: order.id, vehicle: sent.body.vehicle ?? "", station });
         navigate(sendAddress({ order: order.id }), { replace: true });
@@ -80,7 +83,7 @@ export function useStart(subject: Subject | undefined): Start {
         } else dispatch({ kind: "refused", problem });
       },
     );
-  }, [sentTry]);
+  }, [sentTry, queries]);
 
   // The address keeps the order, so that coming back to this page shows its progress again.
   const orderId = query.get("order");
@@ -121,11 +124,13 @@ function cancelOther(order: Replaced): Promise<Replacing> {
   );
 }
 
+const sentOrderKey = (id: string | undefined) => ["job-order", id];
+
 /** The order that was sent: from the stream, or asked for once when it is no longer among the newest. */
 export function useSentOrder(id: string | undefined): JobOrder | undefined {
   const live = useJobOrder(id);
   const { data } = useQuery({
-    queryKey: ["job-order", id],
+    queryKey: sentOrderKey(id),
     queryFn: () => call(api.GET("/api/v1/job-orders/{id}", { params: { path: { id: id ?? "" } } })),
     enabled: id !== undefined && live === undefined,
     retry: false,
