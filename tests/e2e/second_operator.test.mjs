@@ -87,7 +87,7 @@ test("at once the other page says who has the vehicle, and its move is stored be
   await second.locator(".busy strong", { hasText: `${order.name}, by operator` }).waitFor({ timeout: 5000 });
   assert.notEqual(await go(second).getAttribute("data-state"), "armed", "what was armed was another move: one that begins at once");
   await client.untilVehicle("TP-01", (v) => v.activity === "moving", "drives");
-  await second.locator(".busy strong", { hasText: onItsWay(order, "operator") }).waitFor({ timeout: 3000 });
+  await second.locator(".busy strong", { hasText: onItsWay(order, "operator") }).waitFor({ timeout: 10_000 });
   await second.locator(".from", { hasText: `Seen from station 6, where TP-01 will stand after its orders (${order.name}).` }).waitFor({ timeout: 20_000 });
   await second.locator(".busy a", { hasText: `Show ${order.name}` }).click();
   await second.waitForURL(`**/orders/${order.id}`);
@@ -117,8 +117,8 @@ test("Replace pressed twice: one order in the other's place, and the first opera
   assert.match(await replace.innerText(), new RegExp(`Replace ${order.name} of operator`), "the order and its author are in what is confirmed");
   await picture(second, "second-replace-armed");
   await replace.dblclick();
-  await first.locator(".move .now", { hasText: "anna cancels it: waits until TP-01 stands" }).or(first.locator(".move .now", { hasText: "Cancelled by anna" })).waitFor({ timeout: 3000 });
-  await second.locator(".behind", { hasText: new RegExp(`${order.name} of operator is (being )?cancelled`) }).waitFor({ timeout: 3000 });
+  await first.locator(".move .now", { hasText: "anna cancels it: waits until TP-01 stands" }).or(first.locator(".move .now", { hasText: "Cancelled by anna" })).waitFor({ timeout: 10_000 });
+  await second.locator(".behind", { hasText: new RegExp(`${order.name} of operator is (being )?cancelled`) }).waitFor({ timeout: 10_000 });
   await picture(second, "second-replacing");
   const ended = await client.untilEnded(order.id);
   assert.deepEqual([ended.state, ended.reason.code, ended.reason.params.actor], ["Aborted", "cancelled_by_person", "anna"]);
@@ -128,7 +128,7 @@ test("Replace pressed twice: one order in the other's place, and the first opera
   await first.locator(".behind", { hasText: `Instead of ${order.name}` }).waitFor();
   await picture(first, "second-cancelled-first");
   await second.locator(".move .now", { hasText: /On the way/ }).waitFor({ timeout: 20_000 });
-  await first.locator(".behind", { hasText: onItsWay(own[0], "anna") }).waitFor({ timeout: 3000 });
+  await first.locator(".behind", { hasText: onItsWay(own[0], "anna") }).waitFor({ timeout: 10_000 });
   assert.deepEqual([...first.errors, ...second.errors], []);
 });
 
@@ -197,8 +197,8 @@ test("both press Start at the same moment: one drives, the other waits behind it
   const waiting = both.find((o) => o !== driving);
   await client.untilVehicle("TP-01", (v) => v.activity === "moving", "drives");
   const name = (order) => order.created_by;
-  await pages[name(waiting)].locator(".behind", { hasText: onItsWay(driving, name(driving)) }).waitFor({ timeout: 3000 });
-  await pages[name(driving)].locator(".move .now", { hasText: "On the way" }).waitFor({ timeout: 3000 });
+  await pages[name(waiting)].locator(".behind", { hasText: onItsWay(driving, name(driving)) }).waitFor({ timeout: 10_000 });
+  await pages[name(driving)].locator(".move .now", { hasText: "On the way" }).waitFor({ timeout: 10_000 });
   assert.equal(await pages[name(driving)].locator(".behind").count(), 0);
   assert.equal((await client.get(`/api/v1/job-orders/${waiting.id}`)).state, "AllowedToStart");
   for (const page of Object.values(pages)) assert.deepEqual(page.errors, []);
