@@ -1,6 +1,6 @@
-// Planted bugs of the fleet (core/fleet/mutation.hpp): each has to be found, by the fleet judge or,
-// where it would take the judge too long, by a unit test of the fleet. --rare 1 has the judge hunt
-// those.
+// Planted bugs of the fleet (tests/mutations/fleet.txt): each has to be found, by the fleet judge
+// or, where it would take the judge too long, by a unit test of the fleet. --rare 1 has the judge
+// hunt those.
 //   test_fleet_mutations [--seeds N] [--hours H] [--only NUMBER] [--rare 1]
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -13,7 +13,7 @@
 #include <map>
 #include <string>
 
-#include "core/fleet/mutation.hpp"
+#include "planted.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
 
 namespace pulseline::fleet_judge {
@@ -22,35 +22,7 @@ namespace {
 constexpr unsigned kSecondsPerMutation = 100;
 constexpr unsigned kSecondsPerRareOne = 1800;
 constexpr std::size_t kAtOnce = 2;
-struct Planted {
-    const char* name;
-    std::uint64_t found_by;  // a seed that finds it; 0: it is rare, a unit test has to find it
-};
-constexpr Planted kPlanted[] = {{"none", 1},
-                                {"repeat makes another", 1},
-                                {"key not stored", 32},
-                                {"restart needs nobody", 2},
-                                {"pause not kept", 2},
-                                {"manual is driven", 5},
-                                {"safety stop ignored", 0},
-                                {"silent is extended", 0},
-                                {"base not stored", 1},
-                                {"progress not stored", 1},
-                                {"cancel not awaited", 2},
-                                {"cancel failed is done", 0},
-                                {"failed stop while moving", 0},
-                                {"overtaken state taken", 4},
-                                {"order on its way forgotten", 0},
-                                {"rerouted loses stop", 2},
-                                {"makes way elsewhere", 0},
-                                {"type ignored", 1},
-                                {"busy is free", 2},
-                                {"last step skipped", 1},
-                                {"lost pose loses floor", 0},
-                                {"turns only", 0},
-                                {"jump is believed", 5},
-                                {"far stop is taken", 0}};
-static_assert(std::size(kPlanted) == fleet::kMutationCount);
+using fleet::kPlanted;  // those that no seed finds are for the unit tests
 
 class FirstFailure : public testing::EmptyTestEventListener {
 public:
@@ -141,7 +113,7 @@ int run(std::uint64_t seeds, int only, bool rare, const Options& options) {
         found += end(hunt->second, status) ? 1 : 0;
         hunts.erase(hunt);
     };
-    for (int m = 1; m < fleet::kMutationCount; ++m) {
+    for (int m = 1; m < static_cast<int>(std::size(kPlanted)); ++m) {
         if (only != 0 ? m != only : rare && kPlanted[m].found_by != 0) continue;
         ++planted;
         while (hunts.size() >= kAtOnce) wait_for_one();
