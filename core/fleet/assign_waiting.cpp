@@ -4,7 +4,6 @@
 
 #include "core/fleet/assignment.hpp"
 #include "core/fleet/dispatch_phases.hpp"
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/start_conditions.hpp"
 
 // Free vehicles and waiting orders, solved as one assignment.
@@ -32,7 +31,7 @@ double urgency_s(const JobOrder& order, Time now) {
 
 bool is_free(const FleetState& fleet, const VehicleRun& run) {
     if (run.has_leg()) return false;
-    return fleet.orders.of(run.record.id) == nullptr || mutated(Mutation::kBusyIsFree);
+    return fleet.orders.of(run.record.id) == nullptr;
 }
 
 NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {

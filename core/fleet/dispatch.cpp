@@ -2,7 +2,6 @@
 
 #include "core/fleet/dispatch_phases.hpp"
 #include "core/fleet/interlocks.hpp"
-#include "core/fleet/mutation.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -87,24 +86,18 @@ std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run
     if (run.record.integration != Integration::kUtilise) return because("not_integrated");
     const bool silent =
         run.link == Link::kNever || run.link == Link::kLost || run.link == Link::kGone;
-    if (silent && !mutated(Mutation::kSilentIsExtended)) {
-        return because("vehicle_silent");
-    }
+    if (silent) return because("vehicle_silent");
     if (run.record.needs_resume) return because("needs_person");
-    const bool paused = run.record.paused || run.state.paused;
-    if (paused && !mutated(Mutation::kPauseNotKept)) return because("vehicle_paused");
+    if (run.record.paused || run.state.paused) return because("vehicle_paused");
     const JobOrder* order = fleet.orders.of(run.record.id);
     if (order && order->pause_requested) return because("paused_by_person");
     if (!run.reconciled) return because("vehicle_not_reported");
     if (!run.record.pose_known) return because("pose_unknown");
-    if (!is_automatic(run) && !mutated(Mutation::kManualIsDriven)) return because("not_automatic");
+    if (!is_automatic(run)) return because("not_automatic");
     const bool stopped = run.state.e_stop != "NONE" && !run.state.e_stop.empty();
-    if (stopped && !mutated(Mutation::kSafetyStopIgnored)) {
-        return because("vehicle_safety_stop");
-    }
+    if (stopped) return because("vehicle_safety_stop");
     for (const auto& error : run.state.errors) {
-        const bool bars = error.fatal && !mutated(Mutation::kManualIsDriven);
-        if (bars) return because("vehicle_error");
+        if (error.fatal) return because("vehicle_error");
     }
     // On its way a platform loses sight of the codes, and forces shift: what bars a start does not
     // stop a drive, but for a broken wheel.

@@ -1,5 +1,4 @@
 #include "core/fleet/dispatch_phases.hpp"
-#include "core/fleet/mutation.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -19,12 +18,10 @@ bool may_extend_base(const VehicleRun& run, Time now) {
     if (!run.has_leg() || run.update_sent) return false;
     if (!run.leg_seen && !is_first_grant(run)) return false;
     if (waits_for_person(run)) return false;
-    const bool linked = run.connected && run.reconciled;
-    if (!run.state_at || (!linked && !mutated(Mutation::kSilentIsExtended))) return false;
-    const bool old = run.state.driving && now - *run.state_at > kPoseTooOld;
-    if (old && !mutated(Mutation::kSilentIsExtended)) return false;
-    if (!is_automatic(run) && !mutated(Mutation::kManualIsDriven)) return false;
-    return run.link == Link::kLive || mutated(Mutation::kSilentIsExtended);
+    if (!run.connected || !run.reconciled || !run.state_at) return false;
+    if (run.state.driving && now - *run.state_at > kPoseTooOld) return false;
+    if (!is_automatic(run)) return false;
+    return run.link == Link::kLive;
 }
 
 void extend_bases(FleetState& fleet, Time now) {

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/fleet/journal/recorder.hpp"
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
 
@@ -213,8 +212,6 @@ Outputs Fleet::take_outputs(Time now) {
     for (const auto& id : std::exchange(fleet.stored_orders, {})) {
         const JobOrder* order = fleet.find(id);
         if (!order) continue;
-        const bool runs = order->state == JobState::kRunning;
-        if (runs && mutated(Mutation::kProgressNotStored)) continue;
         out.records.orders.push_back(*order);
     }
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {

@@ -4,7 +4,6 @@
 #include <set>
 #include <unordered_set>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -54,10 +53,9 @@ traffic::VehicleRecord stored_floor(const FleetState& fleet, VehicleRun& run) {
     if (run.record.integration < Integration::kRespect) return row;
     if (run.has_leg()) {
         pose = run.leg().nodes[run.leg().passed_nodes - 1].pose;
-    } else if (mutated(Mutation::kLostPoseLosesFloor) ? run.record.pose_known
-                                                      : has_stood(run.record)) {
+    } else if (has_stood(run.record)) {
         pose = run.record.pose;
-    } else if (!mutated(Mutation::kLostPoseLosesFloor)) {
+    } else {
         pose = presumed_pose(fleet, run);
     }
     if (!pose) return row;

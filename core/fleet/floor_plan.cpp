@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "core/fleet/floor.hpp"
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/primitives.hpp"
 
@@ -186,11 +185,10 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
         // Making way ends wherever the plan found a resting place this time.
         const auto end = plan.place_after(plan.last());
         const bool at_station = end != kNoPlace && !of_class.motion.places[end].station.empty();
-        if (at_station && !mutated(Mutation::kMakesWayElsewhere))
-            leg.station = of_class.motion.places[end].station;
+        if (at_station) leg.station = of_class.motion.places[end].station;
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
-    const bool stops = next <= plan.last() && !(mutated(Mutation::kReroutedLosesStop) && !ends);
+    const bool stops = next <= plan.last();
     const bool rests = leg.order.empty() && station && leg.nodes.size() > 1;
     if (stops || rests) {
         leg.nodes.back().node_id = station->id.str();

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/kinematics/motion.hpp"
 
@@ -265,7 +264,7 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
               {{"nodes", static_cast<std::int64_t>(leg.released_nodes)},
                {"of", static_cast<std::int64_t>(leg.nodes.size())},
                {"update", leg.update_id}});
-    if (!mutated(Mutation::kBaseNotStored)) fleet.store(run);
+    fleet.store(run);
 }
 
 void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now) {

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/order_fields.hpp"
 #include "core/fleet/start_conditions.hpp"
 #include "core/fleet/state.hpp"
@@ -256,7 +255,6 @@ Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const st
 void keep_answer(FleetState& fleet, const IdempotencyRecord& record) {
     if (record.key.empty()) return;
     fleet.idempotency[{record.client, record.key}] = record;
-    if (mutated(Mutation::kKeyNotStored)) return;
     fleet.out.records.idempotency.push_back(record);
 }
 
@@ -264,7 +262,7 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     const auto earlier = earlier_answer(fleet, request.idempotency_client, request.idempotency_key,
                                         request.body_sha256);
     if (!earlier) return fail(earlier.error());
-    if (*earlier && !mutated(Mutation::kRepeatMakesAnother)) return Created{**earlier, true};
+    if (*earlier) return Created{**earlier, true};
     if (!request.client_order_id.empty()) {
         if (const auto known = fleet.orders.with_client_id(request.client_order_id)) {
             return fail(Errc::kConflict, "duplicate_client_order_id",

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/fleet/dispatch_phases.hpp"
-#include "core/fleet/mutation.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -189,7 +188,6 @@ bool leave_to_rest(FleetState& fleet, VehicleRun& run, double first_m,
 void leave_from_anywhere(FleetState& fleet, VehicleRun& run, Time now) {
     auto rests = resting_places(fleet, run);
     for (const double first_m : kFirst_m) {
-        if (first_m != 0 && mutated(Mutation::kTurnsOnly)) break;
         rests.resize(std::min(rests.size(), first_m == 0 ? kMostRestsTried : kMostRestsTriedAfter));
         if (leave_to_rest(fleet, run, first_m, rests, now)) return tell_leaving(fleet, run, now);
     }

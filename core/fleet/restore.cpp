@@ -2,7 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -10,7 +9,6 @@ namespace {
 
 /// Orders go on only after the person's act of design.md section 4.
 void interrupt_after_restart(FleetState& fleet, Time now) {
-    if (mutated(Mutation::kRestartNeedsNobody)) return;
     bool any_vehicle = false;
     for (const JobOrderId& id : fleet.orders.open()) {
         const JobOrder& order = *fleet.find(id);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -102,8 +101,7 @@ std::optional<Reason> waits_for_condition(const FleetState& fleet, const JobOrde
 bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
     const plant::VehicleId& id = run.record.id;
     if (!order.wanted_vehicle.empty() && order.wanted_vehicle != id) return false;
-    const bool other_type = !order.wanted_type.empty() && order.wanted_type != run.type->id;
-    if (other_type && !mutated(Mutation::kTypeIgnored)) return false;
+    if (!order.wanted_type.empty() && order.wanted_type != run.type->id) return false;
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
     if (!bound.empty() && bound != id) return false;
     if (!keeper(fleet, order, id).empty()) return false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 
 namespace pulseline::fleet {
@@ -24,9 +23,6 @@ void enter(Step& step, StepPhase phase) {
 void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
     order.steps[step].state = StepState::kDone;
     order.current_step = step + 1;
-    if (mutated(Mutation::kLastStepSkipped) && order.current_step + 1 == order.steps.size()) {
-        ++order.current_step;
-    }
     fleet.store(order);
     if (order.current_step == order.steps.size()) {
         set_order_state(fleet, order, JobState::kEnded, {}, {}, now);

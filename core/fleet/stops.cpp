@@ -1,6 +1,5 @@
 #include <cmath>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
 #include "core/kinematics/dead_reckoning.hpp"
@@ -24,7 +23,6 @@ constexpr double kLongerThanPlanned = 1.2;
 /// Why a measurement cannot be true; null: it can.
 const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
                      const Pose2& found) {
-    if (mutated(Mutation::kFarStopIsTaken)) return nullptr;
     if (!(std::isfinite(found.x_m) && std::isfinite(found.y_m) &&
           std::isfinite(found.heading_rad))) {
         return "measured_nowhere";

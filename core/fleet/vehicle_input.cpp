@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 #include "core/fleet/step_actions.hpp"
 
@@ -51,8 +50,8 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
             // It knew of no order to cancel: that may still be on its way, or have come since.
             const bool failed = found->status == ActionStatus::kFailed;
             if (failed && run.has_leg() && is_on_its_way(run)) return false;
-            again = failed && !mutated(Mutation::kCancelFailedIsDone) && run.has_leg() &&
-                    run.state.order_id == run.leg().id.str() && !has_nothing_left(run.state);
+            again = failed && run.has_leg() && run.state.order_id == run.leg().id.str() &&
+                    !has_nothing_left(run.state);
             cancelled = !again;
         }
         add_event(fleet, now, "vehicle.action", {}, {}, run.record.id, {},
@@ -81,7 +80,6 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
 /// are 32 bit and begin anew.
 bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
-    if (mutated(Mutation::kOvertakenStateTaken)) return false;
     if (state.header_id == 0 || run.newest_header == 0) return false;
     const std::int64_t ahead = state.header_id - run.newest_header;
     return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
@@ -145,7 +143,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
         }
         if (is_final(found->status)) {
             // A cancelOrder of before a restart fails the stop before the vehicle stands.
-            if (!has_nothing_left(state) && !mutated(Mutation::kFailedStopWhileMoving)) return;
+            if (!has_nothing_left(state)) return;
             take_failed_stop(fleet, run, found->result_description, now);
             return;
         }
@@ -223,7 +221,6 @@ void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, T
                   {{"from", before}, {"to", mode}});
     }
     if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
-    if (mutated(Mutation::kManualIsDriven)) return;
     require_person(fleet, run, {"driven_by_hand", {{"operating_mode", mode}}}, now);
 }
 
@@ -282,7 +279,6 @@ void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string&
 }
 
 bool is_on_its_way(const VehicleRun& run) {
-    if (mutated(Mutation::kWayOrderForgotten)) return false;
     if (run.leg_seen || !run.order_sent) return false;
     // One that fell silent may have got it, and have driven all of its base since.
     return !run.state_at || *run.state_at - *run.order_sent < kLongestWay;
@@ -305,7 +301,7 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
 }
 
 bool waits_for_person(const VehicleRun& run) {
-    return run.record.needs_resume || (run.record.paused && !mutated(Mutation::kPauseNotKept));
+    return run.record.needs_resume || run.record.paused;
 }
 
 void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
@@ -336,7 +332,6 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     action.type = "cancelOrder";
     add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
     send_action(fleet, run, std::move(action), now);
-    if (mutated(Mutation::kCancelNotAwaited)) finish_cancel(fleet, run, now);
 }
 
 }  // namespace pulseline::fleet

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/fleet/mutation.hpp"
 #include "core/fleet/state.hpp"
 
 // Where a vehicle says that it stands, and what becomes of it when that cannot be true.
@@ -96,7 +95,6 @@ bool is_within_reach(const VehicleRun& run, const Pose2& pose, Time now) {
 }
 
 bool can_be_at(const FleetState& fleet, const VehicleRun& run, const Whereabouts& told, Time now) {
-    if (mutated(Mutation::kJumpIsBelieved)) return true;
     if (run.record.integration < Integration::kRespect) return true;  // it holds no floor
     if (!is_in_hall(fleet, told)) return false;
     if (!has_stood(run.record) && !run.has_leg()) return true;

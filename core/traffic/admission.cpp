@@ -2,7 +2,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "core/traffic/mutation.hpp"
 #include "core/traffic/traffic.hpp"
 
 namespace pulseline::traffic {
@@ -124,13 +123,11 @@ void Traffic::choose_rests(VehicleIndex vehicle, const Task& task, SearchTask& s
         return;
     }
     if (free.empty()) {
-        if (task.sequences.empty() && !mutated(Mutation::kRestCrossed)) {
-            search.hopeless = taken.value_or(Obstacle{});
-        }
+        if (task.sequences.empty()) search.hopeless = taken.value_or(Obstacle{});
         search.times_to_rest = times_to_places(graph, task.resting);
         return;
     }
-    if (!mutated(Mutation::kRestCrossed)) search.resting = free;
+    search.resting = free;
     search.times_to_rest = times_to_places(graph, {free.front()});
     if (free.size() == 1) return;
     std::vector<float> least = *search.times_to_rest;
@@ -159,7 +156,6 @@ SearchTask Traffic::search_task(VehicleIndex vehicle, MoveNumber from_move, cons
             search.stops.push_back({visit.place, visit.dwell_s, static_cast<VisitIndex>(i),
                                     times_to_places(v.graph, {visit.place})});
         }
-        if (mutated(Mutation::kVisitLost) && search.stops.size() > 1) search.stops.pop_back();
     }
     for (const Sequence& sequence : task.sequences) {
         FixedSequence fixed;
@@ -184,7 +180,7 @@ bool Traffic::merge_plan(VehicleIndex vehicle, std::vector<PlannedMove> moves, P
     bool acyclic = joint_.times_agree(undo);
     if (!acyclic) {
         predicted_ = false;
-        acyclic = joint_.predict_before(vehicle, now_s) || mutated(Mutation::kCycleTestSkipped);
+        acyclic = joint_.predict_before(vehicle, now_s);
     }
     if (!acyclic) {
         joint_.undo(std::move(undo));
@@ -227,7 +223,7 @@ tl::expected<Admission, Block> Traffic::plan_from(VehicleIndex vehicle, MoveNumb
         predict(now_s);
         const bool in_vain = is_blocked(vehicle, now_s) || !joint_.ends_last(vehicle) ||
                              count_blocked(now_s) > old_blocked;
-        if (in_vain && !mutated(Mutation::kCycleTestSkipped)) {
+        if (in_vain) {
             roll_back(own);
             return tl::unexpected(Block{Obstacle::Cause::kCycle, 0, 0, {}});
         }

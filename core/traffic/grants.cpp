@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/traffic/mutation.hpp"
 #include "core/traffic/traffic.hpp"
 
 namespace pulseline::traffic {
@@ -8,7 +7,7 @@ namespace pulseline::traffic {
 MoveNumber Traffic::grantable(VehicleIndex vehicle, MoveNumber wanted_moves) const {
     const VehiclePlan& plan = joint_.plan(vehicle);
     MoveNumber n = plan.released;
-    if (plan.halted && !mutated(Mutation::kHaltedIsReleased)) return n;
+    if (plan.halted) return n;
     const MoveNumber most = std::min(plan.last(), plan.passed + wanted_moves);
     // Granting a move changes nothing that the next one's test reads: its own stays count as free.
     while (n < most && !joint_.obstacle(vehicle, n + 1)) ++n;
@@ -30,9 +29,6 @@ Status Traffic::passed(VehicleIndex vehicle, MoveNumber move, Time now) {
         return fail(Errc::kConflict, "not_granted",
                     "The vehicle reports floor behind it that it was not granted.", {},
                     {{"move", std::int64_t{move}}, {"granted", std::int64_t{plan.released}}});
-    }
-    if (mutated(Mutation::kPassedCountsTwice) && move == plan.passed && move < plan.released) {
-        ++move;
     }
     if (move <= plan.passed) return {};
     for (MoveNumber n = plan.passed + 1; n <= move; ++n) {

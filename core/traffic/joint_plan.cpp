@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "core/traffic/mutation.hpp"
 
 namespace pulseline::traffic {
 namespace {
@@ -56,14 +55,13 @@ std::vector<JointPlan::OpenUse> JointPlan::uses_of(VehicleIndex vehicle) const {
         for (const TileIndex tile : shape.swept) {
             if (!has(stand_before, tile)) open.push_back({tile, {vehicle, n, kForever}});
         }
-        const bool no_tail = mutated(Mutation::kSweptWithoutTail);
         std::vector<OpenUse> still_open;
         for (OpenUse& use : open) {
             if (has(shape.stand, use.tile)) {
                 still_open.push_back(use);
                 continue;
             }
-            use.use.last = no_tail && use.use.first < n ? n - 1 : n;
+            use.use.last = n;
             done.push_back(use);
         }
         open = std::move(still_open);
@@ -115,12 +113,7 @@ void JointPlan::remove_uses(VehicleIndex vehicle, const std::vector<TileIndex>& 
 }
 
 void JointPlan::add_uses(VehicleIndex vehicle, Placement placement) {
-    for (const OpenUse& use : uses_of(vehicle)) {
-        if (mutated(Mutation::kRestNotHeld) && use.use.last == kForever && use.use.first == 0) {
-            continue;
-        }
-        insert(use.tile, use.use, placement);
-    }
+    for (const OpenUse& use : uses_of(vehicle)) insert(use.tile, use.use, placement);
 }
 
 /// Others that come right behind a use of the vehicle.
@@ -193,7 +186,6 @@ void JointPlan::move_stand(VehicleIndex vehicle, const TileIndexes& stand, Place
     plan.stand = stand;
     plan.place = place;
     plan.since_s = now_s;
-    if (mutated(Mutation::kRelocationNotHeld) && plan.passed > 0) return;
     add_uses(vehicle, Placement::kFirst);
     note_successors(vehicle, stand);
     std::sort(touched_moves_.begin(), touched_moves_.end(), by_vehicle_and_move);
@@ -225,7 +217,6 @@ JointPlan::Undo JointPlan::replace(VehicleIndex vehicle, std::vector<PlannedMove
     auto tiles = tiles_of(vehicle);
     touched_moves_.clear();
     note_successors(vehicle, tiles);
-    if (mutated(Mutation::kReplanChangesBase)) plan.released = plan.passed;
     const auto kept = static_cast<std::ptrdiff_t>(plan.released - plan.dropped);
     const auto old_tiles = tiles;
     plan.moves.erase(plan.moves.begin() + kept, plan.moves.end());
@@ -237,7 +228,6 @@ JointPlan::Undo JointPlan::replace(VehicleIndex vehicle, std::vector<PlannedMove
     remove_uses(vehicle, old_tiles);
     add_uses(vehicle, placement);
     note_successors(vehicle, new_tiles);
-    if (mutated(Mutation::kSuccessorsForgotten)) touched_moves_.clear();
     std::sort(touched_moves_.begin(), touched_moves_.end(), by_vehicle_and_move);
     touched_moves_.erase(std::unique(touched_moves_.begin(), touched_moves_.end()),
                          touched_moves_.end());
@@ -254,7 +244,6 @@ void JointPlan::undo(Undo undo) {
     for (auto& [ref, waits] : undo.waits) {
         vehicles_[ref.vehicle].at(ref.move).waits_for = std::move(waits);
     }
-    if (mutated(Mutation::kRollbackIncomplete)) return;
     for (auto& [tile, uses] : undo.queues) queues_[tile] = std::move(uses);
 }
 
@@ -287,7 +276,6 @@ bool JointPlan::restore(std::vector<VehiclePlan> plans,
     const auto rank = [&](const Use& use) {
         const VehiclePlan& plan = vehicles_[use.vehicle];
         if (use.first <= plan.released) return std::int64_t{-1};
-        if (mutated(Mutation::kRebuildLosesOrder)) return std::int64_t{use.vehicle};
         return ranks[use.vehicle][use.first - plan.passed - 1];
     };
     for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
@@ -345,7 +333,7 @@ std::vector<std::vector<std::int64_t>> JointPlan::ranks() const {
 
 std::optional<TileIndex> JointPlan::closed_tile(const TileIndexes& stand,
                                                 const Shape& shape) const {
-    if (closed_now_ == 0 || mutated(Mutation::kClosureIgnored)) return {};
+    if (closed_now_ == 0) return {};
     const auto closed = [&](TileIndex tile) { return is_closed(tile); };
     const auto it = std::find_if(shape.swept.begin(), shape.swept.end(), closed);
     if (it == shape.swept.end()) return {};
@@ -366,12 +354,8 @@ std::optional<TileIndex> JointPlan::obstacle(VehicleIndex vehicle, MoveNumber n)
                 continue;  // an earlier stay of its own that it has not passed yet
             }
             if (use.vehicle == vehicle) return tile;
-            const VehiclePlan& other = vehicles_[use.vehicle];
-            if (mutated(Mutation::kOrderIgnored) && use.first > other.released) continue;
-            if (mutated(Mutation::kBreakdownForgetsTiles) && other.halted) continue;
             return tile;
         }
-        if (mutated(Mutation::kGrantNotAtomic)) break;
     }
     return closed_tile(plan.stand_after(n - 1), shape);
 }
@@ -387,11 +371,9 @@ void JointPlan::pass(VehicleIndex vehicle, MoveNumber n, double now_s) {
     while (plan.passed < n) {
         const MoveNumber done = plan.passed + 1;
         const Shape& shape = *plan.at(done).shape;
-        MoveNumber freed = done;
-        if (mutated(Mutation::kTailFreedTooEarly) && done < plan.released) freed = done + 1;
         for (const TileIndex tile : shape.swept) {
             std::erase_if(queues_[tile], [&](const Use& use) {
-                return use.vehicle == vehicle && use.last <= freed;
+                return use.vehicle == vehicle && use.last <= done;
             });
         }
         plan.stand = shape.stand;
@@ -415,7 +397,6 @@ void JointPlan::close(const TileIndexes& tiles) {
 
 void JointPlan::open(const TileIndexes& tiles) {
     for (const TileIndex tile : tiles) {
-        if (mutated(Mutation::kReopenForgetsOverlap) && closed_[tile] > 1) closed_[tile] = 1;
         if (closed_[tile] > 0 && --closed_[tile] == 0) --closed_now_;
     }
 }

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "core/traffic/mutation.hpp"
 #include "core/traffic/traffic.hpp"
 
 // Snapshot and restart, and the reports to the monitor.
@@ -81,7 +80,7 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, Traffic empty) {
         plan.stand = traffic.tiles_.indexes_of(row.stand);
         plan.place = row.place;
         plan.passed = plan.dropped = row.passed;
-        plan.released = mutated(Mutation::kRebuildLosesBase) ? row.passed : row.released;
+        plan.released = row.released;
         plan.since_s = row.since_s;
         plan.halted = row.halted;
         ranks.emplace_back();
@@ -122,9 +121,7 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, Traffic empty) {
     if (!JointPlan(traffic.joint_).predict(0)) return broken("cycle", {});
     for (const ClosureRecord& closure : record.closures) {
         traffic.closures_.push_back({traffic.tiles_.indexes_of(closure.tiles), closure.open});
-        if (!closure.open && !mutated(Mutation::kRebuildLosesClosure)) {
-            traffic.joint_.close(traffic.closures_.back().tiles);
-        }
+        if (!closure.open) traffic.joint_.close(traffic.closures_.back().tiles);
     }
     return traffic;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/traffic/mutation.hpp"
 
 namespace pulseline::traffic {
 namespace {
@@ -191,8 +190,7 @@ WindowSearch::OpenEntry WindowSearch::entry_of(std::uint32_t index) const {
 }
 
 bool WindowSearch::is_end(const Label& label) const {
-    const bool crossed = label.until_s != kEver_s && !mutated(Mutation::kRestCrossed);
-    if (crossed) return false;
+    if (label.until_s != kEver_s) return false;
     if (label.place >= graph_places_) return own_ends_[label.place - graph_places_];
     if (label.stage < task_->stops.size()) return false;
     if (task_->resting.empty()) return task_->graph->places[label.place].resting;

@@ -1,7 +1,6 @@
-// Planted bugs of the fleet (core/fleet/mutation.hpp): each has to be found, by the fleet judge or,
-// where it would take the judge too long, by a unit test of the fleet. --rare 1 has the judge hunt
-// those.
-//   test_fleet_mutations [--seeds N] [--hours H] [--only NUMBER] [--rare 1]
+// Planted bugs of the fleet (tests/mutations/fleet.txt): each has to be found, by the fleet judge
+// or, where it would take the judge too long, by a unit test of the fleet.
+//   test_fleet_mutations [--seeds N] [--hours H] [--only NUMBER]
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,44 +12,15 @@
 #include <map>
 #include <string>
 
-#include "core/fleet/mutation.hpp"
+#include "planted.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
 
 namespace pulseline::fleet_judge {
 namespace {
 
 constexpr unsigned kSecondsPerMutation = 100;
-constexpr unsigned kSecondsPerRareOne = 1800;
 constexpr std::size_t kAtOnce = 2;
-struct Planted {
-    const char* name;
-    std::uint64_t found_by;  // a seed that finds it; 0: it is rare, a unit test has to find it
-};
-constexpr Planted kPlanted[] = {{"none", 1},
-                                {"repeat makes another", 1},
-                                {"key not stored", 32},
-                                {"restart needs nobody", 2},
-                                {"pause not kept", 2},
-                                {"manual is driven", 5},
-                                {"safety stop ignored", 0},
-                                {"silent is extended", 0},
-                                {"base not stored", 1},
-                                {"progress not stored", 1},
-                                {"cancel not awaited", 2},
-                                {"cancel failed is done", 0},
-                                {"failed stop while moving", 0},
-                                {"overtaken state taken", 4},
-                                {"order on its way forgotten", 0},
-                                {"rerouted loses stop", 2},
-                                {"makes way elsewhere", 0},
-                                {"type ignored", 1},
-                                {"busy is free", 2},
-                                {"last step skipped", 1},
-                                {"lost pose loses floor", 0},
-                                {"turns only", 0},
-                                {"jump is believed", 5},
-                                {"far stop is taken", 0}};
-static_assert(std::size(kPlanted) == fleet::kMutationCount);
+using fleet::kPlanted;  // those that no seed finds are for the unit tests
 
 class FirstFailure : public testing::EmptyTestEventListener {
 public:
@@ -80,7 +50,7 @@ struct Hunt {
 
 /// A child process, since a planted bug may crash it: writes each seed it begins and what it finds.
 /// A seed that fails without the bug too finds nothing.
-Hunt start(int mutation, std::uint64_t seeds, bool rare, const Options& options, pid_t& child) {
+Hunt start(int mutation, std::uint64_t seeds, const Options& options, pid_t& child) {
     int pipes[2];
     if (pipe(pipes) != 0) std::exit(2);
     child = fork();
@@ -88,9 +58,9 @@ Hunt start(int mutation, std::uint64_t seeds, bool rare, const Options& options,
         close(pipes[1]);
         return {mutation, pipes[0]};
     }
-    alarm(rare ? kSecondsPerRareOne : kSecondsPerMutation);
+    alarm(kSecondsPerMutation);
     fleet::planted_mutation = static_cast<fleet::Mutation>(mutation);
-    if (kPlanted[mutation].found_by == 0 && !rare) run_unit_tests(pipes[1]);
+    if (kPlanted[mutation].found_by == 0) run_unit_tests(pipes[1]);
     // First the seed that found it last, which saves most of the time; then all.
     for (std::uint64_t number = 0; number <= seeds; ++number) {
         const std::uint64_t seed = number == 0 ? kPlanted[mutation].found_by : number;
@@ -129,7 +99,7 @@ bool end(const Hunt& hunt, int status) {
     return found;
 }
 
-int run(std::uint64_t seeds, int only, bool rare, const Options& options) {
+int run(std::uint64_t seeds, int only, const Options& options) {
     std::map<pid_t, Hunt> hunts;
     int found = 0;
     int planted = 0;
@@ -141,12 +111,12 @@ int run(std::uint64_t seeds, int only, bool rare, const Options& options) {
         found += end(hunt->second, status) ? 1 : 0;
         hunts.erase(hunt);
     };
-    for (int m = 1; m < fleet::kMutationCount; ++m) {
-        if (only != 0 ? m != only : rare && kPlanted[m].found_by != 0) continue;
+    for (int m = 1; m < static_cast<int>(std::size(kPlanted)); ++m) {
+        if (only != 0 && m != only) continue;
         ++planted;
         while (hunts.size() >= kAtOnce) wait_for_one();
         pid_t child = 0;
-        const Hunt hunt = start(m, seeds, rare, options, child);
+        const Hunt hunt = start(m, seeds, options, child);
         hunts[child] = hunt;
     }
     while (!hunts.empty()) wait_for_one();
@@ -162,7 +132,6 @@ int main(int argc, char** argv) {
     testing::InitGoogleTest(&argc, argv);
     std::uint64_t seeds = 100;
     int only = 0;
-    bool rare = false;
     pulseline::fleet_judge::Options options;
     for (int i = 1; i + 1 < argc; i += 2) {
         const std::string name = argv[i];
@@ -170,8 +139,6 @@ int main(int argc, char** argv) {
             seeds = std::strtoull(argv[i + 1], nullptr, 10);
         } else if (name == "--hours") {
             options.hours = std::strtod(argv[i + 1], nullptr);
-        } else if (name == "--rare") {
-            rare = *argv[i + 1] == '1';
         } else if (name == "--only") {
             only = std::atoi(argv[i + 1]);
         } else {
@@ -179,5 +146,5 @@ int main(int argc, char** argv) {
             return 2;
         }
     }
-    return pulseline::fleet_judge::run(seeds, only, rare, options);
+    return pulseline::fleet_judge::run(seeds, only, options);
 }
