@@ -3,27 +3,28 @@
 #include <gtest/gtest.h>
 
 #include <future>
+#include <memory>
 #include <vector>
 
 namespace pulseline::server {
 namespace {
 
-/// Keeps a lane busy until it is let go.
+/// Keeps a lane busy until it is let go. What its job looks at is the job's own: it may still wake
+/// up when the plug is gone.
 class Plug {
 public:
     explicit Plug(Lane& lane) {
-        EXPECT_EQ(lane.take("plug",
-                            [this](bool) {
-                                running_.set_value();
-                                go_.get_future().wait();
-                            }),
-                  Lane::Taken::kYes);
-        running_.get_future().wait();
+        const auto running = std::make_shared<std::promise<void>>();
+        const auto job = [running, go = go_.get_future().share()](bool) {
+            running->set_value();
+            go.wait();
+        };
+        EXPECT_EQ(lane.take("plug", job), Lane::Taken::kYes);
+        running->get_future().wait();
     }
     void pull() { go_.set_value(); }
 
 private:
-    std::promise<void> running_;
     std::promise<void> go_;
 };
 
