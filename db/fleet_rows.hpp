@@ -4,7 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/fleet/job_order.hpp"
+#include "core/fleet/state/job_order.hpp"
 
 /// Rows of the fleet's tables as plain columns, shared by the store that writes and the history
 /// that reads. `columns` and `fields()` list the same names in the same order.

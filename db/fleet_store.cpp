@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/base/crash_point.hpp"
-#include "core/fleet/order_book.hpp"
+#include "core/fleet/state/order_book.hpp"
 #include "db/fleet_rows.hpp"
 #include "db/names.hpp"
 #include "db/order_reader.hpp"

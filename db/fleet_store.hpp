@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "db/database.hpp"
 #include "db/journal_store.hpp"
 

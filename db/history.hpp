@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "db/database.hpp"
 
 namespace pulseline::db {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "db/statement.hpp"
 
 namespace pulseline::db {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "db/database.hpp"
 
 namespace pulseline::db {

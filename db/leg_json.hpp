@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/fleet/job_order.hpp"
+#include "core/fleet/state/job_order.hpp"
 
 /// JSON texts inside rows. Private to db: nobody else reads them. Doubles come back bit for bit; a
 /// value that is not finite, or a text that is damaged, throws db::Error.

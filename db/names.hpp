@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/fleet/job_order.hpp"
+#include "core/fleet/state/job_order.hpp"
 #include "core/plant/plant.hpp"
 
 /// Stored names of enumerators. They never change, whatever the API calls these things one day; a

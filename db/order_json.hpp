@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/new_order.hpp"
+#include "core/fleet/state/new_order.hpp"
 
 /// JSON texts of what an order carries. Private to db, as leg_json.hpp.
 namespace pulseline::db {

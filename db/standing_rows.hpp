@@ -4,7 +4,7 @@
 #include <string>
 #include <tuple>
 
-#include "core/fleet/standing_orders.hpp"
+#include "core/fleet/state/standing_orders.hpp"
 
 /// Rows of templates and schedules, as fleet_rows.hpp.
 namespace pulseline::db {

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 
 namespace pulseline::server {
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/views.hpp"
 
 namespace pulseline::server {
 

@@ -8,6 +8,7 @@
 
 #include "api/http/documents.hpp"
 #include "core/base/crash_point.hpp"
+#include "core/fleet/legs/leg_plan_answerer.hpp"
 #include "server/context.hpp"
 #include "server/keep_running.hpp"
 #include "server/listener.hpp"

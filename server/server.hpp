@@ -5,7 +5,7 @@
 #include <string>
 
 #include "api/access/access_control.hpp"
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "core/plant/plant.hpp"
 #include "server/options.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/error.hpp"
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/views.hpp"
 
 namespace pulseline::server {
 

@@ -6,7 +6,7 @@
 
 #include "api/vehicle/header.hpp"
 #include "core/base/result.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::server {

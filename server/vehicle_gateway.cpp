@@ -9,7 +9,7 @@
 #include "api/vehicle/instant_actions.hpp"
 #include "api/vehicle/order.hpp"
 #include "core/base/crash_point.hpp"
-#include "core/fleet/state_filter.hpp"
+#include "core/fleet/vehicle/state_filter.hpp"
 #include "server/await.hpp"
 #include "server/vehicle_frames.hpp"
 

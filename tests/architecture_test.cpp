@@ -1,7 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <map>
 #include <regex>
 #include <set>
@@ -18,6 +20,18 @@ const std::map<std::string, int> kCoreRank = {
     {"base", 0},    {"access", 1},   {"geometry", 1},    {"plant", 2},     {"kinematics", 3},
     {"vision", 3},  {"printing", 3}, {"calibration", 4}, {"planning", 4},  {"localisation", 4},
     {"traffic", 4}, {"control", 5},  {"fleet", 5},       {"simulation", 6}};
+
+/// Rooms of core/fleet in the order of the table in its README: each knows those before it.
+std::map<std::string, int> fleet_ranks() {
+    static const std::regex kRow("^\\| `([^`]+)` \\|.*");
+    std::ifstream in(fs::path(PULSELINE_ROOT) / "core/fleet/README.md");
+    std::map<std::string, int> ranks;
+    std::smatch row;
+    for (std::string line; std::getline(in, line);) {
+        if (std::regex_match(line, row, kRow)) ranks.emplace(row[1], ranks.size());
+    }
+    return ranks;
+}
 
 struct Include {
     std::string from;  // "core/plant/plant.cpp"
@@ -50,6 +64,57 @@ std::vector<Include> includes_under(const fs::path& root) {
     return includes;
 }
 
+/// The room of a file of core/fleet: its folder, or for those at the door the file itself.
+std::string fleet_room(const std::vector<std::string>& path) {
+    if (path.size() > 3) return path[2];
+    return path[2].rfind("restore.", 0) == 0 ? "restore" : path[2];
+}
+
+std::string fleet_objection(const std::vector<std::string>& from,
+                            const std::vector<std::string>& to) {
+    const auto from_room = fleet_room(from);
+    const auto to_room = fleet_room(to);
+    if (from_room == to_room) return "";
+    static const auto kRanks = fleet_ranks();
+    const auto from_rank = kRanks.find(from_room);
+    const auto to_rank = kRanks.find(to_room);
+    if (from_rank == kRanks.end() || to_rank == kRanks.end())
+        return "give the room a row in core/fleet/README.md";
+    return to_rank->second < from_rank->second
+               ? ""
+               : "core/fleet/" + from_room + " must not know core/fleet/" + to_room;
+}
+
+/// Files by name without ending, and whom each knows.
+using Knows = std::map<std::string, std::set<std::string>>;
+
+/// A circle of files that know each other; empty: there is none.
+std::vector<std::string> circle(const Knows& knows) {
+    std::set<std::string> done;
+    std::vector<std::string> way;
+    const std::function<bool(const std::string&)> leads_back = [&](const std::string& file) {
+        const auto seen = std::find(way.begin(), way.end(), file);
+        if (seen != way.end()) {
+            way.erase(way.begin(), seen);
+            return true;
+        }
+        if (!done.insert(file).second) return false;
+        way.push_back(file);
+        const auto next = knows.find(file);
+        if (next != knows.end()) {
+            for (const auto& known : next->second) {
+                if (leads_back(known)) return true;
+            }
+        }
+        way.pop_back();
+        return false;
+    };
+    for (const auto& [file, known] : knows) {
+        if (leads_back(file)) return way;
+    }
+    return {};
+}
+
 /// What is wrong with the include; empty when nothing is.
 std::string objection(const Include& include) {
     static const std::map<std::string, std::set<std::string>> kMay = {
@@ -66,7 +131,8 @@ std::string objection(const Include& include) {
     }
     if (kMay.count(to[0]) == 0) return to[0] + " is none of core, api, db, server";
     if (kMay.at(from[0]).count(to[0]) == 0) return from[0] + " must not know " + to[0];
-    if (from[0] != "core" || to[0] != "core" || from[1] == to[1]) return "";
+    if (from[0] != "core" || to[0] != "core") return "";
+    if (from[1] == to[1]) return from[1] == "fleet" ? fleet_objection(from, to) : "";
     const auto from_rank = kCoreRank.find(from[1]);
     const auto to_rank = kCoreRank.find(to[1]);
     if (from_rank == kCoreRank.end() || to_rank == kCoreRank.end())
@@ -86,6 +152,31 @@ TEST(Architecture, ObjectsToWhatItShould) {
     EXPECT_EQ(objection({"server/a.cpp", "db/database.hpp"}), "");
     EXPECT_EQ(objection({"core/fleet/a.cpp", "core/planning/leg_planner.hpp"}), "");
     EXPECT_EQ(objection({"core/plant/a.cpp", "core/plant/plant.hpp"}), "");
+    EXPECT_NE(objection({"core/fleet/floor/a.cpp", "core/fleet/legs/a.hpp"}), "");
+    EXPECT_NE(objection({"core/fleet/dispatch/a.cpp", "core/fleet/fleet.hpp"}), "");
+    EXPECT_NE(objection({"core/fleet/cellar/a.cpp", "core/fleet/legs/a.hpp"}), "");
+    EXPECT_NE(objection({"core/fleet/a.cpp", "core/fleet/legs/a.hpp"}), "");
+    EXPECT_EQ(objection({"core/fleet/legs/a.cpp", "core/fleet/floor/a.hpp"}), "");
+    EXPECT_EQ(objection({"core/fleet/views/a.cpp", "core/fleet/fleet.hpp"}), "");
+}
+
+TEST(Architecture, FindsACircle) {
+    EXPECT_EQ(circle({{"a", {"b", "c"}}, {"b", {"c"}}}), std::vector<std::string>{});
+    EXPECT_EQ(circle({{"a", {"b"}}, {"b", {"c"}}, {"c", {"b"}}}),
+              (std::vector<std::string>{"b", "c"}));
+}
+
+TEST(Architecture, NoFilesOfTheFleetKnowEachOtherInACircle) {
+    const auto stem = [](const std::string& file) { return file.substr(0, file.rfind('.')); };
+    Knows knows;
+    for (const Include& include : includes_under(PULSELINE_ROOT)) {
+        // The face of the fleet is given to it by those above, which its own source knows.
+        if (include.from == "core/fleet/fleet.cpp") continue;
+        if (include.from.rfind("core/fleet/", 0) != 0 || stem(include.from) == stem(include.to))
+            continue;
+        knows[stem(include.from)].insert(stem(include.to));
+    }
+    EXPECT_EQ(circle(knows), std::vector<std::string>{});
 }
 
 TEST(Architecture, EveryIncludeFollowsTheDirection) {

@@ -6,7 +6,7 @@
 #include "api/http/preview_json.hpp"
 #include "api/http/problem.hpp"
 #include "api/http/requests.hpp"
-#include "core/fleet/order_preview.hpp"
+#include "core/fleet/views/order_preview.hpp"
 
 namespace pulseline::api {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/http/common_json.hpp"
-#include "core/fleet/job_order.hpp"
+#include "core/fleet/state/job_order.hpp"
 
 namespace pulseline::api {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/json/object_reader.hpp"
-#include "core/fleet/motion_preview.hpp"
+#include "core/fleet/views/motion_preview.hpp"
 #include "core/geometry/pose2.hpp"
 
 /// Decoders of what a motion preview is asked. Errors are kept by the reader.

@@ -2,7 +2,7 @@
 
 #include "api/http/common_json.hpp"
 #include "api/json/object_reader.hpp"
-#include "core/fleet/new_order.hpp"
+#include "core/fleet/state/new_order.hpp"
 
 /// What an order says, wherever it is written: in a creation, an Update, a template, a schedule.
 namespace pulseline::api {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "api/http/common_json.hpp"
-#include "core/fleet/ports.hpp"
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/ports.hpp"
+#include "core/fleet/state/views.hpp"
 
 namespace pulseline::api {
 

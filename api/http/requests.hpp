@@ -10,7 +10,7 @@
 #include "api/vision/localization.hpp"
 #include "core/base/result.hpp"
 #include "core/fleet/fleet.hpp"
-#include "core/fleet/motion_preview.hpp"
+#include "core/fleet/views/motion_preview.hpp"
 #include "core/planning/what_if.hpp"
 #include "core/printing/marker_sheet.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/http/common_json.hpp"
-#include "core/fleet/standing_orders.hpp"
+#include "core/fleet/state/standing_orders.hpp"
 
 namespace pulseline::api {
 

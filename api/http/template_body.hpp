@@ -6,7 +6,7 @@
 #include "api/http/common_json.hpp"
 #include "api/http/message.hpp"
 #include "core/base/result.hpp"
-#include "core/fleet/standing_orders.hpp"
+#include "core/fleet/state/standing_orders.hpp"
 
 /// Order bodies in which "${name}" stands for a value that is given when an order is made of them.
 namespace pulseline::api {

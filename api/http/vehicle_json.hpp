@@ -2,7 +2,7 @@
 
 #include "api/http/common_json.hpp"
 #include "api/http/contexts.hpp"
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/views.hpp"
 
 namespace pulseline::api {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/vehicle/header.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 
 namespace pulseline::vda5050 {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "api/vehicle/header.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::vda5050 {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/vehicle/header.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 
 /// Our own entries of state.information (infoType bracketLoad, wheel, camera, parkingFoot, load):
 /// the values travel as infoReferences. Optional for a vehicle; other types are ignored.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "api/vehicle/header.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 
 /// Motion primitives as edges (guide section 8). Angles: heading = tangent of the way +
 /// orientation, so moving to the vehicle's left is orientation -pi/2.

@@ -2,9 +2,22 @@
 
 #include <utility>
 
+#include "core/fleet/commands/schedules.hpp"
+#include "core/fleet/dispatch/dispatch.hpp"
+#include "core/fleet/floor/closures.hpp"
 #include "core/fleet/journal/recorder.hpp"
-#include "core/fleet/start_conditions.hpp"
-#include "core/fleet/state.hpp"
+#include "core/fleet/orders/start_conditions.hpp"
+#include "core/fleet/reports/vehicle_report.hpp"
+#include "core/fleet/restore.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/tables/plant_tables.hpp"
+#include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/link.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+#include "core/fleet/vehicle/sending.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/fleet/views/vehicle_views.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -25,6 +38,7 @@ void withhold_orders(FleetState& fleet) {
 }  // namespace
 
 GuardedState::GuardedState(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
+
 GuardedState::~GuardedState() = default;
 
 Fleet::Fleet(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
@@ -237,6 +251,20 @@ Outputs Fleet::take_outputs(Time now) {
                                     fleet.tables});
     }
     return out;
+}
+
+void Fleet::leg_planned(const plant::VehicleId& id, std::int64_t question,
+                        const LegPlanAnswer& answer, Time now) {
+    FleetState& fleet = input<&Fleet::leg_planned>(now, id, question, answer);
+    VehicleRun* run = fleet.find(id);
+    // Whoever asked may want to go elsewhere meanwhile, or floor was closed.
+    if (!run || !run->awaited_plan || run->awaited_plan->question != question) return;
+    auto& known = run->awaited_plan->answer;
+    if (!known || answer.plan) {
+        known = answer;
+        run->newest_plan.reset();
+    }
+    dispatch_for(fleet, *run, now);
 }
 
 }  // namespace pulseline::fleet

@@ -10,50 +10,22 @@
 
 #include "core/base/id.hpp"
 #include "core/base/result.hpp"
-#include "core/fleet/job_control.hpp"
-#include "core/fleet/job_order.hpp"
-#include "core/fleet/leg_plans.hpp"
-#include "core/fleet/new_order.hpp"
-#include "core/fleet/ports.hpp"
-#include "core/fleet/standing_orders.hpp"
-#include "core/fleet/vehicle_messages.hpp"
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/job_control.hpp"
+#include "core/fleet/state/job_order.hpp"
+#include "core/fleet/state/leg_plan.hpp"
+#include "core/fleet/state/new_order.hpp"
+#include "core/fleet/state/ports.hpp"
+#include "core/fleet/state/standing_orders.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
+#include "core/fleet/state/views.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::fleet {
 
-/// Outcome of a create: `repeated` says that this is the stored answer to an earlier request.
-struct Created {
-    JobOrder order;
-    bool repeated = false;
-};
-
-/// A call of one of the 11 methods on an order that exists.
-struct ControlRequest {
-    JobMethod method = JobMethod::kStart;
-    std::optional<NewOrder> update;  // Update: all that may change, as in a creation
-    std::optional<std::int64_t> if_revision;
-    std::string actor;
-    std::string idempotency_client;
-    std::string idempotency_key;
-    std::string body_sha256;
-};
-
-/// All that a step of the fleet put out. Records first: nothing else leaves the server before they
-/// are committed.
-struct Outputs {
-    Records records;
-    std::vector<VehicleMessage> messages;
-    std::vector<VehicleView> vehicles;  // changed ones
-    std::vector<StationView> stations;  // changed ones
-    std::vector<LegPlanQuestion> plans_wanted;
-    bool fleet_changed = false;
-};
-
 struct OrderPreviewTask;  // order_preview.hpp
 struct MotionQuestion;    // motion_preview.hpp
 struct MotionTask;
-struct FleetState;  // state.hpp, for the phases of core/fleet only
+struct FleetState;  // state/fleet_state.hpp, for the rooms of core/fleet only
 namespace journal {
 class Recorder;
 }

@@ -1,8 +1,18 @@
+#include "core/fleet/restore.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "core/fleet/state.hpp"
+#include "core/fleet/floor/closures.hpp"
+#include "core/fleet/floor/holding.hpp"
+#include "core/fleet/legs/ending.hpp"
+#include "core/fleet/orders/recurrence.hpp"
+#include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -42,10 +52,6 @@ void abort_without_station(FleetState& fleet, Time now) {
         }
     }
 }
-
-}  // namespace
-
-namespace {
 
 void bring_back(Time& time, Time now) { time = std::min(time, now); }
 
@@ -101,7 +107,6 @@ void take_vehicles_of_plant(FleetState& fleet) {
         run.record.id = vehicle.id;
     }
 }
-
 namespace {
 
 /// What it may have driven since its row was written counts as driven: its pose is no surer.

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/localisation/error_budget.hpp"
 #include "core/simulation/camera_model.hpp"
 

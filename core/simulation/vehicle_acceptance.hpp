@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 
 /// Which orders a vehicle takes (VDA 5050 2.1 section 6.6.4, guide figure 8). Pure functions.
 namespace pulseline::simulation {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
 #include "core/simulation/lifting_drive.hpp"
 

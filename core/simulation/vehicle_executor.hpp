@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
 #include "core/simulation/hand_drive.hpp"
 #include "core/simulation/vehicle_acceptance.hpp"

@@ -6,7 +6,7 @@
 
 #include "core/base/result.hpp"
 #include "core/control/adjustment.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
 #include "core/simulation/window_approach.hpp"
 

@@ -4,7 +4,7 @@
 #include <deque>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/planning/detour.hpp"
 #include "core/simulation/drive.hpp"
 

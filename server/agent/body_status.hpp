@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
 
 namespace pulseline::agent {

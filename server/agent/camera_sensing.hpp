@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/localisation/dual_camera.hpp"
 #include "core/simulation/stop_sensor.hpp"
 #include "core/simulation/vehicle_stop.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/control/protective_fields.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/simulation/drive.hpp"
 #include "core/simulation/lidar.hpp"
 #include "core/simulation/world.hpp"

@@ -3,7 +3,7 @@
 #include <deque>
 #include <limits>
 
-#include "core/fleet/journal/fields.hpp"
+#include "core/fleet/state/fields.hpp"
 #include "core/fleet/journal/input.hpp"
 #include "core/fleet/journal/snapshot.hpp"
 #include "db/history.hpp"

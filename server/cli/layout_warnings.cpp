@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/fleet/floor_graph.hpp"
+#include "core/fleet/tables/floor_graph.hpp"
 
 namespace pulseline::server::cli {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "core/access/access.hpp"
 #include "core/base/result.hpp"
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "core/plant/plant.hpp"
 
 namespace pulseline::server::cli {

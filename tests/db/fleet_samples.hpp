@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 
 /// Records with every field set to something that a lossy column would change.
 namespace pulseline::db {

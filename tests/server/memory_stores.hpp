@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/access/access.hpp"
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "db/error.hpp"
 
 /// Stores in memory that can be told to fail, for tests of what the server does around them.

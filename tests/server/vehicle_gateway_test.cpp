@@ -3,7 +3,7 @@
 #include <chrono>
 #include <thread>
 
-#include "core/fleet/state_filter.hpp"
+#include "core/fleet/vehicle/state_filter.hpp"
 #include "server/log.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <random>
 
-#include "core/fleet/ports.hpp"
+#include "core/fleet/state/ports.hpp"
 #include "core/simulation/vehicle_executor.hpp"
 #include "core/simulation/vehicle_motion.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
-#include "core/fleet/leg_plans.hpp"
-#include "core/fleet/order_preview.hpp"
+#include "core/fleet/legs/leg_plan_answerer.hpp"
+#include "core/fleet/views/order_preview.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 #include "tests/simulation/fleet_judge_journal.hpp"
 #include "tests/simulation/fleet_judge_vehicle.hpp"

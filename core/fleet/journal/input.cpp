@@ -2,8 +2,7 @@
 
 #include <array>
 
-#include "core/fleet/journal/fields.hpp"
-#include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/state/fields.hpp"
 
 namespace pulseline::fleet::journal {
 namespace {

@@ -58,6 +58,8 @@ const char* name_of(const Call& call);
 /// Ticks come at whole multiples of this, so that the journal keeps runs of them instead of each.
 constexpr Duration kTickEvery = std::chrono::milliseconds(100);
 
+constexpr std::uint8_t kTickRun = 0xff;  // in the place of a call's number
+
 /// `count` times: a tick and, at the same time, take_outputs; kTickEvery apart.
 struct TickRun {
     Time first;

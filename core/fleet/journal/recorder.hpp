@@ -3,12 +3,10 @@
 #include <optional>
 #include <string>
 
-#include "core/fleet/journal/fields.hpp"
 #include "core/fleet/journal/input.hpp"
+#include "core/fleet/state/fields.hpp"
 
 namespace pulseline::fleet::journal {
-
-constexpr std::uint8_t kTickRun = 0xff;  // in the place of a call's number
 
 /// Writes down the calls of a fleet in the order they came (Fleet::journal_into). Thread safety:
 /// none, it belongs to the fleet's thread.

@@ -3,7 +3,11 @@
 #include <cassert>
 #include <memory>
 
+#include "core/fleet/fleet.hpp"
+#include "core/fleet/floor/closures.hpp"
+#include "core/fleet/floor/holding.hpp"
 #include "core/fleet/journal/state_fields.hpp"
+#include "core/fleet/restore.hpp"
 
 namespace pulseline::fleet {
 namespace journal {

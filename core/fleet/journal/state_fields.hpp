@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/fleet/journal/fields.hpp"
-#include "core/fleet/state.hpp"
+#include "core/fleet/state/fields.hpp"
+#include "core/fleet/state/fleet_state.hpp"
 
 /// The fleet's own state, described as in fields.hpp. Not for use outside core/fleet.
 namespace pulseline {

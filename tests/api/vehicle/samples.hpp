@@ -4,7 +4,7 @@
 
 #include "api/vehicle/header.hpp"
 #include "core/base/angle.hpp"
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
 
 /// One message of each kind that uses every field we send.

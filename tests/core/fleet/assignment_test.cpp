@@ -1,4 +1,4 @@
-#include "core/fleet/assignment.hpp"
+#include "core/fleet/dispatch/assignment.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/legs/leg_plan_answerer.hpp"
 #include "core/plant/plant.hpp"
 
 /// A hall, obedient vehicles and a store in memory, so that tests can crash the fleet at any

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "core/fleet/interlocks.hpp"
+#include "core/fleet/vehicle/interlocks.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 // What has to be true of a platform and its load before it may leave where it stands (Tang 2020,

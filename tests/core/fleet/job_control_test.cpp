@@ -1,11 +1,11 @@
-#include "core/fleet/job_control.hpp"
+#include "core/fleet/state/job_control.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <sstream>
 
-#include "core/fleet/views.hpp"
+#include "core/fleet/state/views.hpp"
 
 namespace pulseline::fleet {
 namespace {

@@ -4,7 +4,7 @@
 #include <functional>
 #include <sstream>
 
-#include "core/fleet/order_book.hpp"
+#include "core/fleet/state/order_book.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 /// The 11 methods over the real fleet: every state x method pair of the table, each of the 13

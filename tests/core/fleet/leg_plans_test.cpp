@@ -1,4 +1,4 @@
-#include "core/fleet/leg_plans.hpp"
+#include "core/fleet/legs/leg_plan_answerer.hpp"
 
 #include <gtest/gtest.h>
 

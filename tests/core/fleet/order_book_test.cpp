@@ -1,9 +1,9 @@
-#include "core/fleet/order_book.hpp"
+#include "core/fleet/state/order_book.hpp"
 
 #include <gtest/gtest.h>
 
 #include "core/base/id.hpp"
-#include "core/fleet/journal/fields.hpp"
+#include "core/fleet/state/fields.hpp"
 
 namespace pulseline::fleet {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/fleet/standing_orders.hpp"
+#include "core/fleet/orders/recurrence.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 namespace pulseline::fleet::testing {

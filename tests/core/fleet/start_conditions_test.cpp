@@ -1,4 +1,4 @@
-#include "core/fleet/start_conditions.hpp"
+#include "core/fleet/orders/start_conditions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fleet/state_filter.hpp"
+#include "core/fleet/vehicle/state_filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/fleet/step_actions.hpp"
+#include "core/fleet/legs/step_actions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/fleet/vehicle_messages.hpp"
+#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
 #include "tests/core/simulation/platform.hpp"
 

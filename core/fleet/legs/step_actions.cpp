@@ -1,0 +1,132 @@
+#include "core/fleet/legs/step_actions.hpp"
+
+#include <algorithm>
+
+#include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+const std::vector<StepAction>& actions_of_phase(const Step& step) {
+    return step.phase == StepPhase::kAfter ? step.after : step.before;
+}
+
+std::string action_id(LegId leg, std::size_t index) {
+    return leg.str() + "-" + std::to_string(index);
+}
+
+void enter(Step& step, StepPhase phase) {
+    step.phase = phase;
+    step.actions_done = 0;
+}
+
+void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
+    order.steps[step].state = StepState::kDone;
+    order.current_step = step + 1;
+    fleet.store(order);
+    if (order.current_step == order.steps.size()) {
+        set_order_state(fleet, order, JobState::kEnded, {}, {}, now);
+    } else if (order.cancel_requested) {
+        abort_order(fleet, order, order.reason, {}, now);
+    }
+}
+
+}  // namespace
+
+std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, const VehicleRun& run,
+                                    LegId id) {
+    Step& step = order.steps[order.current_step];
+    // Moved away before its actions were done: it has to arrive and measure again.
+    if (step.phase == StepPhase::kAfter && run.record.at_station != step.station) {
+        enter(step, StepPhase::kDrive);
+    }
+    if (step.phase == StepPhase::kBefore && step.actions_done >= step.before.size()) {
+        enter(step, StepPhase::kDrive);
+    }
+    if (step.phase == StepPhase::kDrive) return std::nullopt;
+
+    Leg leg;
+    leg.id = id;
+    leg.vehicle = run.record.id;
+    leg.station = step.station;
+    leg.mode = plant::MotionMode::kLinear;
+    leg.hall = hall_of(fleet, run);
+    leg.actions_only = true;
+    // The drive still to come counts for the expected end.
+    if (step.phase == StepPhase::kBefore) leg.duration_s = step.planned_s;
+    OrderNode node;
+    node.node_id = step.phase == StepPhase::kAfter ? step.station.str() : "start";
+    node.released = true;
+    node.pose = run.record.pose;
+    node.allowed_deviation_xy_m = 0.3;
+    node.allowed_deviation_theta_rad = 0.1;
+    node.map_id = leg.hall;
+    const auto& wanted = actions_of_phase(step);
+    for (std::size_t i = step.actions_done; i < wanted.size(); ++i) {
+        Action action;
+        action.type = wanted[i].type;
+        action.id = action_id(id, i);
+        action.blocking = BlockingType::kHard;
+        action.params = wanted[i].params;
+        node.actions.push_back(std::move(action));
+    }
+    leg.nodes.push_back(std::move(node));
+    return leg;
+}
+
+void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    const Leg leg = run.leg();
+    JobOrder* order = fleet.find(leg.order);
+    if (!order) return;
+    Step& step = order->steps[static_cast<std::size_t>(leg.step)];
+    const auto& wanted = actions_of_phase(step);
+    const std::size_t before = step.actions_done;
+    while (step.actions_done < wanted.size()) {
+        const std::string id = action_id(leg.id, step.actions_done);
+        const auto& states = run.state.action_states;
+        const auto found = std::find_if(states.begin(), states.end(),
+                                        [&](const ActionState& state) { return state.id == id; });
+        if (found == states.end()) break;
+        const std::string& type = wanted[step.actions_done].type;
+        if (found->status == ActionStatus::kFailed) {
+            drop_leg(fleet, run, now, true);
+            if (step.phase == StepPhase::kBefore) step.state = StepState::kPending;
+            const Params params{{"action", type},
+                                {"phase", to_string(step.phase)},
+                                {"why", found->result_description}};
+            add_event(fleet, now, "step.action_failed", order->id, leg.id, leg.vehicle, {}, params);
+            set_order_state(fleet, *order, JobState::kInterrupted, {"action_failed", params}, {},
+                            now);
+            return;
+        }
+        if (found->status != ActionStatus::kFinished) break;
+        ++step.actions_done;
+        add_event(fleet, now, "step.action_done", order->id, leg.id, leg.vehicle, {},
+                  {{"action", type}, {"phase", to_string(step.phase)}});
+    }
+    if (step.actions_done != before) fleet.store(*order);
+    if (step.actions_done < wanted.size() || run.state.driving) return;
+    drop_leg(fleet, run, now, true);
+    step.leg = {};
+    if (step.phase == StepPhase::kAfter) {
+        finish_step(fleet, *order, static_cast<std::size_t>(leg.step), now);
+    } else {
+        enter(step, StepPhase::kDrive);
+        fleet.store(*order);
+    }
+}
+
+void take_good_stop(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
+    if (order.steps[step].after.empty() || order.cancel_requested) {
+        finish_step(fleet, order, step, now);
+        return;
+    }
+    enter(order.steps[step], StepPhase::kAfter);
+    order.steps[step].state = StepState::kMeasuring;
+    fleet.store(order);
+}
+
+}  // namespace pulseline::fleet

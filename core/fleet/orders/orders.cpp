@@ -1,0 +1,142 @@
+#include "core/fleet/orders/orders.hpp"
+
+#include <algorithm>
+
+#include "core/fleet/orders/checks.hpp"
+#include "core/fleet/orders/planning.hpp"
+#include "core/fleet/orders/start_conditions.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/leg_build.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+// Each waits in memory, in every dashboard's snapshot and in every look for work.
+constexpr std::size_t kMostOpenOrders = 5000;
+
+/// Puts into the order what a request may set at its creation and by Update.
+void fill(const FleetState& fleet, JobOrder& order, const NewOrder& request,
+          std::vector<Dependency> after, const OrderPlan& plan) {
+    order.wanted_vehicle = request.vehicle;
+    order.wanted_type = request.vehicle_type;
+    order.priority = request.priority;
+    order.earliest_start = request.earliest_start;
+    order.due = request.due;
+    order.after = std::move(after);
+    order.steps.clear();
+    for (std::size_t i = 0; i < request.steps.size(); ++i) {
+        Step made;
+        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
+        made.mode = request.steps[i].mode;
+        made.before = request.steps[i].before;
+        made.after = request.steps[i].after;
+        made.planned_s = plan.durations_s[i];
+        order.steps.push_back(std::move(made));
+    }
+}
+
+}  // namespace
+
+Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
+                                               const std::string& key,
+                                               const std::string& body_sha256) {
+    if (key.empty()) return std::optional<JobOrder>();
+    const auto it = fleet.idempotency.find({client, key});
+    if (it == fleet.idempotency.end()) return std::optional<JobOrder>();
+    if (it->second.body_sha256 != body_sha256) {
+        return fail(Errc::kInvalid, "idempotency_key_reused",
+                    "This Idempotency-Key was used with another body. Use a new key.");
+    }
+    return fleet.orders.look_up(it->second.order);
+}
+
+void keep_answer(FleetState& fleet, const IdempotencyRecord& record) {
+    if (record.key.empty()) return;
+    fleet.idempotency[{record.client, record.key}] = record;
+    fleet.out.records.idempotency.push_back(record);
+}
+
+Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
+    const auto earlier = earlier_answer(fleet, request.idempotency_client, request.idempotency_key,
+                                        request.body_sha256);
+    if (!earlier) return fail(earlier.error());
+    if (*earlier) return Created{**earlier, true};
+    if (!request.client_order_id.empty()) {
+        if (const auto known = fleet.orders.with_client_id(request.client_order_id)) {
+            return fail(Errc::kConflict, "duplicate_client_order_id",
+                        "Order " + request.client_order_id +
+                            " exists already. Use another client_order_id.",
+                        "/client_order_id", {{"order", known->str()}});
+        }
+    }
+    if (fleet.orders.open().size() >= kMostOpenOrders) {
+        return fail(Errc::kConflict, "too_many_open_orders",
+                    "There are " + std::to_string(kMostOpenOrders) +
+                        " open orders. Wait until some have ended, or cancel those that nobody "
+                        "needs; then repeat.",
+                    {}, {{"open", static_cast<std::int64_t>(kMostOpenOrders)}});
+    }
+    auto fields = resolve_fields(fleet, request, {});
+    if (!fields) return fail(fields.error());
+    const auto plan = plan_order(fleet, request, now);
+    if (!plan) return fail(plan.error());
+    if (plan->plans.front()) {
+        VehicleRun& run = *fleet.find(plan->vehicle);
+        const auto* station =
+            plant::find_station(fleet.plant, request.steps.front().station_number);
+        run.newest_plan = PlannedLeg{
+            leg_request(fleet, run, plan->starts.front(), station->id, request.steps.front().mode),
+            *plan->plans.front()};
+    }
+
+    JobOrder order;
+    order.id = JobOrderId(fleet.ids.next(now));
+    order.number = ++fleet.order_number;
+    order.client_order_id = request.client_order_id;
+    order.sequence = request.sequence;
+    order.from_template = request.from_template;
+    order.from_schedule = request.from_schedule;
+    order.created_by = request.actor;
+    order.created = now;
+    fill(fleet, order, request, std::move(*fields), *plan);
+    if (!request.start) {
+        order.state = JobState::kNotAllowedToStart;
+        order.reason = {"waits_for_start", {}};
+    }
+    const JobOrder& stored = fleet.orders.add(std::move(order));
+    fleet.stored_orders.insert(stored.id);
+    Params params{{"number", stored.number},
+                  {"steps", static_cast<std::int64_t>(stored.steps.size())}};
+    if (!request.start) params.push_back({"state", to_string(stored.state)});
+    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
+              std::move(params));
+    keep_answer(fleet, {request.idempotency_client, request.idempotency_key, request.body_sha256,
+                        stored.id, now});
+    return Created{stored, false};
+}
+
+Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
+                    const std::string& actor, Time now) {
+    auto fields = resolve_fields(fleet, request, order.id);
+    if (!fields) return fail(fields.error());
+    const auto plan = plan_order(fleet, request, now);
+    if (!plan) return fail(plan.error());
+    JobOrder changed = order;
+    fill(fleet, changed, request, std::move(*fields), *plan);
+    changed.sequence = request.sequence;
+    if (depends_on(fleet, changed, order.id, &changed)) {
+        return fail(Errc::kConflict, "dependency_cycle",
+                    "The order would wait for orders that wait for it. Leave one of them out.",
+                    request.after.empty() ? "/sequence" : "/after");
+    }
+    changed.sequence = order.sequence;
+    order = std::move(changed);
+    fleet.orders.set_sequence(order, request.sequence);
+    add_event(fleet, now, "job_order.updated", order.id, {}, order.wanted_vehicle, actor,
+              {{"steps", static_cast<std::int64_t>(order.steps.size())}});
+    fleet.store(order);
+    return {};
+}
+
+}  // namespace pulseline::fleet

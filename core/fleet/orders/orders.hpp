@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// Job orders as clients make and change them.
+namespace pulseline::fleet {
+
+Result<Created> create_order(FleetState& fleet, const NewOrder& order, Time now);
+/// Gives an order that has not started all that `request` may set.
+Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
+                    const std::string& actor, Time now);
+Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
+                                               const std::string& key,
+                                               const std::string& body_sha256);
+void keep_answer(FleetState& fleet, const IdempotencyRecord& record);
+
+}  // namespace pulseline::fleet

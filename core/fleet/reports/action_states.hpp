@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// What a vehicle reports of its instant actions.
+namespace pulseline::fleet {
+
+bool is_final(ActionStatus status);
+/// What the vehicle says of an action; null: nothing.
+const ActionState* find_action(const StateMessage& state, const std::string& id);
+/// Ends the instant actions that the vehicle reports final, and what waited for them.
+void take_action_states(FleetState& fleet, VehicleRun& run, Time now);
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// What a vehicle reports of its leg.
+namespace pulseline::fleet {
+
+/// Follows the vehicle along its leg: the nodes it has passed, its actions, its stop, its end.
+void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now);
+
+}  // namespace pulseline::fleet

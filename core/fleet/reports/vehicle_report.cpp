@@ -1,0 +1,94 @@
+#include "core/fleet/reports/vehicle_report.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/fleet/floor/floor.hpp"
+#include "core/fleet/floor/holding.hpp"
+#include "core/fleet/reports/action_states.hpp"
+#include "core/fleet/reports/leg_progress.hpp"
+#include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/link.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just ended is told sooner
+
+/// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids
+/// are 32 bit and begin anew.
+bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
+    constexpr std::int64_t kHalf = std::int64_t{1} << 31;
+    if (state.header_id == 0 || run.newest_header == 0) return false;
+    const std::int64_t ahead = state.header_id - run.newest_header;
+    return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
+}
+
+/// Of another master, or given by this server before its database was put back to an older copy:
+/// no leg of its own can begin before that is gone, and only a person knows whether it may go.
+void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!has_foreign_order(run)) {
+        run.foreign_since.reset();
+        return;
+    }
+    if (!run.foreign_since) run.foreign_since = now;
+    if (now - *run.foreign_since < kForeignAfter || is_asked(run, "cancelOrder")) return;
+    if (run.record.integration != Integration::kUtilise) return;
+    require_person(
+        fleet, run,
+        {"foreign_order", {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}}, now);
+}
+
+/// An error is its type and what it refers to; its text may count up or tell the time.
+void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleError>& before,
+                 Time now) {
+    for (const auto& error : run.state.errors) {
+        const bool known = std::any_of(before.begin(), before.end(), [&](const auto& old) {
+            return old.type == error.type && old.references == error.references;
+        });
+        if (known || !may_tell_error(fleet, run, now)) continue;
+        add_event(fleet, now, "vehicle.error", {}, run.record.leg, run.record.id, {},
+                  {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
+    }
+}
+
+/// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing
+/// moves it but they, and after the second nothing does until a person says so here.
+void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, Time now) {
+    const std::string& mode = run.state.operating_mode;
+    if (mode != before) {
+        add_event(fleet, now, "vehicle.operating_mode", {}, run.record.leg, run.record.id, {},
+                  {{"from", before}, {"to", mode}});
+    }
+    if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
+    require_person(fleet, run, {"driven_by_hand", {{"operating_mode", mode}}}, now);
+}
+
+}  // namespace
+
+void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
+    hear(fleet, run, now);
+    if (is_overtaken(run, state)) return;
+    run.newest_header = state.header_id;
+    const StateMessage before = std::exchange(run.state, state);
+    run.state_at = now;
+    run.reconciled = true;
+    fleet.changed_vehicles.insert(run.record.id);
+    note_errors(fleet, run, before.errors, now);
+    take_pose(fleet, run, before, now);
+    watch_mode(fleet, run, before.operating_mode, now);
+    take_action_states(fleet, run, now);
+    // What it has passed is where it says to be; on that nothing is freed or measured.
+    if (run.has_leg() && !is_in_doubt(run)) take_leg_progress(fleet, run, now);
+    watch_foreign_order(fleet, run, now);
+    if (!state.driving) settle(fleet, run, now);
+    halt_or_resume(fleet, run, now);
+    offer_pose_from_codes(fleet, run, now);
+}
+
+}  // namespace pulseline::fleet

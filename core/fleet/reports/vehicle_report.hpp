@@ -1,0 +1,10 @@
+#pragma once
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// A vehicle's state message, step by step.
+namespace pulseline::fleet {
+
+void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now);
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,57 @@
+#include "core/fleet/state/views.hpp"
+
+namespace pulseline::fleet {
+
+const char* to_string(Link link) {
+    switch (link) {
+        case Link::kNever:
+            return "never";
+        case Link::kLive:
+            return "live";
+        case Link::kLate:
+            return "late";
+        case Link::kLost:
+            return "lost";
+        case Link::kGone:
+            return "gone";
+    }
+    return "never";
+}
+
+const char* to_string(PoseBasis::Kind kind) {
+    switch (kind) {
+        case PoseBasis::Kind::kVehicle:
+            return "vehicle";
+        case PoseBasis::Kind::kCodes:
+            return "codes";
+        case PoseBasis::Kind::kStop:
+            return "stop";
+        case PoseBasis::Kind::kStatement:
+            return "statement";
+    }
+    return "vehicle";
+}
+
+const char* to_string(Activity activity) {
+    switch (activity) {
+        case Activity::kStanding:
+            return "standing";
+        case Activity::kMoving:
+            return "moving";
+        case Activity::kMeasuring:
+            return "measuring";
+        case Activity::kWaiting:
+            return "waiting";
+        case Activity::kPaused:
+            return "paused";
+        case Activity::kBlocked:
+            return "blocked";
+        case Activity::kCharging:
+            return "charging";
+        case Activity::kUnknown:
+            return "unknown";
+    }
+    return "unknown";
+}
+
+}  // namespace pulseline::fleet

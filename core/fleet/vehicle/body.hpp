@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// The body that a vehicle has now, and how fast it is.
+namespace pulseline::fleet {
+
+/// Vehicle's outline (with its load) at a pose, convex pieces in the hall frame.
+std::vector<geometry::Polygon> outline_at(const VehicleRun& run, const Pose2& pose);
+bool is_loaded(const VehicleRun& run);
+/// Speed of the vehicle by its own factsheet over that of its type in the plant.
+double speed_share(const VehicleRun& run);
+/// Top speed and acceleration, of its own factsheet where it has told them.
+double speed_of(const VehicleRun& run);
+double accel_of(const VehicleRun& run);
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// Preconditions of a platform's drive (Tang 2020, workflow of section 2): what has to be true of
+/// the machine and its load before it may leave where it stands.
+namespace pulseline::fleet {
+
+/// How far a bracket may differ from the mean of its end, front or back, as a share of it. Between
+/// the ends a load may lie where it likes, as aircraft do, inside the wheel base.
+constexpr double kBracketBalance = 0.10;
+constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
+std::optional<BracketShare> worst_bracket(const VehicleRun& run);
+
+/// The first one that bars the drive: parking_feet_down {furthest_m}, load_too_heavy {load_kg,
+/// max_load_kg}, load_unbalanced {bracket, unbalance, limit}, load_outside_wheel_base {x_m, y_m},
+/// wheel_fault {wheel, fault}, codes_not_seen {found, cameras}. Nothing: it may drive.
+std::optional<Reason> interlock(const FleetState& fleet, const VehicleRun& run);
+
+}  // namespace pulseline::fleet

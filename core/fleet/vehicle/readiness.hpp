@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// Whether a vehicle may begin something, or go on.
+namespace pulseline::fleet {
+
+Duration silence(const FleetState& fleet, const VehicleRun& run, Time now);
+/// Until a person lets it go on, no order and no update of one goes to it, new or again.
+bool waits_for_person(const VehicleRun& run);
+/// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
+/// forgotten.
+bool is_on_its_way(const VehicleRun& run);
+/// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
+bool is_automatic(const VehicleRun& run);
+/// It has given up its order, or done all of it.
+bool has_nothing_left(const StateMessage& state);
+/// It carries out an order that this server has not given, or has forgotten.
+bool has_foreign_order(const VehicleRun& run);
+/// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
+bool is_asked(const VehicleRun& run, const char* action_type);
+/// Why this vehicle may not start a move now; nullopt: it may.
+std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+/// The same for an order's next step: feet that are down do not bar what raises them.
+std::optional<Reason> not_ready_for(const FleetState& fleet, const JobOrder& order,
+                                    const VehicleRun& run, Time now);
+/// Why it would not obey a release of floor, whatever its order; others are planned around it.
+std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run);
+
+/// Whether it stays on its charger, whoever waits.
+bool charges_on(const VehicleRun& run);
+/// Why its battery bars it from new orders; none: it does not.
+std::optional<Reason> battery_bar(const VehicleRun& run);
+
+}  // namespace pulseline::fleet

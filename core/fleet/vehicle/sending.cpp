@@ -1,0 +1,103 @@
+#include "core/fleet/vehicle/sending.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr Duration kResendEvery = std::chrono::seconds(1);
+constexpr int kOrderSends = 10;  // then the order is interrupted and a person decides
+constexpr Duration kEscalateAfter = std::chrono::seconds(10);
+
+}  // namespace
+
+void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now) {
+    const Leg& leg = run.leg();
+    OrderMessage message;
+    message.order_id = leg.id.str();
+    message.order_update_id = leg.update_id;
+    const auto offset = static_cast<std::ptrdiff_t>(from);
+    message.nodes.assign(leg.nodes.begin() + offset, leg.nodes.end());
+    message.edges.assign(leg.edges.begin() + offset, leg.edges.end());
+    fleet.out.messages.push_back({run.record.id, std::move(message), std::nullopt});
+    run.update_from = from;
+    run.update_sent = now;
+    if (run.connected) run.order_sent = now;
+    ++run.update_sends;
+}
+
+void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
+    if (is_asked(run, "cancelOrder")) return;
+    Action action;
+    action.type = "cancelOrder";
+    add_event(fleet, now, "vehicle.foreign_order_cancelled", {}, {}, run.record.id, actor,
+              {{"order", run.state.order_id}});
+    send_action(fleet, run, std::move(action), now);
+}
+
+void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    if (!run.has_leg() || run.cancelling) return;
+    run.cancelling = true;
+    run.update_sent.reset();
+    Action action;
+    action.type = "cancelOrder";
+    add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
+    send_action(fleet, run, std::move(action), now);
+}
+
+void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now) {
+    if (action.id.empty()) action.id = to_string(fleet.ids.next(now));
+    PendingAction pending{std::move(action), now, std::nullopt, 0, false};
+    if (run.connected && run.reconciled) {
+        fleet.out.messages.push_back(
+            {run.record.id, std::nullopt, InstantActionsMessage{{pending.action}}});
+        pending.last_sent = now;
+        pending.sends = 1;
+    }
+    run.actions.push_back(std::move(pending));
+}
+
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now) {
+    // The newest wish counts: an older pause or unpause still on its way is not sent again.
+    std::erase_if(run.actions, [](const PendingAction& pending) {
+        return pending.action.type == "startPause" || pending.action.type == "stopPause";
+    });
+    Action action;
+    action.type = action_type;
+    send_action(fleet, run, std::move(action), now);
+}
+
+void resend(FleetState& fleet, Time now) {
+    for (auto& [id, run] : fleet.vehicles) {
+        if (!run.connected || !run.reconciled) continue;
+        const bool unseen = run.has_leg() && run.update_sent && !waits_for_person(run);
+        if (unseen && now - *run.update_sent >= kResendEvery) {
+            if (run.update_sends >= kOrderSends) {
+                run.update_sent.reset();
+                require_person(fleet, run, {"order_not_accepted", {}}, now);
+            } else {
+                send_order_update(fleet, run, run.update_from, now);
+            }
+        }
+        for (auto& pending : run.actions) {
+            if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
+            fleet.out.messages.push_back(
+                {id, std::nullopt, InstantActionsMessage{{pending.action}}});
+            pending.last_sent = now;
+            ++pending.sends;
+            if (!pending.escalated && now - pending.first_sent >= kEscalateAfter) {
+                pending.escalated = true;
+                add_event(fleet, now, "vehicle.action_unconfirmed", {}, run.record.leg, id, {},
+                          {{"action", pending.action.type}, {"action_id", pending.action.id}});
+            }
+        }
+    }
+}
+
+}  // namespace pulseline::fleet

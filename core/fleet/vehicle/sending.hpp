@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "core/fleet/state/fleet_state.hpp"
+
+/// What is sent to a vehicle, again until it has shown that it has it.
+namespace pulseline::fleet {
+
+void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
+/// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
+void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
+/// Sends startPause or stopPause; the newest wish counts.
+void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
+/// After a person's act; the vehicle is not ready until that order is gone.
+void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now);
+void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
+void resend(FleetState& fleet, Time now);
+
+}  // namespace pulseline::fleet

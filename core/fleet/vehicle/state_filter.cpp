@@ -1,0 +1,99 @@
+#include "core/fleet/vehicle/state_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/fleet/state/fields.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+// Far below what moves a vehicle's floor (2 cm) or its place at a station (25 cm).
+constexpr double kStill_m = 0.002;
+constexpr double kStill_rad = 0.0005;
+// Of the bracket's force: the limit of their balance is a tenth.
+constexpr double kForceShare = 0.005;
+constexpr double kForce_n = 20;
+constexpr double kFoot_m = 0.001;
+constexpr double kBattery_percent = 0.5;
+constexpr double kLoad_kg = 0.5;
+
+bool near(double a, double b, double within) { return std::abs(a - b) <= within; }
+
+bool same_force(double a, double b) {
+    return near(a, b, kForce_n + kForceShare * std::max(std::abs(a), std::abs(b)));
+}
+
+bool same_pose(const Pose2& a, const Pose2& b) {
+    return geometry::distance(a.position(), b.position()) <= kStill_m &&
+           std::abs(wrap(a.heading_rad - b.heading_rad)) <= kStill_rad;
+}
+
+/// Makes equal what is the same but for noise, so that the rest can be compared as it is.
+void quiet(const StateMessage& known, StateMessage& next) {
+    next.header_id = known.header_id;
+    next.timestamp = known.timestamp;
+    next.velocity_mps = known.velocity_mps;
+    next.turn_rate_radps = known.turn_rate_radps;
+    next.localization_score = known.localization_score;
+    next.deviation_range_m = known.deviation_range_m;
+    const bool both = known.pose && next.pose;
+    if (both && (next.driving || same_pose(*known.pose, *next.pose))) {
+        next.pose = known.pose;
+        next.distance_since_last_node_m = known.distance_since_last_node_m;
+    }
+    if (near(known.battery_percent, next.battery_percent, kBattery_percent)) {
+        next.battery_percent = known.battery_percent;
+    }
+    if (near(known.load_kg, next.load_kg, kLoad_kg)) next.load_kg = known.load_kg;
+    const auto pairs = [](auto& from, auto& to, auto make_equal) {
+        for (std::size_t i = 0; i < std::min(from.size(), to.size()); ++i) {
+            make_equal(from[i], to[i]);
+        }
+    };
+    pairs(known.brackets, next.brackets, [](const BracketLoad& from, BracketLoad& to) {
+        if (same_force(from.force_a_n, to.force_a_n)) to.force_a_n = from.force_a_n;
+        if (same_force(from.force_b_n, to.force_b_n)) to.force_b_n = from.force_b_n;
+    });
+    pairs(known.wheels, next.wheels, [](const WheelStatus& from, WheelStatus& to) {
+        to.steering_rad = from.steering_rad;
+        to.speed_mps = from.speed_mps;
+        to.temperature_c = from.temperature_c;
+    });
+    pairs(known.parking_feet, next.parking_feet, [](const ParkingFoot& from, ParkingFoot& to) {
+        if (near(from.extension_m, to.extension_m, kFoot_m)) to.extension_m = from.extension_m;
+    });
+    // A vehicle that has lost its pose is told it from what its cameras see.
+    if (!next.position_initialized) return;
+    pairs(known.cameras, next.cameras, [](const CameraReading& from, CameraReading& to) {
+        to.code = from.code;
+        to.angle_rad = from.angle_rad;
+        to.sigma_m = from.sigma_m;
+        to.rms_px = from.rms_px;
+        to.why_not = from.why_not;
+    });
+}
+
+}  // namespace
+
+Duration seen_every(const StateMessage& state) {
+    return state.driving ? kDrivingEvery : kStandingEvery;
+}
+
+Duration to_next_beat(Duration now, Duration every, std::size_t number) {
+    const auto length = static_cast<std::size_t>(every.count());
+    const Duration own{static_cast<Duration::rep>(number % length)};
+    return every - (now + own) % every;
+}
+
+bool may_change_decision(const StateMessage& known, const StateMessage& next) {
+    StateMessage quieted = next;
+    quiet(known, quieted);
+    journal::Writer a;
+    journal::Writer b;
+    a.put(known);
+    b.put(quieted);
+    return a.bytes() != b.bytes();
+}
+
+}  // namespace pulseline::fleet

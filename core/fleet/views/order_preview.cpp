@@ -1,0 +1,138 @@
+#include "core/fleet/views/order_preview.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "core/fleet/fleet.hpp"
+#include "core/fleet/floor/closures.hpp"
+#include "core/fleet/orders/planning.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/fleet/views/start_checks.hpp"
+
+namespace pulseline::fleet {
+
+struct PreviewState {
+    const plant::Plant& plant;
+    std::shared_ptr<const PlantTables> tables;
+    Time started;
+    std::vector<VehicleRun> vehicles;
+    std::vector<JobOrder> orders;
+    std::vector<planning::ClosedFloor> closures;
+};
+namespace {
+
+constexpr int kAlternatives = 3;
+
+/// Without its floor and what is only worked out of the rest.
+VehicleRun known_of(const VehicleRun& run) {
+    VehicleRun copy;
+    copy.vehicle = run.vehicle;
+    copy.type = run.type;
+    copy.record = run.record;
+    copy.connected = run.connected;
+    copy.reconciled = run.reconciled;
+    copy.link = run.link;
+    copy.last_heard = run.last_heard;
+    copy.state = run.state;
+    copy.state_at = run.state_at;
+    copy.factsheet = run.factsheet;
+    copy.cancelling = run.cancelling;
+    return copy;
+}
+
+Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
+    Preview preview;
+    preview.vehicle = order.vehicle;
+    auto plan = plan_order(fleet, order, now, FreeManoeuvres::kPlanned);
+    preview.accepted = plan.has_value();
+    if (!plan) preview.problem = plan.error();
+    if (plan) preview.vehicle = plan->vehicle;
+    const VehicleRun* run = fleet.find(preview.vehicle);
+    if (!run) return preview;
+
+    const plant::Station* first = nullptr;
+    std::optional<planning::LegPlan> first_plan;
+    std::optional<Pose2> pose;
+    if (run->record.pose_known) pose = run->record.pose;
+    const auto standing =
+        standing_bodies(fleet, plant::HallId(hall_of(fleet, *run)), run->record.id);
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
+        if (!station) break;
+        StepPreview step;
+        step.station = station->id;
+        step.number = station->number;
+        step.start = plan ? plan->starts[i] : pose.value_or(Pose2{});
+        const auto request = leg_request(fleet, *run, step.start, station->id, order.steps[i].mode);
+        if (plan || pose) step.options = fleet.planner.assess_modes(request, standing);
+        for (const auto& option : step.options) {
+            const bool wanted = order.steps[i].mode == plant::MotionMode::kAuto
+                                    ? option.suggested
+                                    : option.mode == order.steps[i].mode;
+            if (!wanted || !option.plan) continue;
+            step.chosen = option.mode;
+            step.alternatives =
+                fleet.planner.alternatives(request, *option.plan, kAlternatives, standing);
+            if (i == 0) first_plan = *option.plan;
+        }
+        if (i == 0) first = station;
+        pose = station->pose;
+        preview.steps.push_back(std::move(step));
+    }
+    preview.checks = start_checks(fleet, *run, first, first_plan, now);
+    return preview;
+}
+
+}  // namespace
+
+Preview Fleet::preview(const NewOrder& order, Time now) const {
+    return preview_of(*state_, order, now);
+}
+
+OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now) const {
+    const FleetState& fleet = *state_;
+    auto known = std::make_shared<PreviewState>(
+        PreviewState{fleet.plant, fleet.tables, fleet.started, {}, {}, closed_floors()});
+    for (const auto& [id, run] : fleet.vehicles) known->vehicles.push_back(known_of(run));
+    for (const JobOrderId& id : fleet.orders.open()) {
+        const JobOrder& open = *fleet.find(id);
+        // The rest says nothing of where a vehicle will be, nor of who may have the order.
+        const bool bound = !open.assigned_vehicle.empty() || !open.wanted_vehicle.empty();
+        if (bound || (!order.sequence.empty() && open.sequence == order.sequence)) {
+            known->orders.push_back(open);
+        }
+    }
+    return {order, now, std::move(known)};
+}
+
+OrderPreviewer::OrderPreviewer() = default;
+OrderPreviewer::~OrderPreviewer() = default;
+OrderPreviewer::OrderPreviewer(OrderPreviewer&&) noexcept = default;
+OrderPreviewer& OrderPreviewer::operator=(OrderPreviewer&&) noexcept = default;
+
+void OrderPreviewer::know(const PreviewState& known) {
+    if (!fleet_ || fleet_->tables != known.tables) {
+        fleet_ = std::make_unique<FleetState>(known.plant, known.tables, 0, known.started);
+    }
+    fleet_->started = known.started;
+    fleet_->vehicles.clear();
+    for (const auto& run : known.vehicles) fleet_->vehicles.emplace(run.record.id, run);
+    fleet_->orders = {};
+    for (const auto& order : known.orders) fleet_->orders.add(order);
+    fleet_->planner.set_closures(known.closures);
+}
+
+Preview OrderPreviewer::preview(const OrderPreviewTask& task) {
+    know(*task.state);
+    return preview_of(*fleet_, task.order, task.asked);
+}
+
+Status OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
+    know(*task.state);
+    const auto plan = plan_order(*fleet_, task.order, task.asked, FreeManoeuvres::kPlanned);
+    return plan ? Status() : fail(plan.error());
+}
+
+}  // namespace pulseline::fleet

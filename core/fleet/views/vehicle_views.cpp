@@ -1,0 +1,222 @@
+#include "core/fleet/views/vehicle_views.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/fleet/floor/floor.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/views.hpp"
+#include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/vehicle/body.hpp"
+#include "core/fleet/vehicle/interlocks.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/kinematics/motion.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr double kArcSample_rad = 6.0 * kPi / 180.0;
+
+void update_areas(const VehicleRun& run) {
+    const Leg& leg = run.leg();
+    auto& areas = run.areas;
+    if (areas.leg == leg.id && areas.passed == leg.passed_nodes &&
+        areas.released == leg.released_nodes) {
+        return;
+    }
+    std::vector<geometry::Polygon> granted;
+    std::vector<geometry::Polygon> horizon;
+    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
+    for (std::size_t i = leg.passed_nodes - 1; i < leg.edges.size(); ++i) {
+        auto floor = floor_along(body, leg.edges[i].segment, leg.edges[i].corridor,
+                                 kinematics::kOutlineDetail);
+        auto& area = i + 1 < leg.released_nodes ? granted : horizon;
+        area.insert(area.end(), std::make_move_iterator(floor.begin()),
+                    std::make_move_iterator(floor.end()));
+    }
+    areas.granted = geometry::union_outline(granted);
+    areas.horizon = geometry::union_outline(horizon);
+    areas.leg = leg.id;
+    areas.passed = leg.passed_nodes;
+    areas.released = leg.released_nodes;
+}
+
+LegView leg_view(const VehicleRun& run, Time now) {
+    const Leg& leg = run.leg();
+    update_areas(run);
+    LegView view;
+    view.id = leg.id;
+    view.station = leg.station;
+    view.mode = leg.mode;
+    view.duration_s = leg.duration_s / speed_share(run);
+    view.granted_area = run.areas.granted;
+    view.horizon_area = run.areas.horizon;
+    view.path.push_back(leg.nodes.front().pose.position());
+    double total_s = 0;
+    double passed_s = 0;
+    for (std::size_t i = 0; i < leg.edges.size(); ++i) {
+        const auto& segment = leg.edges[i].segment;
+        if (i + 1 == leg.released_nodes) view.granted_points = view.path.size();
+        if (segment.kind != kinematics::Segment::Kind::kRotate) {
+            const int samples = segment.kind == kinematics::Segment::Kind::kArc
+                                    ? std::max(1, static_cast<int>(std::ceil(
+                                                      std::abs(segment.turn_rad) / kArcSample_rad)))
+                                    : 1;
+            for (int k = 1; k <= samples; ++k) {
+                view.path.push_back(
+                    kinematics::pose_at(segment, static_cast<double>(k) / samples).position());
+            }
+        }
+        total_s += segment.duration_s;
+        if (i + 1 < leg.passed_nodes) passed_s += segment.duration_s;
+    }
+    if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
+    view.progress = total_s > 0 ? passed_s / total_s : 1.0;
+    view.started = run.leg_started;
+    if (run.leg_started) {
+        const Time left = now + from_seconds((total_s - passed_s) / speed_share(run));
+        view.expected = std::max(*run.leg_started + from_seconds(view.duration_s), left);
+    }
+    return view;
+}
+
+/// A report of before the pause, or of one that is still braking, does not count.
+bool stands_paused(const VehicleRun& run) {
+    return run.record.paused && run.state.paused && !run.state.driving &&
+           !is_asked(run, "startPause");
+}
+
+/// Beside its line it says why.
+std::optional<Reason> detour(const VehicleRun& run) {
+    const bool goes_round =
+        std::any_of(run.state.errors.begin(), run.state.errors.end(),
+                    [](const VehicleError& error) { return error.type == "going_round"; });
+    return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
+}
+
+/// Ready: it stands there and its last stop, measured here, was inside tolerance.
+void show_standing(StationView& view, const VehicleRun& run) {
+    view.occupied_by = run.record.id;
+    const bool measured_here = run.record.last_stop_station == view.id;
+    view.ready = run.record.last_stop_inside && measured_here && !run.has_leg();
+    if (measured_here) view.last_stop = run.record.last_stop;
+}
+
+struct Doing {
+    Activity activity = Activity::kUnknown;
+    std::optional<Reason> reason;
+};
+
+Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
+    const JobOrder* order = fleet.orders.of(run.record.id);
+    if (run.record.integration == Integration::kIgnore) {
+        return {Activity::kUnknown, not_ready(fleet, run, now)};
+    }
+    if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
+    if (run.link == Link::kLost || run.link == Link::kGone) {
+        return {Activity::kUnknown,
+                Reason{"vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}}}};
+    }
+    const bool moving = run.has_leg() && run.state.driving;
+    if (moving && run.link == Link::kLive) return {Activity::kMoving, detour(run)};
+    if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
+        const std::string& code = reason->code;
+        const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
+                             code == "vehicle_safety_stop" || code == "not_automatic" ||
+                             code == "field_violation";
+        Activity activity = blocked ? Activity::kBlocked : Activity::kWaiting;
+        if (code == "vehicle_paused") activity = Activity::kPaused;
+        if (code == "pose_unknown" || code == "vehicle_silent") activity = Activity::kUnknown;
+        return {activity, reason};
+    }
+    if (run.has_leg()) {
+        const bool measuring = order && order->current_step < order->steps.size() &&
+                               order->steps[order->current_step].state == StepState::kMeasuring;
+        if (measuring) return {Activity::kMeasuring, std::nullopt};
+        if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
+        if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
+        if (!run.leg_seen) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        if (run.leg().order.empty()) {
+            if (auto wait = floor_wait(fleet, run); wait && !moving) {
+                return {Activity::kWaiting, std::move(wait)};
+            }
+            const char* code = run.leg().charges ? "goes_charging" : "makes_way";
+            return {Activity::kMoving, Reason{code, {{"station", run.leg().station.str()}}}};
+        }
+        return {Activity::kMoving, detour(run)};
+    }
+    if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
+    if (run.state.charging) return {Activity::kCharging, std::nullopt};
+    if (run.charge_wait) return {Activity::kStanding, run.charge_wait};
+    return {Activity::kStanding, Reason{"no_order", {}}};
+}
+
+}  // namespace
+
+VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg) {
+    VehicleView view;
+    view.id = run.record.id;
+    view.link = run.link;
+    Doing what = doing(fleet, run, now);
+    view.activity = what.activity;
+    view.reason = std::move(what.reason);
+    view.last_heard = run.last_heard;
+    view.pose_known = run.record.pose_known;
+    if (run.record.pose_known) view.pose_basis = run.record.basis;
+    if (run.record.claim) {
+        view.claimed_pose = run.record.claim->pose;
+        if (has_stood(run.record)) view.pose = run.record.pose;
+    } else if (run.record.pose_known || run.state_at) {
+        view.pose = run.record.pose_known ? std::optional<Pose2>(run.record.pose) : run.state.pose;
+    }
+    view.pose_at = run.state_at;
+    view.hall = hall_of(fleet, run);
+    view.at_station = run.record.at_station;
+    if (const auto* order = fleet.orders.of(run.record.id)) {
+        view.order = order->id;
+    }
+    if (with_leg && run.has_leg()) view.leg = leg_view(run, now);
+    view.worst_bracket = worst_bracket(run);
+    view.paused = run.record.paused;
+    view.stands_paused = stands_paused(run);
+    view.integration = run.record.integration;
+    view.needs_resume = run.record.needs_resume;
+    view.needs_resume_reason = run.record.needs_resume_reason;
+    view.made_way = run.made_way;
+    view.state = run.state;
+    return view;
+}
+
+StationView station_view(const FleetState& fleet, const plant::Station& station) {
+    StationView view{station.id, station.number, {}, {}, false, {}};
+    for (const auto& [id, run] : fleet.vehicles) {
+        if (!run.record.at_station.empty() && run.record.at_station == station.id) {
+            show_standing(view, run);
+        }
+        if (run.has_leg() && run.leg().station == station.id) view.reserved_by = id;
+    }
+    return view;
+}
+
+std::vector<StationView> station_views(const FleetState& fleet) {
+    std::vector<StationView> views;
+    std::unordered_map<std::string_view, std::size_t> index;
+    for (const auto& station : fleet.plant.stations) {
+        index.emplace(station.id.str(), views.size());
+        views.push_back({station.id, station.number, {}, {}, false, {}});
+    }
+    for (const auto& [id, run] : fleet.vehicles) {
+        const auto at = index.find(run.record.at_station.str());
+        if (at != index.end()) show_standing(views[at->second], run);
+        if (!run.has_leg()) continue;
+        const auto to = index.find(run.leg().station.str());
+        if (to != index.end()) views[to->second].reserved_by = id;
+    }
+    return views;
+}
+
+}  // namespace pulseline::fleet
