@@ -109,7 +109,7 @@ test("battery, fields and mode of a vehicle stay at every width", async () => {
   for (const width of [1920, 1280, 1279, 1024, 720, 719, 390, 360]) {
     await page.setViewportSize({ width, height: 800 });
     for (const words of [/^\d+ %$/, "Fields clear", "Automatic"]) {
-      const chip = page.locator(".head .chip", { hasText: words });
+      const chip = page.locator(".vhead .chip", { hasText: words });
       await chip.waitFor();
       const seen = await chip.evaluate((e) => {
         const { left, right, top, height } = e.getBoundingClientRect();
