@@ -52,6 +52,7 @@ for (const [width, height, lang, theme, axe] of [
 ]) {
   test(`every page at ${width} x ${height}, ${lang}, ${theme}: all in reach`, async () => {
     const page = await signedIn(browser, system, "operator", { width, height, lang, theme, bypassCSP: true });
+    assert.deepEqual(await brokenWords(page), []);
     for (const [name, path] of pages()) {
       await page.goto(system.url + path);
       await page.locator("main .card, main .mappage").first().waitFor();
@@ -72,5 +73,69 @@ test("the user's menu on a phone holds language and theme", async () => {
   await page.locator(".who > button").click();
   await page.locator(".menu").getByRole("button", { name: "中文" }).click();
   await page.getByRole("link", { name: "地图" }).waitFor();
+  await page.context().close();
+});
+
+// A magnification of the browser leaves less room for the same screen: 200 % are half of it, at twice its pixels.
+for (const [width, height, lang, magnification] of [[960, 540, "en", 2], [512, 384, "zh", 2], [844, 390, "en", 1]]) {
+  const what = magnification === 2 ? `under a magnification of 200 %, ${2 * width} x ${2 * height}` : `on a phone held sideways, ${width} x ${height}`;
+  test(`every page ${what}, ${lang}: all in reach, and the header has room for its words`, async () => {
+    const page = await signedIn(browser, system, "operator", { width, height, lang, magnification });
+    assert.deepEqual(await brokenWords(page), []);
+    for (const [name, path] of pages()) {
+      await page.goto(system.url + path);
+      await page.locator("main .card, main .mappage").first().waitFor();
+      await until("the data has come", async () => (await page.locator(".page").innerText()).length > 25, { timeout_s: 10, every_ms: 50 });
+      await picture(page, `low-${name}-${width}-${lang}`);
+      assert.deepEqual(await reachFaultsOf(page), [], name);
+    }
+    await page.context().close();
+  });
+}
+
+/** What the header has no room for: words that go on in a second line, or run out of their cell. */
+function brokenWords(page) {
+  return page.locator(".shell :is(button, .cell, .plant > div)").evaluateAll((all) => all.filter((e) => e.checkVisibility()).filter((e) => {
+    const lines = document.createRange();
+    lines.selectNodeContents(e);
+    const broken = e.childElementCount === 0 && new Set([...lines.getClientRects()].map((r) => Math.round(r.top))).size > 1;
+    const next = e.closest(".shell > *").nextElementSibling;
+    return broken || e.scrollWidth > e.clientWidth + 1 || (next?.checkVisibility() && next.offsetTop === e.offsetTop && lines.getBoundingClientRect().right > next.getBoundingClientRect().left + 1);
+  }).map((e) => e.textContent));
+}
+
+test("battery, fields and mode of a vehicle stay at every width", async () => {
+  const page = await signedIn(browser, system, "operator", { path: "/vehicles/TP-01" });
+  for (const width of [1920, 1280, 1279, 1024, 720, 719, 390, 360]) {
+    await page.setViewportSize({ width, height: 800 });
+    for (const words of [/^\d+ %$/, "Fields clear", "Automatic"]) {
+      const chip = page.locator(".vhead .chip", { hasText: words });
+      await chip.waitFor();
+      const seen = await chip.evaluate((e) => {
+        const { left, right, top, height } = e.getBoundingClientRect();
+        return left >= 0 && right <= innerWidth && e.scrollWidth <= e.clientWidth && e.contains(document.elementFromPoint((left + right) / 2, top + height / 2));
+      });
+      assert.ok(seen, `${words} at ${width} px`);
+    }
+  }
+  await page.context().close();
+});
+
+// Last: MV-01 is told that it stands where its numbers are longest.
+test("the longest numbers of a pose leave the columns apart", async () => {
+  await client.post("/api/v1/vehicles/MV-01/init-position", { ...(await client.get("/api/v1/vehicles/MV-01")).pose, x_m: 114.6, y_m: 57, heading_rad: Math.PI });
+  await client.untilVehicle("MV-01", (v) => v.pose.x_m > 114, "stands where it was told");
+  const page = await signedIn(browser, system, "operator", { path: "/vehicles/MV-01" });
+  for (const width of [1920, 1280, 1024, 390]) {
+    await page.setViewportSize({ width, height: 1080 });
+    if (width < 1280) await page.getByRole("tab", { name: "Why and pose" }).click();
+    await page.locator(".pvs", { hasText: "114,600" }).waitFor();
+    const touching = await page.locator(".pvs .value").evaluateAll((all) => all.filter((e) => {
+      const end = Math.max(...[...e.querySelectorAll(".val > *")].map((part) => part.getBoundingClientRect().right));
+      return end > e.getBoundingClientRect().right - 4;
+    }).map((e) => e.textContent));
+    assert.deepEqual(touching, [], `at ${width} px`);
+    await picture(page, `pose-${width}`);
+  }
   await page.context().close();
 });

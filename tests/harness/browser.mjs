@@ -16,8 +16,8 @@ export async function startBrowser() {
 }
 
 /** A page signed in as `role`; console errors fail the test that asks for them. */
-export async function signedIn(browser, system, role, { width = 1920, height = 1080, lang = "en", theme = "light", path = "/map", bypassCSP = false, init } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, locale: lang === "zh" ? "zh-CN" : "en-GB", reducedMotion: "reduce", bypassCSP });
+export async function signedIn(browser, system, role, { width = 1920, height = 1080, lang = "en", theme = "light", path = "/map", bypassCSP = false, init, magnification = 1 } = {}) {
+  const context = await browser.newContext({ viewport: { width, height }, locale: lang === "zh" ? "zh-CN" : "en-GB", reducedMotion: "reduce", bypassCSP, deviceScaleFactor: magnification });
   const page = await context.newPage();
   if (init) await page.addInitScript(init);
   page.errors = [];

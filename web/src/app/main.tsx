@@ -3,7 +3,9 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { ApiProblem } from "@/shared/api/problem";
 import { startI18n } from "@/shared/i18n/setup";
+import { whenLinkIsBack } from "@/shared/live/linkBack";
 import { loadSession } from "@/shared/live/session";
+import { liveStore } from "@/shared/live/store";
 import "./app.css";
 import { Sprite } from "@/shared/ui";
 import { App } from "./App";
@@ -18,6 +20,12 @@ const queries = new QueryClient({
     },
   },
 });
+
+// What could not be asked while the link was cut is asked again, without a press.
+whenLinkIsBack(
+  liveStore,
+  () => void queries.refetchQueries({ type: "active", predicate: (query) => query.state.status === "error" }),
+);
 
 const root = document.getElementById("root");
 if (root === null) throw new Error("index.html has no #root");

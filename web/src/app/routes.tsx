@@ -1,6 +1,7 @@
-import { Component, lazy, Suspense, type ComponentType, type ReactNode } from "react";
+import { Component, lazy, Suspense, useEffect, type ComponentType, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { MapPage } from "@/features/map/MapPage";
+import { liveStore, useLinkLost, whenLinkIsBack } from "@/shared/live";
 import { Link, useLocation } from "@/shared/router";
 import { Button, PanelEmpty, PanelLoading } from "@/shared/ui";
 
@@ -9,29 +10,55 @@ const modules = import.meta.glob<{ default: ComponentType<{ id?: string }> }>(".
 
 const pages = new Map(
   Object.entries(modules).map(
-    ([path, load]) => [/features\/([^/]+)\//.exec(path)?.[1] ?? "", lazy(load)] as const,
+    ([path, load]) =>
+      [
+        /features\/([^/]+)\//.exec(path)?.[1] ?? "",
+        lazy(() => load().catch((cause: unknown) => Promise.reject(new NotLoaded(path, { cause })))),
+      ] as const,
   ),
 );
 
-class Boundary extends Component<
-  { words: { failed: string; again: string }; children: ReactNode },
-  { failed: boolean }
-> {
-  override state = { failed: false };
-  static getDerivedStateFromError() {
-    return { failed: true };
+/** Its page's code did not come, which is no fault of the page. */
+class NotLoaded extends Error {}
+
+class Boundary extends Component<{ children: ReactNode }, { error?: unknown }> {
+  override state: { error?: unknown } = {};
+  static getDerivedStateFromError(error: unknown) {
+    return { error };
   }
   override render() {
-    if (!this.state.failed) return this.props.children;
-    return (
-      <div className="card">
-        <PanelEmpty
-          what={this.props.words.failed}
-          action={<Button onPress={() => window.location.reload()}>{this.props.words.again}</Button>}
-        />
-      </div>
-    );
+    const { error } = this.state;
+    if (error === undefined) return this.props.children;
+    return error instanceof NotLoaded ? <CutOff /> : <Crashed />;
   }
+}
+
+function Crashed() {
+  const { t } = useTranslation();
+  return (
+    <div className="card">
+      <h1 className="sr-only">{t("page.crashed")}</h1>
+      <PanelEmpty what={t("page.crashed")} action={<LoadAgain />} />
+    </div>
+  );
+}
+
+/** Loads itself when the link is back. Not before: loading while it is cut would lose the frame, too. */
+function CutOff() {
+  const { t } = useTranslation();
+  useEffect(() => whenLinkIsBack(liveStore, () => window.location.reload()), []);
+  if (!useLinkLost()) return <Crashed />;
+  return (
+    <div className="card" role="status">
+      <h1 className="sr-only">{t("page.cut")}</h1>
+      <PanelEmpty what={t("page.cut")} when={t("page.comes_back")} />
+    </div>
+  );
+}
+
+function LoadAgain() {
+  const { t } = useTranslation();
+  return <Button onPress={() => window.location.reload()}>{t("page.reload")}</Button>;
 }
 
 /** The page of the address: /map, /send, /vehicles/TP-01 ... */
@@ -63,7 +90,7 @@ export function Page() {
     );
   }
   return (
-    <Boundary key={name} words={{ failed: t("page.crashed"), again: t("page.reload") }}>
+    <Boundary key={name}>
       <Suspense fallback={<PanelLoading what={t(`nav.${name}`)} />}>
         <Feature {...(id !== undefined && { id })} />
       </Suspense>

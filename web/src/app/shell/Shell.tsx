@@ -48,17 +48,21 @@ function LanguageChoice() {
   );
 }
 
-function ThemeToggle() {
+/** A symbol alone where the header has room for no more. */
+function ThemeToggle({ inWords = false }: { inWords?: boolean }) {
   const { t } = useTranslation();
   const theme = useTheme();
+  const does = theme === "dark" ? t("theme.to_light") : t("theme.to_dark");
   return (
     <div className="cell theme">
       <Button
         quiet
         icon="sun"
-        label={theme === "dark" ? t("theme.to_light") : t("theme.to_dark")}
+        {...(!inWords && { label: does })}
         onPress={() => setTheme(theme === "dark" ? "light" : "dark")}
-      />
+      >
+        {inWords ? does : undefined}
+      </Button>
     </div>
   );
 }
@@ -102,7 +106,7 @@ export function Shell({ children }: { children: ReactNode }) {
         <ThemeToggle />
         <LanguageChoice />
         <UserMenu>
-          <ThemeToggle />
+          <ThemeToggle inWords />
           <LanguageChoice />
         </UserMenu>
         <PauseFleet />

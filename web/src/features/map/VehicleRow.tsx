@@ -42,8 +42,8 @@ export function VehicleRow({ vehicle: v, vehicles, numberOf, selected, two, onSe
   const silentS = v.last_heard_at === undefined ? undefined : (now - Date.parse(v.last_heard_at)) / 1000;
   const old = lost || stale(v);
   const when = (): string => {
-    if (old) return age(lost ? link.ageS : silentS);
     if (v.link === "never") return "";
+    if (old) return age(lost ? link.ageS : silentS);
     if (v.activity === "moving" && haltOf(v) === "none") return left(v.leg?.expected_at) ?? "";
     return alarm !== undefined || v.activity === "waiting" || v.activity === "paused"
       ? lasting(v, since, now)

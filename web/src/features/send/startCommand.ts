@@ -95,7 +95,7 @@ export function startCommand(state: StartCommand, event: StartEvent): StartComma
 
 /** Seconds left of an arming, for the ring. */
 export function armedLeft_s(state: StartCommand, nowMs: number): number {
-  return state.kind === "armed" ? Math.max(0, (state.sinceMs + kArmMs - nowMs) / 1000) : 0;
+  return state.kind === "armed" ? Math.min(kArmMs, Math.max(0, state.sinceMs + kArmMs - nowMs)) / 1000 : 0;
 }
 
 function lapsed(sinceMs: number, nowMs: number): boolean {

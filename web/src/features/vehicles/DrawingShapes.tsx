@@ -1,5 +1,5 @@
 import type { Vehicle, VehicleType } from "@/shared/api/types";
-import { footCorner, wheelPlace, wheelState, type Sheet } from "./faceplate";
+import { footCorner, wheelHalf_m, wheelPlace, wheelRing_m, wheelState, type Sheet } from "./faceplate";
 import { centreOfLoad, kPinOffset_m } from "./loads";
 
 // Shapes of the drawing, in metres of the body frame with y turned down.
@@ -46,7 +46,7 @@ export function Wheel({
   const at = wheelPlace(wheel.name, type);
   if (!at) return null;
   const state = wheelState(wheel);
-  const half = Math.max(0.15 * scale, at.diameter_m / 2);
+  const half = wheelHalf_m(at.diameter_m, scale);
   const turn = (-wheel.steering_rad * 180) / Math.PI;
   return (
     <>
@@ -54,7 +54,7 @@ export function Wheel({
         className={`wring ${state === "warm" ? "adv" : state === "fault" ? "bad" : ""}`}
         cx={at.position.x_m}
         cy={-at.position.y_m}
-        r={Math.max(0.27 * scale, half + 0.06 * scale)}
+        r={wheelRing_m(at.diameter_m, scale)}
       />
       <rect
         className="wheel"

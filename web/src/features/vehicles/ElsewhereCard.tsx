@@ -25,7 +25,7 @@ export function ElsewhereCard({
     <>
       {may && (
         <div className="card elsewhere">
-          <b className="grow">{t("elsewhere.title")}</b>
+          <b>{t("elsewhere.title")}</b>
           {!shown && <Button onPress={() => setOpen(true)}>{t("elsewhere.numbers")}</Button>}
           <Link className="btn" to={`/map?place=${encodeURIComponent(vehicle.id)}`}>
             {t("elsewhere.map")}

@@ -83,7 +83,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
 
   return (
     <>
-      <div className="card head">
+      <div className="card head vhead">
         <VehicleMini type={type} className="hmini" />
         <div>
           <h1>{vehicle.name}</h1>
@@ -101,7 +101,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
             <b>{answer(vehicle)}</b>
             <span className="cap">{age(heard_s)}</span>
           </div>
-          <div className="vtabs">
+          <div className="facetabs">
             <Tabs
               label={t("tabs.label")}
               selected={tab}

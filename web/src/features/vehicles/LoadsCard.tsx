@@ -3,7 +3,7 @@ import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card } from "@/shared/ui";
 import { age, fixed } from "@/shared/words/format";
 import { feetDown } from "./faceplate";
-import { summarise } from "./loads";
+import { summarise, titleOf } from "./loads";
 import { PlatformDrawing } from "./PlatformDrawing";
 
 /** The vehicle from above with what its sensors say of load, wheels and feet. */
@@ -44,12 +44,4 @@ export function LoadsCard({
       <PlatformDrawing vehicle={vehicle} type={type} stale={stale} />
     </Card>
   );
-}
-
-/** Names only what this vehicle has. */
-function titleOf(vehicle: Vehicle, type: VehicleType | undefined): string {
-  const load = vehicle.brackets.length > 0 || (type?.brackets.length ?? 0) > 0;
-  const feet = vehicle.parking_feet.length > 0;
-  if (load) return feet ? "loads.title" : "loads.title_load";
-  return feet ? "loads.title_feet" : "loads.title_wheels";
 }

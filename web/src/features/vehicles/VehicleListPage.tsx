@@ -30,7 +30,7 @@ export function VehicleListPage() {
         <PanelEmpty what={t("list.empty")} when={t("list.empty_hint")} />
       ) : (
         <div className="scroll" tabIndex={0} role="group" aria-label={t("list.title")}>
-          <table className="rows">
+          <table className="rows vrows">
             <thead>
               <tr>
                 <th>{t("list.vehicle")}</th>

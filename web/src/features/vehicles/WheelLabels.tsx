@@ -3,7 +3,10 @@ import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { StatusSymbol } from "@/shared/ui";
 import { degrees, fixed, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { footCorner, onSheet, wheelPlace, wheelState, type Sheet } from "./faceplate";
+import { footCorner, onSheet, wheelPlace, wheelRing_m, wheelState, type Sheet } from "./faceplate";
+
+/** Where words beside the body stand, as a share of half its length. */
+const kBeside = 1.06;
 
 /** Words beside wheels and parking feet. */
 export function WheelLabels({
@@ -28,19 +31,21 @@ export function WheelLabels({
         const middle = Math.abs(y) < sheet.halfWidth * 0.3;
         const inside = middle || Math.abs(x) < sheet.halfLength * 0.3;
         const side = x < 0 || !middle ? "from" : "to"; // of the wheel, where its words stand
+        const beside = wheelRing_m(at.diameter_m, sheet.scale) + 0.07 * sheet.scale;
+        const outer = x < 0 ? "to" : "from"; // beside the body words begin, or end, at one line
         const place = inside
-          ? onSheet(sheet, { x_m: x + (side === "from" ? 0.34 : -0.34) * sheet.scale, y_m: y })
+          ? onSheet(sheet, { x_m: x + (side === "from" ? beside : -beside), y_m: y })
           : onSheet(sheet, {
-              x_m: Math.sign(x) * sheet.halfLength * 1.143,
+              x_m: Math.sign(x) * sheet.halfLength * kBeside,
               y_m: Math.sign(y) * sheet.height * 0.246,
             });
         const below = onSheet(sheet, {
-          x_m: Math.sign(x) * sheet.halfLength * 1.143,
+          x_m: Math.sign(x) * sheet.halfLength * kBeside,
           y_m: Math.sign(y) * sheet.height * 0.246 - (y >= 0 ? 2 : 2.2) * row,
         });
         return (
           <span key={w.name}>
-            <span className={`wl ${inside ? `in ${side}` : ""}`} style={place}>
+            <span className={`wl ${inside ? `in ${side}` : outer}`} style={place}>
               {state !== "ok" && <StatusSymbol name={state === "warm" ? "a-3" : "a-2"} />}
               <b>{words.wheelLabel(w.name)}</b> {degrees(w.steering_rad, { decimals: 1, sign: true })}°
               {middle && (
@@ -52,7 +57,7 @@ export function WheelLabels({
             </span>
             {state !== "ok" && (
               <span
-                className={`wl ${state === "warm" ? "adv2" : "bad2"} ${inside ? side : ""}`}
+                className={`wl ${state === "warm" ? "adv2" : "bad2"} ${inside ? side : outer}`}
                 style={inside ? { ...place, marginTop: 22 } : below}
               >
                 {state === "warm"
@@ -66,11 +71,11 @@ export function WheelLabels({
       {vehicle.parking_feet.map((f, i) => {
         const corner = footCorner(f.name, i);
         const place = onSheet(sheet, {
-          x_m: corner.x * sheet.halfLength * 1.143,
+          x_m: corner.x * sheet.halfLength * kBeside,
           y_m: corner.y * sheet.height * 0.246 - row,
         });
         return (
-          <span key={f.name} className="wl" style={place}>
+          <span key={f.name} className={`wl ${corner.x < 0 ? "to" : "from"}`} style={place}>
             {t("loads.foot")} {millimetres(f.extension_m, { decimals: 1 })} <u>mm</u>
           </span>
         );

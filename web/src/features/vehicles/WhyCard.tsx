@@ -61,7 +61,10 @@ export function WhyCard({
   const todo = useTodo()(vehicle);
   const moving = vehicle.activity === "moving" || vehicle.activity === "measuring";
   return (
-    <Card className="why" title={t(moving ? "why.title_moving" : "why.title", { vehicle: vehicle.name })}>
+    <Card
+      className="why whycard"
+      title={t(moving ? "why.title_moving" : "why.title", { vehicle: vehicle.name })}
+    >
       <p className="ans1" role="status">
         <StatusSymbol name={symbolOf(vehicle)} />
         <span>{answer(vehicle)}</span>

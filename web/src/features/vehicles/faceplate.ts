@@ -55,6 +55,15 @@ export function wheelPlace(name: string, type: VehicleType | undefined) {
   return type?.wheels.find((w) => w.name === name);
 }
 
+/** Radius of the ring round a wheel's symbol, m. */
+export function wheelRing_m(diameter_m: number, scale: number): number {
+  return Math.max(0.27 * scale, wheelHalf_m(diameter_m, scale) + 0.06 * scale);
+}
+/** Half the length of the symbol: true to scale where that can be seen. */
+export function wheelHalf_m(diameter_m: number, scale: number): number {
+  return Math.max(0.15 * scale, diameter_m / 2);
+}
+
 export type WheelState = "ok" | "warm" | "fault";
 export const kWarm_c = 65;
 

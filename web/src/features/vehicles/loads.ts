@@ -76,3 +76,14 @@ export function centreOfLoad(
   if (total <= 100) return undefined; // under 10 kg it is noise
   return { x_m: mx / total, y_m: my / total };
 }
+
+/** The words over the drawing name only what this vehicle has. */
+export function titleOf(
+  vehicle: Pick<Vehicle, "brackets" | "parking_feet">,
+  type: Pick<VehicleType, "brackets"> | undefined,
+): "loads.title" | "loads.title_load" | "loads.title_feet" | "loads.title_wheels" {
+  const load = vehicle.brackets.length > 0 || (type?.brackets.length ?? 0) > 0;
+  const feet = vehicle.parking_feet.length > 0;
+  if (load) return feet ? "loads.title" : "loads.title_load";
+  return feet ? "loads.title_feet" : "loads.title_wheels";
+}

@@ -3,7 +3,7 @@ import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
 import { footCorner, onSheet, sheetOf } from "./faceplate";
 import { canApply } from "./integration";
 import { draftOf, emptyDraft, parseNumber, readDraft } from "./initPosition";
-import { centreOfLoad, summarise } from "./loads";
+import { centreOfLoad, summarise, titleOf } from "./loads";
 import { shownCameras } from "./shownCameras";
 import { byUrgency } from "./urgency";
 import { newest } from "./useHeard";
@@ -64,6 +64,19 @@ describe("load", () => {
     expect(summary?.brackets.map((b) => Math.round(b.a.share * 100))).toEqual([40, 0, 0, 0]);
   });
   it("is unknown without readings", () => expect(summarise({ brackets: [] }, type)).toBeUndefined());
+});
+
+describe("title of the drawing", () => {
+  const foot = { name: "front left" } as Vehicle["parking_feet"][number];
+  it.each([
+    ["brackets and feet", forces(1, 1), [foot], type, "loads.title"],
+    ["brackets that tell nothing yet", [], [foot], type, "loads.title"],
+    ["brackets without feet", forces(1, 1), [], type, "loads.title_load"],
+    ["feet without brackets", [], [foot], { brackets: [] }, "loads.title_feet"],
+    ["neither, as all but the platform", [], [], { brackets: [] }, "loads.title_wheels"],
+  ])("names what a vehicle has: %s", (_, brackets, parking_feet, of, title) => {
+    expect(titleOf({ brackets, parking_feet }, of)).toBe(title);
+  });
 });
 
 describe("drawing", () => {

@@ -32,9 +32,9 @@ export function HeldBar({ vehicle }: { vehicle: Vehicle }) {
         disabledReason={refused}
         onRun={resume.run}
       />
-      <StatusSymbol name="s-wait" />
-      <span className="grow" role="status">
-        {waits && held(vehicle)}
+      <span className="grow says" role="status">
+        <StatusSymbol name="s-wait" />
+        <span>{waits && held(vehicle)}</span>
       </span>
       <CommandFailed command={resume} />
     </div>

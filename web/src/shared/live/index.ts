@@ -4,6 +4,7 @@ export { liveStore, type LivePose, type LinkState } from "./store";
 export { useMayCommand, useSession } from "./session";
 export * from "./attention";
 export * from "./pause";
+export { whenLinkIsBack } from "./linkBack";
 export { legProgress } from "./legProgress";
 export { sinceOf, type Since } from "./since";
 export { blockerOf, eachOther, waitChain, type WaitChain } from "./waitChain";

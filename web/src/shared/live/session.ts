@@ -16,10 +16,12 @@ export type SessionState =
 /** Whom this tab has signed in, so that a page that is loaded again can say whose session has ended meanwhile. */
 const kSignedIn = "pulseline.signed_in";
 const kEnded = "pulseline.session_ended";
+const kRetryMs = 3000;
 
 let state: SessionState = { kind: "loading" };
 let stream: Stream | undefined;
 let closures: (() => void) | undefined;
+let retry: ReturnType<typeof setTimeout> | undefined;
 const listeners = new Set<() => void>();
 
 function become(next: SessionState): void {
@@ -62,13 +64,17 @@ function becomeEnded(): void {
   become({ kind: "signed_out", ...(ended && { ended }) });
 }
 
-/** Asks the server who is signed in. Called once at start and by "Try again". */
+/** Asks the server who is signed in, again by itself until it answers. Called at start and by "Try again". */
 export async function loadSession(): Promise<void> {
+  clearTimeout(retry);
   try {
     become({ kind: "signed_in", session: await call(api.GET("/api/v1/session")) });
   } catch (error) {
     if (error instanceof ApiProblem && error.status === 401) becomeEnded();
-    else become({ kind: "failed", problem: asProblem(error) });
+    else {
+      become({ kind: "failed", problem: asProblem(error) });
+      retry = setTimeout(() => void loadSession(), kRetryMs);
+    }
   }
 }
 

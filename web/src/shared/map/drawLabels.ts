@@ -71,8 +71,9 @@ export class LabelPainter {
     if (key !== this.slotsKey || input.nowMs - this.slotsAt >= kLabelHoldMs) {
       this.slotsKey = key;
       this.slotsAt = input.nowMs;
-      const heads = inView.flatMap((v) => headBox(v, view, size));
-      const obstacles = { bodies, soft, frame, fixed: fixedBoxes, heads };
+      const heads = [...inView.flatMap((v) => headBox(v, view, size)), ...captionBoxes(pen, input)];
+      const canvas = { minX: 2, minY: 2, maxX: size.width - 2, maxY: size.height - 2 };
+      const obstacles = { bodies, soft, frame, canvas, fixed: fixedBoxes, heads };
       this.slots = new Map(placeLabels(wishes, obstacles, this.slots).map((l) => [l.key, l.slot]));
     }
     // Least important first, so that what matters lies on top.
@@ -181,6 +182,14 @@ function frameOf({ model, view, size, layers }: FrameInput): Box {
     maxX: Math.min(size.width - rim.right, b.x),
     maxY: Math.min(size.height - rim.bottom, b.y),
   };
+}
+
+/** Where the names of zones stand. */
+function captionBoxes(pen: Pen, { model, view, size }: FrameInput): Box[] {
+  return captionsOf(pen, model).map(({ area, width, height }) => {
+    const { x, y } = toScreen(view, size, { x_m: area.minX, y_m: area.maxY });
+    return { minX: x + 6, minY: y + 1, maxX: x + 6 + width, maxY: y + 1 + height };
+  });
 }
 
 /** Where the arrow of a vehicle's granted way ends. */

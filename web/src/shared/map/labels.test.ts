@@ -115,3 +115,19 @@ it("keeps clear of plates, which have their place already", () => {
   const [label] = placeLabels(one, { bodies: [], soft: [], fixed, frame }, new Map());
   expect(boxesMeet(boxAt(label!.x, label!.y), fixed[0]!)).toBe(false);
 });
+
+it("goes out of the hall, or over a plate, before it covers another label or is cut at the canvas's edge", () => {
+  const hall = { minX: 180, minY: 150, maxX: 320, maxY: 250 };
+  const canvas = { minX: 100, minY: 0, maxX: 500, maxY: 400 };
+  const two = [wish("a", 250, 200, { must: true, rank: 0 }), wish("b", 250, 200, { must: true, rank: 1 })];
+  const boxes = placeLabels(
+    two,
+    { bodies: [], soft: [], frame: hall, canvas, fixed: [canvas] },
+    new Map(),
+  ).map((l) => boxAt(l.x, l.y));
+  expect(boxesMeet(boxes[0]!, boxes[1]!)).toBe(false);
+
+  const edge = [wish("c", 120, 200, { must: true })];
+  const [label] = placeLabels(edge, { bodies: [], soft: [], frame: hall, canvas }, new Map([["c", 3]]));
+  expect(boxAt(label!.x, label!.y).minX).toBeGreaterThan(canvas.minX);
+});

@@ -20,9 +20,12 @@ export interface Obstacles {
   soft: readonly XY[][];
   /** Labels that have their place already: number plates, names of closed floor. */
   fixed?: readonly Box[];
-  /** Heads of the arrows that say where moving vehicles go: covered only by what must be said. */
+  /** Heads of the arrows that say where moving vehicles go, names of zones: covered only by what must be said. */
   heads?: readonly Box[];
+  /** Where labels belong: the hall, as far as it is in view. */
   frame: Box;
+  /** What is drawn on: a label over its edge is cut. */
+  canvas?: Box;
 }
 
 export interface PlacedLabel {
@@ -33,13 +36,22 @@ export interface PlacedLabel {
 }
 
 const kGap = 5;
-export const kSlots = 24;
-const kWeight = { body: 5000, outside: 2000, label: 1000, head: 300, soft: 20, moved: 30 };
+export const kSlots = 40;
+const kWeight = {
+  cut: 9000,
+  body: 5000,
+  label: 3000,
+  outside: 2000,
+  plate: 1000,
+  head: 300,
+  soft: 20,
+  moved: 30,
+};
 
 /** From here on a label stands so far out that a line has to say whose it is. */
 export const kFarSlot = 8;
 
-/** Centre of a label at one of eight places around the thing, then the same eight farther out, twice. */
+/** Centre of a label at one of eight places around the thing, then the same eight farther out, four times. */
 export function slotCentre(wish: LabelWish, slot: number): XY {
   const { around: b, width, height } = wish;
   const far = Math.floor(slot / 8) * 22;
@@ -89,10 +101,12 @@ export function placeLabels(
   const soft = withBounds(obstacles.soft);
   const hits = (items: typeof bodies, box: Box) =>
     items.reduce((n, item) => n + (boxesMeet(item.bounds, box) && ringMeetsBox(item.ring, box) ? 1 : 0), 0);
-  const { frame, fixed = [], heads = [] } = obstacles;
+  const { frame, canvas = frame, fixed = [], heads = [] } = obstacles;
   const meets = (boxes: readonly Box[], box: Box) =>
     boxes.reduce((n, other) => n + (boxesMeet(other, box) ? 1 : 0), 0);
-  const taken: Box[] = [...fixed];
+  const beyond = (limit: Box, box: Box) =>
+    box.minX < limit.minX || box.minY < limit.minY || box.maxX > limit.maxX || box.maxY > limit.maxY;
+  const taken: Box[] = [];
   const placed: PlacedLabel[] = [];
   for (const wish of [...wishes].sort((a, b) => a.rank - b.rank)) {
     let best: { cost: number; slot: number; centre: XY; box: Box } | undefined;
@@ -100,15 +114,16 @@ export function placeLabels(
     for (let slot = 0; slot < kSlots; slot++) {
       const centre = slotCentre(wish, slot);
       const box = boxAt(centre, wish.width, wish.height);
-      const outside =
-        box.minX < frame.minX || box.minY < frame.minY || box.maxX > frame.maxX || box.maxY > frame.maxY;
+      const outside = beyond(frame, box);
       const clashes = meets(taken, box);
+      const plates = meets(fixed, box);
       const covered = hits(bodies, box);
-      if (!wish.must && (outside || clashes > 0 || covered > 0)) continue;
+      if (!wish.must && (outside || clashes + plates + covered > 0)) continue;
       const cost =
         covered * kWeight.body +
-        (outside ? kWeight.outside : 0) +
+        (beyond(canvas, box) ? kWeight.cut : outside ? kWeight.outside : 0) +
         clashes * kWeight.label +
+        plates * kWeight.plate +
         meets(heads, box) * kWeight.head +
         Math.min(10, hits(soft, box)) * kWeight.soft +
         slot -
