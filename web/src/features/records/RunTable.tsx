@@ -4,6 +4,8 @@ import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, heading, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import "./results.css";
+import "./RunTable.css";
 
 const two = { decimals: 2 };
 const dev = { decimals: 2, sign: true };
