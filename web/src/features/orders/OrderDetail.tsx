@@ -15,9 +15,8 @@ export function OrderDetail({ order }: { order: JobOrder }) {
   const { t } = useTranslation(["orders", "words"]);
   const words = useWords();
   const done = doneSteps(order);
-  // Of a cancelled order the reason says what the state says, and by whom.
-  const state = isCancelled(order) ? [] : [t(orderStateKey(order))];
-  const why = order.reason ? [words.reason(order.reason)] : [];
+  const state = t(orderStateKey(order));
+  const why = order.reason && words.reason(order.reason);
   return (
     <Card
       className="odetail"
@@ -30,7 +29,8 @@ export function OrderDetail({ order }: { order: JobOrder }) {
     >
       <p className="ans1" role="status">
         <StatusSymbol name={stateSymbol[order.state]} />
-        <span>{[...state, ...why].join(t("join"))}</span>
+        {/* Of a cancelled order the reason says what the state says, and by whom. */}
+        <span>{why === undefined ? state : isCancelled(order) ? why : t("detail.because", { state, why })}</span>
       </p>
       <div
         className="way"

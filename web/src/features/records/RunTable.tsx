@@ -53,7 +53,7 @@ export function RunTable({
                 s.number
               ) : (
                 <Link
-                  className="cell-link"
+                  className="row-link"
                   to={`/records/${s.id}`}
                   aria-label={t("open", { number: s.number, time: dateTime(s.at, now) })}
                 >
