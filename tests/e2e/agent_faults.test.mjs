@@ -91,7 +91,7 @@ test("marker-lost: a stop without a code is not measured", async () => {
   await client.untilOrder(order.id, (o) => o.state === "Interrupted", "is interrupted");
   await shown("MV-01", 2, {
     en: [/The stop at station 13 could not be measured/, /Look at the codes under its cameras/],
-    zh: [/站位 13 的停站未能测量/, /请查看并清洁相机下方的二维码/],
+    zh: [/13 号站的停站未能测量/, /请查看并清洁相机下方的地面码/],
   });
 });
 

@@ -81,7 +81,7 @@ test("a broken wheel and a stop that was not measured: headline, list, counters,
   await client.untilOrder(order.id, (o) => o.state === "Interrupted", "is interrupted");
   for (const [lang, wheel, todo, stop] of [
     ["en", "Wheel front drive: fault of the steering drive", "Have the wheel looked at before it moves on.", /^The stop at station 13 could not be measured/],
-    ["zh", "前驱动轮：转向驱动故障", "继续行驶前请检修该车轮。", /^站位 13 的停站未能测量/],
+    ["zh", "前驱动轮：转向驱动故障", "继续行驶前请检修该车轮。", /^13 号站的停站未能测量/],
   ]) {
     const page = await signedIn(browser, system, "operator", { lang, path: "/vehicles/TP-02", bypassCSP: true });
     await page.locator(".why .ans1", { hasText: wheel }).waitFor();

@@ -7,6 +7,7 @@ import { CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
 import { actionsOf, pauseProgress } from "./orderLook";
+import "./OrderCommands.css";
 
 /** Pause, cancel, resume; each shown as done only when the server's order says so. */
 export function OrderCommands({ order }: { order: JobOrder }) {

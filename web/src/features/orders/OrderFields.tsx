@@ -1,15 +1,64 @@
 import { Fragment, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
-import type { JobOrder, Step } from "@/shared/api/types";
+import type { JobOrder } from "@/shared/api/types";
+import { useServerNow } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { dateTime } from "@/shared/words/format";
+import { orderStateKey } from "@/shared/words/orderState";
+import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
+import { isOpen } from "./orderLook";
+import { useOrder } from "./useOrders";
 
-/** What only some orders have: when they may start, after which others, on which vehicle, made by what. */
-export function OrderFields({ order, now }: { order: JobOrder; now: number }) {
+type Row = [name: string, value: ReactNode];
+
+/** Whose an order is and its times, then what only some orders have. */
+export function OrderFields({ order }: { order: JobOrder }) {
+  const rows = [...useUsual(order), ...useUnusual(order)];
+  return (
+    <dl>
+      {rows.map(([name, value]) => (
+        <Fragment key={name}>
+          <dt>{name}</dt>
+          <dd>{value}</dd>
+        </Fragment>
+      ))}
+    </dl>
+  );
+}
+
+function useUsual(order: JobOrder): Row[] {
   const { t } = useTranslation("orders");
   const words = useWords();
-  const rows: [string, ReactNode][] = [];
+  const now = useServerNow(60_000);
+  const expected = useExpected();
+  const vehicle = order.vehicle || order.wanted_vehicle;
+  const by = t("detail.by", { actor: words.actor(order.created_by) });
+  return [
+    [
+      t("detail.vehicle"),
+      vehicle ? (
+        <Link className="inline" to={`/vehicles/${encodeURIComponent(vehicle)}`}>
+          {words.vehicle(vehicle)}
+        </Link>
+      ) : (
+        t("any_vehicle")
+      ),
+    ],
+    [t("detail.created"), dateTime(order.created_at, now) + t("join") + by],
+    [t("detail.started"), dateTime(order.started_at, now)],
+    [t("detail.expected"), (isOpen(order) && expected.clock(order.expected_at)) || "\u2013"],
+    [t("detail.ended"), dateTime(order.ended_at, now)],
+    [t("detail.priority"), order.priority],
+  ];
+}
+
+/** When an order may start, after which others, on which vehicle, made by what. */
+function useUnusual(order: JobOrder): Row[] {
+  const { t } = useTranslation("orders");
+  const words = useWords();
+  const now = useServerNow(60_000);
+  const rows: Row[] = [];
   if (order.vehicle_type) rows.push([t("detail.vehicle_type"), order.vehicle_type]);
   if (order.earliest_start) rows.push([t("detail.earliest"), dateTime(order.earliest_start, now)]);
   if (order.due) rows.push([t("detail.due"), dateTime(order.due, now)]);
@@ -21,37 +70,28 @@ export function OrderFields({ order, now }: { order: JobOrder; now: number }) {
   }
   if (order.template) rows.push([t("detail.template"), order.template]);
   if (order.schedule) rows.push([t("detail.schedule"), t("detail.yes")]);
-  return rows.map(([name, value]) => (
-    <Fragment key={name}>
-      <dt>{name}</dt>
-      <dd>{value}</dd>
-    </Fragment>
-  ));
+  if (order.client_order_id) rows.push([t("detail.client_id"), order.client_order_id]);
+  return rows;
 }
 
-function Dependencies({ after }: { after: NonNullable<JobOrder["after"]> }) {
-  const { t } = useTranslation(["orders", "words"]);
+type Dependency = NonNullable<JobOrder["after"]>[number];
+
+function Dependencies({ after }: { after: readonly Dependency[] }) {
+  const { t } = useTranslation("orders");
   return after.map((one, i) => (
     <Fragment key={one.order}>
       {i > 0 && t("join")}
       <Link className="inline" to={`/orders/${one.order}`}>
         {one.name}
       </Link>
-      {one.outcome && ` (${t(`words:job.${one.outcome}`)})`}
+      {one.outcome && <Outcome of={one.order} state={one.outcome} />}
     </Fragment>
   ));
 }
 
-/** The actions around a step, in the order in which they are done. */
-export function StepActions({ step }: { step: Step }) {
-  const { t } = useTranslation("orders");
-  const names = (actions: Step["before"]) => actions?.map((a) => a.type).join(t("join"));
-  return (
-    <>
-      {step.before && (
-        <div className="cap">{t("detail.actions_before", { actions: names(step.before) })}</div>
-      )}
-      {step.after && <div className="cap">{t("detail.actions_after", { actions: names(step.after) })}</div>}
-    </>
-  );
+/** How the order ended; only itself knows whether a person cancelled it. */
+function Outcome({ of, state }: { of: string; state: JobOrder["state"] }) {
+  const { t } = useTranslation("words");
+  const { order } = useOrder(of);
+  return ` (${t(orderStateKey(order ?? { state }))})`;
 }

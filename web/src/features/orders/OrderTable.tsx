@@ -1,12 +1,14 @@
 import { useTranslation } from "react-i18next";
 import type { JobOrder } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
-import { Link, navigate } from "@/shared/router";
+import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime, duration } from "@/shared/words/format";
+import { orderStateKey } from "@/shared/words/orderState";
 import { useExpected } from "@/shared/words/useExpected";
 import { useWords } from "@/shared/words/useWords";
 import { isOpen, stateSymbol, tookS } from "./orderLook";
+import "./OrderTable.css";
 
 export function OrderTable({
   orders,
@@ -18,7 +20,7 @@ export function OrderTable({
   const { t } = useTranslation("orders");
   const now = useServerNow(60_000);
   return (
-    <table className="rows">
+    <table className="rows orows">
       <thead>
         <tr>
           <th>{t("col.name")}</th>
@@ -45,28 +47,19 @@ function Row({ order, selected, now }: { order: JobOrder; selected: boolean; now
   const { t } = useTranslation(["orders", "words"]);
   const words = useWords();
   const expected = useExpected();
-  const to = `/orders/${order.id}`;
   const took = tookS(order);
   const vehicle = order.vehicle || order.wanted_vehicle;
   return (
-    <tr
-      className={`go ${selected ? "on" : ""} ${isOpen(order) ? "" : "closed"}`}
-      onClick={() => navigate(to)}
-    >
+    <tr className={`${selected ? "on" : ""} ${isOpen(order) ? "" : "closed"}`}>
       <td className="b">
-        <Link
-          className="cell-link"
-          to={to}
-          aria-current={selected || undefined}
-          onClick={(event) => event.stopPropagation()}
-        >
+        <Link className="row-link" to={`/orders/${order.id}`} aria-current={selected || undefined}>
           {order.name}
         </Link>
       </td>
       <td>
         <span className="row">
           <StatusSymbol name={stateSymbol[order.state]} />
-          {t(`words:job.${order.state}`)}
+          {t(orderStateKey(order))}
         </span>
       </td>
       <td>

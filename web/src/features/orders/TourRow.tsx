@@ -4,6 +4,7 @@ import { Icon } from "@/shared/ui";
 import { duration } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { chosenOf, type TourEvent, type TourFault, type TourStep } from "./tour";
+import "./TourRow.css";
 
 export interface TourRowProps {
   step: TourStep;

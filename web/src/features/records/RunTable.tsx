@@ -4,6 +4,8 @@ import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, heading, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import "./results.css";
+import "./RunTable.css";
 
 const two = { decimals: 2 };
 const dev = { decimals: 2, sign: true };
@@ -51,7 +53,7 @@ export function RunTable({
                 s.number
               ) : (
                 <Link
-                  className="cell-link"
+                  className="row-link"
                   to={`/records/${s.id}`}
                   aria-label={t("open", { number: s.number, time: dateTime(s.at, now) })}
                 >

@@ -1,6 +1,5 @@
 import { RecordListPage } from "./RecordListPage";
 import { RecordPage } from "./RecordPage";
-import "./records.css";
 
 export default function RecordsPage({ id }: { id?: string }) {
   return id === undefined ? <RecordListPage /> : <RecordPage key={id} id={id} />;

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import type { StopRecord } from "@/shared/api/types";
-import { countedStops, ellipse95, series, upTo, widerThanTolerance } from "./statistics";
-import { headingFactor, niceStep, plotScale, rayLength, toleranceLabelSide } from "./targetScale";
-import { drawnLimits, limitDecimals, trendReach, unbroken } from "./trendScale";
+import { countedStops, ellipse95, series, upTo, widerThanTolerance, type Series } from "./statistics";
+import { headingFactor, niceStep, toleranceScale, rayLength, toleranceLabelSide } from "./targetScale";
+import { limitDecimals, limitsWithin, trendReach, unbroken } from "./trendScale";
 import { matches, mergeStops, wantsOlder } from "./stopLists";
 
 const tolerance = { shape: "box" as const, dx_m: 0.025, dy_m: 0.025, dheading_rad: (0.2 * Math.PI) / 180 };
@@ -71,9 +71,9 @@ describe("trend", () => {
 
 describe("target plot", () => {
   it("gives the tolerance 5/6 of the plot", () =>
-    expect(plotScale(stop("a", "1"))).toEqual({ half: 30, step: 10 }));
+    expect(toleranceScale(stop("a", "1"))).toEqual({ half: 30, step: 10 }));
   it("widens for a stop far outside", () =>
-    expect(plotScale(stop("a", "1", { dx_m: 0.05 })).half).toBeCloseTo(60));
+    expect(toleranceScale(stop("a", "1", { dx_m: 0.05 })).half).toBeCloseTo(60));
   it("draws the heading a hundred times larger when the wedge allows", () => {
     expect(headingFactor(stop("a", "1"))).toBe(100);
     expect(headingFactor(stop("a", "1", { tolerance: { ...tolerance, dheading_rad: 0.02 } }))).toBe(10);
@@ -115,10 +115,12 @@ describe("trend scale", () => {
     expect(trendReach(flat(0.1), 1)).toBe(1.12);
   });
   it("shows the control limits, but not so far out that the row goes flat", () => {
-    expect(drawnLimits(wild, 30)).toHaveLength(2);
+    const drawn = (data: Series, limit: number) => limitsWithin(data, limit * trendReach(data, limit));
+
+    expect(drawn(wild, 30)).toHaveLength(2);
     expect(trendReach(wild, 10)).toBe(3);
-    expect(drawnLimits(wild, 10)).toEqual([]);
-    expect(drawnLimits(series([1, 2], all(2)), 10)).toEqual([]);
+    expect(drawn(wild, 10)).toEqual([]);
+    expect(drawn(series([1, 2], all(2)), 10)).toEqual([]);
   });
   it.each([
     [25, 0],

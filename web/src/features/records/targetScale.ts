@@ -1,7 +1,28 @@
 import type { StopRecord } from "@/shared/api/types";
+import type { Ellipse } from "./statistics";
 
-/** Half the width of the plot in mm and its grid step: the tolerance fills 5/6, a far stop widens it. */
-export function plotScale(stop: StopRecord): { half: number; step: number } {
+/** Half the width of a plot in mm, and its grid step. */
+export interface PlotScale {
+  half: number;
+  step: number;
+}
+
+/** The plot with what stands around it is this much wider than the plot itself. */
+export const kMargin = 1.133;
+
+/** Values at which the grid has a line. */
+export function ticksOf({ half, step }: PlotScale): number[] {
+  const count = Math.floor(half / step + 1e-9);
+  return Array.from({ length: 2 * count + 1 }, (_, i) => Math.round((i - count) * step * 1000) / 1000);
+}
+
+/** A close-up: grid lines at about halves of it. */
+export function closeScale(half: number): PlotScale {
+  return { half, step: niceStep(half / 2) };
+}
+
+/** The whole tolerance: it fills 5/6 of the plot, a stop farther out widens it. */
+export function toleranceScale(stop: StopRecord): PlotScale {
   const tolerance = Math.max(stop.tolerance.dx_m, stop.tolerance.dy_m) * 1000;
   const own = Math.max(Math.abs(stop.dx_m), Math.abs(stop.dy_m)) * 1000;
   const base = tolerance * 1.2;
@@ -41,4 +62,25 @@ export function toleranceLabelSide(at: { x: number; y: number }, half: number): 
 /** The label stands on the side of the stop that has more room. */
 export function labelSide(x: number, half: number): 1 | -1 {
   return x > half * 0.25 ? -1 : x < -half * 0.6 ? 1 : x < 0 ? -1 : 1;
+}
+
+/** A spread this small against the plot is hidden under its own label. */
+const kLeastSpread = 0.15;
+
+/** Where "95 %" stands: at the corner of the ellipse farthest from the stop's label, and inside the plot; nowhere when too small. */
+export function ellipseLabel(
+  ellipse: Ellipse,
+  label: { x: number; y: number },
+  half: number,
+): { x: number; y: number } | undefined {
+  if (Math.max(ellipse.rx, ellipse.ry) < half * kLeastSpread) return undefined;
+  const within = (v: number) => Math.max(-half * 0.9, Math.min(half * 0.9, v));
+  const corners = [1, -1].flatMap((right) =>
+    [1, -1].map((up) => ({
+      x: within(ellipse.cx + right * ellipse.rx * 0.75),
+      y: within(ellipse.cy + up * ellipse.ry * 0.85),
+    })),
+  );
+  const far = (p: { x: number; y: number }) => Math.hypot(p.x - label.x, p.y - label.y);
+  return corners.reduce((a, b) => (far(b) > far(a) ? b : a));
 }

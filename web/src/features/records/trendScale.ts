@@ -1,3 +1,4 @@
+import { closeUpHalf } from "./closeUp";
 import type { Series } from "./statistics";
 
 /** Control limits further out than this many tolerances are not drawn: they would flatten the row. */
@@ -10,10 +11,17 @@ export function trendReach(data: Series, limit: number): number {
   return Math.max(1.12, kept, Math.min(kWidestReach, control));
 }
 
-/** Control limits that lie inside the row. */
-export function drawnLimits(data: Series, limit: number): number[] {
-  const reach = trendReach(data, limit);
-  return data.hasLimits ? [data.upper, data.lower].filter((v) => Math.abs(v) <= limit * reach) : [];
+/** Half the height of a row's close-up: it holds all that counts, and the control limits where it stays closer than the tolerance. */
+export function rowCloseUp(data: Series, limit: number, halves: readonly number[]): number | undefined {
+  const control = data.hasLimits ? Math.max(data.upper, -data.lower) : 0;
+  return (
+    closeUpHalf(Math.max(data.largest, control), limit, halves) ?? closeUpHalf(data.largest, limit, halves)
+  );
+}
+
+/** Control limits that lie inside a row of this half height. */
+export function limitsWithin(data: Series, top: number): number[] {
+  return data.hasLimits ? [data.upper, data.lower].filter((v) => Math.abs(v) <= top) : [];
 }
 
 /** Runs of neighbouring stops that are in scale: the line breaks at the others. */

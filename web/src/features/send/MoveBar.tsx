@@ -2,6 +2,7 @@ import { useTranslation } from "react-i18next";
 import type { JobOrder, Vehicle } from "@/shared/api/types";
 import { CancelOrder, PauseVehicle } from "@/shared/commands";
 import { Button } from "@/shared/ui";
+import { orderStateKey } from "@/shared/words/orderState";
 import type { MoveProgress } from "./progress";
 import "./CommandBar.css";
 import { useWords } from "@/shared/words/useWords";
@@ -24,7 +25,7 @@ export function MoveBar({ order, vehicle, progress, onNext }: MoveBarProps) {
         <strong>{order?.name ?? ""}</strong>
         <span className="lab">
           {order
-            ? t("move.state", { state: t(`words:job.${order.state}`), by: words.actor(order.created_by) })
+            ? t("move.state", { state: t(orderStateKey(order)), by: words.actor(order.created_by) })
             : ""}
         </span>
       </div>

@@ -25,12 +25,31 @@ const withoutPlural = (keys: Iterable<string>) =>
   new Set([...keys].map((k) => k.replace(/_(one|other)$/, "")));
 const holes = (text: string) => new Set([...text.matchAll(/\{\{\s*(\w+)/g)].map((m) => m[1]));
 
+/** Keys that stand twice in one object: reading takes the later one without a word. */
+function twice(json: string): string[] {
+  const found: string[] = [];
+  const open: Set<string>[] = [];
+  for (const [token, key] of json.matchAll(/"((?:[^"\\]|\\.)*)"\s*:|"(?:[^"\\]|\\.)*"|[{}]/g)) {
+    if (token === "{") open.push(new Set());
+    else if (token === "}") open.pop();
+    else if (key !== undefined) {
+      if (open.at(-1)?.has(key)) found.push(key);
+      open.at(-1)?.add(key);
+    }
+  }
+  return found;
+}
+
 const files = catalogFiles(src);
 
 describe.each(files)("%s", (file) => {
   const en = read(file);
   const zh = read(file.replace(".en.json", ".zh.json"));
 
+  it("has no key twice", () => {
+    for (const name of [file, file.replace(".en.json", ".zh.json")])
+      expect([name, twice(readFileSync(name, "utf8"))]).toEqual([name, []]);
+  });
   it("has the same keys in both languages", () => {
     expect([...withoutPlural(zh.keys())].sort()).toEqual([...withoutPlural(en.keys())].sort());
   });

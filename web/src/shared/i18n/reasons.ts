@@ -67,6 +67,10 @@ function shown(params: Params, t: Translate): Record<string, string> {
       continue;
     }
     const prefix = kCodes[name];
+    if (name === "state" && value === "Aborted") {
+      values[name] = t("words:job.given_up"); // a refusal does not tell which of the two it was
+      continue;
+    }
     const named =
       prefix === undefined || typeof value !== "string"
         ? undefined

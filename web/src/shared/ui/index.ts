@@ -23,6 +23,7 @@ export {
   type SymbolName,
 } from "./Icon";
 export { PanelEmpty, PanelFailed, PanelLoading } from "./Panel";
+export { SearchField } from "./SearchField";
 export { Tabs, type TabItem } from "./Tabs";
 export { freshness, kLateS, kLostS, Value, type Freshness } from "./Value";
 export { NumberPad } from "./NumberPad";
