@@ -95,6 +95,24 @@ std::optional<fleet::StopRecord> History::stop(fleet::StopRecordId id) {
     });
 }
 
+std::vector<fleet::Event> History::unmeasured_stops(const fleet::UnmeasuredQuery& query) {
+    return reading(connection_.path(), [&] {
+        Select select(connection_.sql());
+        select.where("type = 'stop.not_measured'", {});  // in these words the index has it
+        if (!query.vehicle.empty()) select.where("vehicle = ?", {query.vehicle.str()});
+        if (query.station_number) {
+            select.where_number("json_extract(params, '$.station') = ?", *query.station_number);
+        }
+        if (!query.order.empty()) select.where("order_id = ?", {query.order.str()});
+        if (query.before) select.where_number("seq < ?", *query.before);
+        EventRow row;
+        std::vector<fleet::Event> result;
+        select.each(row, "events", "seq DESC", std::max(0, query.limit),
+                    [&] { result.push_back(row.get()); });
+        return result;
+    });
+}
+
 std::vector<fleet::JobOrder> History::orders(const fleet::OrderQuery& query) {
     return reading(connection_.path(), [&] {
         Select select(connection_.sql());

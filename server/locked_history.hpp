@@ -19,6 +19,10 @@ public:
         const std::lock_guard lock(mutex_);
         return history_.stop(id);
     }
+    std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery& query) override {
+        const std::lock_guard lock(mutex_);
+        return history_.unmeasured_stops(query);
+    }
     std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override {
         const std::lock_guard lock(mutex_);
         return history_.orders(query);

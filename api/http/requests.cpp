@@ -1,6 +1,7 @@
 #include "api/http/requests.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "api/access/secrets.hpp"
 #include "api/http/base64.hpp"
@@ -78,15 +79,17 @@ Result<int> read_limit(const Request& request) {
     return static_cast<int>(*limit);
 }
 
+tl::unexpected<Error> bad_cursor() {
+    return fail(Errc::kInvalid, "bad_cursor",
+                "Take the cursor unchanged from next_cursor of an earlier page.", "?cursor");
+}
+
 template <class AnyId>
 Result<AnyId> read_cursor(const Request& request) {
     const auto text = request.query_value("cursor");
     if (!text) return AnyId{};
     const auto uuid = uuid_of_cursor(*text);
-    if (!uuid) {
-        return fail(Errc::kInvalid, "bad_cursor",
-                    "Take the cursor unchanged from next_cursor of an earlier page.", "?cursor");
-    }
+    if (!uuid) return bad_cursor();
     return AnyId(*uuid);
 }
 
@@ -125,6 +128,32 @@ Status read_asker(const Request& request, const std::string& digested, Asked& to
     to.idempotency_client = request.identity.name;
     to.idempotency_key = *key;
     to.body_sha256 = access::sha256_hex(digested);
+    return {};
+}
+
+/// Which stops a page is of, measured or not, and how many.
+template <class Query>
+Status read_which_stops(const Request& request, Query& query) {
+    query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));
+    if (const auto text = request.query_value("station")) {
+        const auto number = parse_integer(*text, 0, kMaxStation);
+        if (!number) {
+            return fail(Errc::kInvalid, "wrong_type", "The station is a number.", "?station",
+                        {{"expected", std::string("integer")}});
+        }
+        query.station_number = static_cast<int>(*number);
+    }
+    if (const auto text = request.query_value("order")) {
+        const auto id = fleet::JobOrderId::parse(*text);
+        if (!id) {
+            return fail(Errc::kInvalid, "wrong_type", "The order is the id of a job order.",
+                        "?order", {{"expected", std::string("uuid")}});
+        }
+        query.order = *id;
+    }
+    const auto limit = read_limit(request);
+    if (!limit) return fail(limit.error());
+    query.limit = *limit;
     return {};
 }
 
@@ -323,29 +352,20 @@ Result<SheetsRequest> read_sheets(const Request& request) {
 
 Result<fleet::StopQuery> read_stop_query(const Request& request) {
     fleet::StopQuery query;
-    query.vehicle = plant::VehicleId(request.query_value("vehicle").value_or(""));
-    if (const auto text = request.query_value("station")) {
-        const auto number = parse_integer(*text, 0, kMaxStation);
-        if (!number) {
-            return fail(Errc::kInvalid, "wrong_type", "The station is a number.", "?station",
-                        {{"expected", std::string("integer")}});
-        }
-        query.station_number = static_cast<int>(*number);
-    }
-    if (const auto text = request.query_value("order")) {
-        const auto id = fleet::JobOrderId::parse(*text);
-        if (!id) {
-            return fail(Errc::kInvalid, "wrong_type", "The order is the id of a job order.",
-                        "?order", {{"expected", std::string("uuid")}});
-        }
-        query.order = *id;
-    }
-    const auto limit = read_limit(request);
-    if (!limit) return fail(limit.error());
-    query.limit = *limit;
+    if (const Status ok = read_which_stops(request, query); !ok) return fail(ok.error());
     const auto before = read_cursor<fleet::StopRecordId>(request);
     if (!before) return fail(before.error());
     query.before = *before;
+    return query;
+}
+
+Result<fleet::UnmeasuredQuery> read_unmeasured_query(const Request& request) {
+    fleet::UnmeasuredQuery query;
+    if (const Status ok = read_which_stops(request, query); !ok) return fail(ok.error());
+    if (const auto text = request.query_value("cursor")) {
+        query.before = parse_integer(*text, 0, std::numeric_limits<std::int64_t>::max());
+        if (!query.before) return bad_cursor();
+    }
     return query;
 }
 

@@ -56,6 +56,7 @@ Result<SheetsRequest> read_sheets(const Request& request);
 Result<bool> read_dry_run(const Request& request);
 Result<fleet::OrderQuery> read_order_query(const Request& request);
 Result<fleet::StopQuery> read_stop_query(const Request& request);
+Result<fleet::UnmeasuredQuery> read_unmeasured_query(const Request& request);
 /// Sequence number behind which an event stream starts; nothing: with the next event.
 Result<std::optional<std::int64_t>> read_event_start(const Request& request);
 

@@ -160,6 +160,12 @@ std::span<const Route> routes() {
          kViewer,
          {"vehicle", "station", "order", "limit", "cursor"},
          list_stop_records},
+        {"GET",
+         "/api/v1/unmeasured-stops",
+         "listUnmeasuredStops",
+         kViewer,
+         {"vehicle", "station", "order", "limit", "cursor"},
+         list_unmeasured_stops},
         {"GET", "/api/v1/stop-records/{id}", "getStopRecord", kViewer, {}, get_stop_record},
 
         {"GET", "/api/v1/events", "streamEvents", kViewer, {"after"}, Socket::kEventStream},

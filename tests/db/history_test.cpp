@@ -117,6 +117,37 @@ TEST_F(HistoryTest, EventsComeInOrderFromBehindTheGivenOne) {
     EXPECT_TRUE(history_.events_after(20, 10).empty());
 }
 
+TEST_F(HistoryTest, UnmeasuredStopsAreFilteredNewestFirst) {
+    fleet::Records records;
+    for (int i = 1; i <= 12; ++i) {
+        fleet::Event event = samples_.event(i, i);
+        event.type = i % 2 == 0 ? "stop.not_measured" : "stop.measured";
+        event.vehicle = plant::VehicleId(i <= 6 ? "TP-01" : "TP-02");
+        event.params = {{"station", std::int64_t{i % 4}}, {"why", std::string("dark")}};
+        records.events.push_back(event);
+    }
+    store_.commit(records);
+    const auto seqs = [&](const fleet::UnmeasuredQuery& query) {
+        std::vector<std::int64_t> found;
+        for (const auto& event : history_.unmeasured_stops(query)) found.push_back(event.seq);
+        return found;
+    };
+    fleet::UnmeasuredQuery all;
+    fleet::UnmeasuredQuery of_vehicle;
+    of_vehicle.vehicle = plant::VehicleId("TP-01");
+    fleet::UnmeasuredQuery at_station;
+    at_station.station_number = 2;
+    fleet::UnmeasuredQuery older;
+    older.before = 8;
+    older.limit = 2;
+
+    EXPECT_EQ(seqs(all), (std::vector<std::int64_t>{12, 10, 8, 6, 4, 2}));
+    EXPECT_EQ(seqs(of_vehicle), (std::vector<std::int64_t>{6, 4, 2}));
+    EXPECT_EQ(seqs(at_station), (std::vector<std::int64_t>{10, 6, 2}));
+    EXPECT_EQ(seqs(older), (std::vector<std::int64_t>{6, 4}));
+    EXPECT_EQ(history_.unmeasured_stops(all)[0].params, records.events[11].params);
+}
+
 TEST_F(HistoryTest, StatisticsTakeTheNewestOfTheMode) {
     for (int i = 0; i < 5; ++i) {
         fleet::StopRecord stop = samples_.stop(1, i);

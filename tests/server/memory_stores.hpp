@@ -116,6 +116,9 @@ public:
         const auto found = orders_.find(id);
         return found == orders_.end() ? std::nullopt : std::optional(found->second);
     }
+    std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery&) override {
+        return {};
+    }
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override {
         const std::lock_guard lock(mutex_);
         std::vector<fleet::Event> page;

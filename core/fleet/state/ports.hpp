@@ -107,6 +107,14 @@ struct StopQuery {
     StopRecordId before;  // page on: only records older than this one; empty: from the newest
 };
 
+/// Stops that were not measured; what is known of them is an event.
+struct UnmeasuredQuery {
+    plant::VehicleId vehicle;  // empty: any
+    std::optional<int> station_number;
+    JobOrderId order;  // empty: any
+    int limit = 50;
+    std::optional<std::int64_t> before;  // page on: only events of a lower number
+};
 struct OrderQuery {
     std::vector<JobState> states;  // empty: all
     plant::VehicleId vehicle;
@@ -130,6 +138,8 @@ public:
     virtual ~History() = default;
     virtual std::vector<StopRecord> stops(const StopQuery& query) = 0;  // newest first
     virtual std::optional<StopRecord> stop(StopRecordId id) = 0;
+    /// The events stop.not_measured, newest first, as long as events are kept.
+    virtual std::vector<Event> unmeasured_stops(const UnmeasuredQuery& query) = 0;
     virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;  // newest first
     virtual std::optional<JobOrder> order(JobOrderId id) = 0;
     virtual std::vector<Event> events_after(std::int64_t seq, int limit) = 0;

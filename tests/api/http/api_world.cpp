@@ -89,6 +89,16 @@ std::optional<fleet::JobOrder> WorldHistory::order(fleet::JobOrderId id) {
     return it == store_.orders.end() ? std::nullopt : std::optional(it->second);
 }
 
+std::vector<fleet::Event> WorldHistory::unmeasured_stops(const fleet::UnmeasuredQuery& query) {
+    std::vector<fleet::Event> events;
+    for (auto it = store_.events.rbegin(); it != store_.events.rend(); ++it) {
+        if (it->type != "stop.not_measured" || (query.before && it->seq >= *query.before)) continue;
+        if (!query.vehicle.empty() && it->vehicle != query.vehicle) continue;
+        if (events.size() < static_cast<std::size_t>(query.limit)) events.push_back(*it);
+    }
+    return events;
+}
+
 std::vector<fleet::Event> WorldHistory::events_after(std::int64_t seq, int limit) {
     std::vector<fleet::Event> events;
     for (const auto& event : store_.events) {

@@ -237,6 +237,9 @@ TEST(BadInput, QueriesNameTheParameterAtFault) {
         {"/api/v1/stop-records?order=7", "?order"},
         {"/api/v1/stop-records?limit=x", "?limit"},
         {"/api/v1/stop-records?cursor=AAAA", "?cursor"},
+        {"/api/v1/unmeasured-stops?station=two", "?station"},
+        {"/api/v1/unmeasured-stops?limit=0", "?limit"},
+        {"/api/v1/unmeasured-stops?cursor=-1", "?cursor"},
     };
     for (const auto& [target, field] : table) {
         const Answer answer = api.get(target);

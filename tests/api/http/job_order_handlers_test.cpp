@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/api/http/api_world.hpp"
@@ -307,6 +308,33 @@ TEST(StopRecords, MeasuredStopIsListedFilteredAndFound) {
     EXPECT_EQ(api.get("/api/v1/stop-records/" + stop["id"].get<std::string>()).json(), stop);
     EXPECT_EQ(api.get("/api/v1/stop-records?station=3").json()["items"].size(), 0U);
     EXPECT_EQ(api.get("/api/v1/stations/2").json()["ready"], true);
+}
+
+TEST(StopRecords, AStopThatWasNotMeasuredIsListedAndPagedOn) {
+    ApiWorld api;
+    api.world.vehicle("V1").measure_fails = "no_marker_in_view";
+    const Answer order = api.post(kOrders, kToTwo);
+    api.world.run(120);
+    const std::string list = "/api/v1/unmeasured-stops";
+
+    const Json found = api.get(list + "?vehicle=V1&station=2").json()["items"];
+    ASSERT_GE(found.size(), 1U);
+    EXPECT_EQ(found[0]["type"], "stop.not_measured");
+    EXPECT_EQ(found[0]["order"], order.json()["id"]);
+    EXPECT_EQ(found[0]["params"]["station"], 2);
+    EXPECT_EQ(api.get(list + "?vehicle=V2").json()["items"].size(), 0U);
+
+    std::vector<std::int64_t> paged;
+    std::string cursor;
+    for (std::size_t page = 0; page < found.size(); ++page) {
+        const Json one = api.get(list + "?limit=1" + cursor).json();
+        paged.push_back(one["items"].at(0)["seq"]);
+        ASSERT_EQ(one.contains("next_cursor"), page + 1 < found.size());
+        if (one.contains("next_cursor"))
+            cursor = "&cursor=" + one["next_cursor"].get<std::string>();
+    }
+    EXPECT_TRUE(std::is_sorted(paged.rbegin(), paged.rend()));
+    EXPECT_EQ(std::set<std::int64_t>(paged.begin(), paged.end()).size(), found.size());
 }
 
 }  // namespace
