@@ -12,7 +12,7 @@ let system, client, browser, stops, cancelled;
 
 before(async () => {
   system = await System.create("final-assembly");
-  system.prepareVehicles(["TP-01"]);
+  system.prepareVehicles(["TP-01", "MV-01"]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
   system.startAgent("TP-01", { seed: 61, timeFactor: 6, sensing: "analytic" });
@@ -114,6 +114,42 @@ test("stops of less than a millimetre are shown close up, with words and a pictu
     await trend.getByRole("button", { name: tolerance }).click();
     await row.locator(".ttol").waitFor({ state: "attached" });
     await picture(page, `record-trend-${width}-${theme}-${lang}`);
+    assert.deepEqual(page.errors, []);
+    await page.context().close();
+  }
+});
+
+test("a stop that was not measured comes into the list of records, with its reason, and can be asked for alone", async () => {
+  const pages = [];
+  for (const [width, height, lang, theme] of SIZES) {
+    const page = await signedIn(browser, system, "operator", { width, height, lang, theme, bypassCSP: true });
+    await page.goto(`${system.url}/records`);
+    await page.locator(".rows tr", { has: page.locator(`a[href="/records/${stops.at(-1).id}"]`) }).waitFor();
+    pages.push([page, lang, `${width}-${theme}-${lang}`]);
+  }
+  system.startAgent("MV-01", { seed: 61, timeFactor: 6, extra: ["--fault", "marker-lost@1"] });
+  await client.untilReady("MV-01");
+  const order = await client.order("MV-01", [13]);
+  await client.untilOrder(order.id, (o) => o.state === "Interrupted", "is interrupted");
+  const { items } = await client.get("/api/v1/unmeasured-stops?vehicle=MV-01&station=13");
+  assert.ok(items.length > 0 && items.every((event) => event.order === order.id));
+  for (const [page, lang, name] of pages) {
+    const [words, reason, count] = lang === "en"
+      ? ["Not measured", /The stop at station 13 could not be measured: /, `${items.length} not measured`]
+      : ["未测量", /13 号站的停站未能测量：/, `${items.length} 次未测量`];
+    const rows = page.locator(".rows tr", { has: page.locator(`a[href="/orders/${order.id}"]`) });
+    await rows.first().waitFor({ timeout: 10_000 }); // nobody has loaded the page again
+    assert.equal(await rows.count(), items.length);
+    assert.match(await rows.first().innerText(), reason);
+    await rows.first().getByText(words, { exact: true }).waitFor();
+    await page.getByText(count).first().waitFor();
+    await picture(page, `records-unmeasured-${name}`);
+    await page.getByLabel(lang === "en" ? "Result" : "结果").selectOption("unmeasured");
+    await page.locator(`a[href="/records/${stops.at(-1).id}"]`).waitFor({ state: "detached" });
+    assert.equal(await rows.count(), items.length);
+    assert.deepEqual(await faultsOf(page), []);
+    await rows.first().click();
+    await page.waitForURL(`**/orders/${order.id}`);
     assert.deepEqual(page.errors, []);
     await page.context().close();
   }

@@ -1,16 +1,18 @@
 import { useTranslation } from "react-i18next";
 import { usePlant } from "@/shared/live";
-import type { StopFilter } from "./stopLists";
+import { kResults, type StopFilter } from "./stopLists";
 import "./RecordFilters.css";
 
-/** Which stops are listed: of a vehicle, at a station. */
+export type FilterName = "vehicle" | "station" | "result";
+
+/** Which stops are listed: of a vehicle, at a station, that came out in some way. */
 export function RecordFilters({
   filter,
   onFilter,
 }: {
-  filter: StopFilter;
+  filter: StopFilter & { result: (typeof kResults)[number] | undefined };
   /** An empty value is no filter. */
-  onFilter: (name: "vehicle" | "station", value: string) => void;
+  onFilter: (name: FilterName, value: string) => void;
 }) {
   const { t } = useTranslation("records");
   const plant = usePlant().data;
@@ -35,6 +37,17 @@ export function RecordFilters({
           {stations.map((s) => (
             <option key={s.id} value={s.number}>
               {s.number}, {s.name}
+            </option>
+          ))}
+        </select>
+      </label>
+      <label className="field">
+        <span className="cap">{t("col.result")}</span>
+        <select value={filter.result ?? ""} onChange={(event) => onFilter("result", event.target.value)}>
+          <option value="">{t("filter.all_results")}</option>
+          {kResults.map((result) => (
+            <option key={result} value={result}>
+              {t(result)}
             </option>
           ))}
         </select>

@@ -1,15 +1,16 @@
 import { useTranslation } from "react-i18next";
-import type { StopRecord } from "@/shared/api/types";
+import type { FleetEvent, StopRecord } from "@/shared/api/types";
 import { useServerNow } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { distance_m } from "./statistics";
+import type { ListedStop } from "./stopLists";
 import "./results.css";
 
-/** Stops, newest first; each row is the link to its record. */
-export function RecordTable({ stops }: { stops: readonly StopRecord[] }) {
+/** Stops, newest first; each row is the link to its record, or to the order of one that was not measured. */
+export function RecordTable({ stops }: { stops: readonly ListedStop[] }) {
   const { t } = useTranslation("records");
   const now = useServerNow(60_000);
   return (
@@ -29,9 +30,17 @@ export function RecordTable({ stops }: { stops: readonly StopRecord[] }) {
         </tr>
       </thead>
       <tbody>
-        {stops.map((stop) => (
-          <Row key={stop.id} stop={stop} time={dateTime(stop.at, now)} />
-        ))}
+        {stops.map((stop) =>
+          "record" in stop ? (
+            <Row key={stop.record.id} stop={stop.record} time={dateTime(stop.at, now)} />
+          ) : (
+            <UnmeasuredRow
+              key={stop.unmeasured.seq}
+              event={stop.unmeasured}
+              time={dateTime(stop.at, now)}
+            />
+          ),
+        )}
       </tbody>
     </table>
   );
@@ -76,6 +85,42 @@ function Row({ stop: s, time }: { stop: StopRecord; time: string }) {
       <td className="res">
         <StatusSymbol name={s.inside ? "c-ok" : "a-2"} />
         <span>{t(s.inside ? "inside" : "outside")}</span>
+      </td>
+    </tr>
+  );
+}
+
+/** In place of figures the reason, which is all that is known. */
+function UnmeasuredRow({ event, time }: { event: FleetEvent; time: string }) {
+  const { t } = useTranslation("records");
+  const words = useWords();
+  const vehicle = words.vehicle(event.vehicle ?? "");
+  const { station, attempt } = event.params;
+  const number = String(station);
+  return (
+    <tr>
+      <td>
+        <Link
+          className="row-link"
+          to={`/orders/${event.order ?? ""}`}
+          aria-label={t("row_unmeasured", { time, vehicle, number })}
+        >
+          {time}
+        </Link>
+      </td>
+      <td className="b">{vehicle}</td>
+      <td className="b" data-label={t("col.station")}>
+        {number}
+      </td>
+      <td className="wrap" colSpan={5}>
+        {words.reason({ code: "stop_not_measured", params: event.params })}
+      </td>
+      <td className="n" data-label={t("col.attempt")}>
+        {String(attempt)}
+      </td>
+      <td className="res">
+        <StatusSymbol name="a-2" />
+        <span>{t("unmeasured")}</span>
       </td>
     </tr>
   );

@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
-import type { StopRecord } from "@/shared/api/types";
+import type { FleetEvent, StopRecord } from "@/shared/api/types";
 import { countedStops, ellipse95, series, upTo, widerThanTolerance, type Series } from "./statistics";
 import { headingFactor, niceStep, toleranceScale, rayLength, toleranceLabelSide } from "./targetScale";
 import { limitDecimals, limitsWithin, trendReach, unbroken } from "./trendScale";
-import { matches, mergeStops, wantsOlder } from "./stopLists";
+import { listedStops, matches, mergeStops, resultOf, wantsOlder } from "./stopLists";
 
 const tolerance = { shape: "box" as const, dx_m: 0.025, dy_m: 0.025, dheading_rad: (0.2 * Math.PI) / 180 };
 const stop = (id: string, at: string, over: Partial<StopRecord> = {}): StopRecord =>
@@ -168,5 +168,35 @@ describe("a stop far outside", () => {
   it("near the label's corner sends the label to the other one", () => {
     expect(toleranceLabelSide({ x: 51, y: 31 }, 61)).toBe(-1);
     expect(toleranceLabelSide({ x: -3, y: 0 }, 30)).toBe(1);
+  });
+});
+
+describe("the list of measured and unmeasured stops", () => {
+  const at = (minute: number) => `2026-11-25T08:${String(minute).padStart(2, "0")}:00Z`;
+  const record = (minute: number, inside = true) => stop(`r${minute}`, at(minute), { inside });
+  const event = (minute: number) => ({ seq: minute, at: at(minute) }) as FleetEvent;
+  const minutes = (list: ReturnType<typeof listedStops>) => list.map((s) => Number(s.at.slice(14, 16)));
+
+  it("has both by time, newest first", () => {
+    const list = listedStops(
+      { items: [record(9), record(5)], more: false },
+      { items: [event(7)], more: false },
+    );
+    expect(minutes(list)).toEqual([9, 7, 5]);
+  });
+  it.each([
+    ["older records may be missing", true, false, [9, 7, 5]],
+    ["older unmeasured ones may be missing", false, true, [9, 7]],
+    ["nothing is missing", false, false, [9, 7, 5, 3]],
+  ])("shows nothing beyond the end of a page: %s", (_, moreRecords, moreEvents, shown) => {
+    const list = listedStops(
+      { items: [record(9), record(5)], more: moreRecords },
+      { items: moreEvents ? [event(7)] : [event(7), event(3)], more: moreEvents },
+    );
+    expect(minutes(list)).toEqual(shown);
+  });
+  it("knows how each came out", () => {
+    const list = listedStops({ items: [record(9), record(5, false)], more: false }, { items: [event(7)], more: false });
+    expect(list.map(resultOf)).toEqual([undefined, "unmeasured", "outside"]);
   });
 });

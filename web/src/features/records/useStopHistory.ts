@@ -1,8 +1,8 @@
-import { useInfiniteQuery, useQuery } from "@tanstack/react-query";
+import { useInfiniteQuery, useQuery, useQueryClient } from "@tanstack/react-query";
 import { useEffect, useMemo } from "react";
 import { api, call } from "@/shared/api";
 import type { StopRecord } from "@/shared/api/types";
-import { useStopRecords } from "@/shared/live";
+import { useStopRecords, useUnmeasuredTurn } from "@/shared/live";
 import { upTo } from "./statistics";
 import { matches, mergeStops, wantsOlder, type StopFilter } from "./stopLists";
 
@@ -40,6 +40,36 @@ export function useStopHistory(filter: StopFilter, limit = kPage) {
     return mergeStops(live, fetched).filter((s) => matches(s, { vehicle, station }));
   }, [live, data, vehicle, station]);
   return { stops, pages };
+}
+
+/** Stops that were not measured, page by page; asked for again when the stream tells of another one. */
+export function useUnmeasuredHistory({ vehicle, station }: StopFilter) {
+  const queries = useQueryClient();
+  const turn = useUnmeasuredTurn();
+  useEffect(() => {
+    void queries.invalidateQueries({ queryKey: ["unmeasured-stops"] });
+  }, [queries, turn]);
+  const pages = useInfiniteQuery({
+    queryKey: ["unmeasured-stops", vehicle, station],
+    initialPageParam: "",
+    queryFn: ({ pageParam }) =>
+      call(
+        api.GET("/api/v1/unmeasured-stops", {
+          params: {
+            query: {
+              limit: kPage,
+              ...(vehicle !== undefined && { vehicle }),
+              ...(station !== undefined && { station }),
+              ...(pageParam !== "" && { cursor: pageParam }),
+            },
+          },
+        }),
+      ),
+    getNextPageParam: (last) => last.next_cursor || undefined,
+    staleTime: 60_000,
+  });
+  const events = useMemo(() => pages.data?.pages.flatMap((p) => p.items) ?? [], [pages.data]);
+  return { events, pages };
 }
 
 /** This stop and those of its vehicle before it, oldest first; asks for older pages until there are `count`. */

@@ -51,6 +51,11 @@ export function useStopRecords(): readonly StopRecord[] {
   return useMemo(() => [...stops.values()].sort((a, b) => b.at.localeCompare(a.at)), [stops]);
 }
 
+/** Goes up when a stop may have gone unmeasured. */
+export function useUnmeasuredTurn(): number {
+  return useLive((s) => s.unmeasuredTurn);
+}
+
 /** A station of the plant with what stands there now. */
 export interface LiveStation extends Station {
   state: StationState | undefined;

@@ -36,6 +36,8 @@ export interface LiveState {
   closures: readonly Closure[];
   /** Goes up when floor may have been closed or opened: `closures` is asked for again. */
   floorTurn: number;
+  /** Goes up when a stop may have gone unmeasured: such stops are asked for again. */
+  unmeasuredTurn: number;
   /** Server clock minus browser clock, ms; ages of server times are computed with it. */
   clockOffsetMs: number;
   /** Since when each vehicle does what it does, as far as this page has seen it. */
@@ -52,6 +54,7 @@ export const emptyState: LiveState = {
   stopRecords: new Map(),
   closures: [],
   floorTurn: 0,
+  unmeasuredTurn: 0,
   clockOffsetMs: 0,
   since: new Map(),
 };
@@ -90,6 +93,7 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
         ...state,
         ready: true,
         floorTurn: state.floorTurn + 1,
+        unmeasuredTurn: state.unmeasuredTurn + 1,
         fleet: frame.fleet,
         vehicles: byKey(frame.vehicles, (v) => v.id),
         stations: byKey(frame.stations, (s) => s.station),
@@ -119,7 +123,9 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
     case "changes":
       return frame.changes.reduce((next, change) => reduce(next, change, wallMs), state);
     case "event":
-      return frame.event.type.startsWith("floor.") ? { ...state, floorTurn: state.floorTurn + 1 } : state;
+      if (frame.event.type.startsWith("floor.")) return { ...state, floorTurn: state.floorTurn + 1 };
+      if (frame.event.type !== "stop.not_measured") return state;
+      return { ...state, unmeasuredTurn: state.unmeasuredTurn + 1 };
     case "poses":
       return state;
   }
