@@ -8,7 +8,7 @@
 
 namespace pulseline::vision {
 
-/// A camera file (design.md section 10): a JSON object with width_px, height_px, f_px, cu_px,
+/// A camera file (core/vision/README.md): a JSON object with width_px, height_px, f_px, cu_px,
 /// cv_px, k1, height_m and, where the calibration knows them, tilt_u_rad, tilt_v_rad,
 /// body_from_camera and loaded as in a plant file. Other members are other programs' business.
 /// Reason codes: those of json::parse_json and json::ObjectReader.

@@ -9,7 +9,7 @@ namespace pulseline::calibration {
 namespace {
 
 constexpr std::size_t kFewestViews = 4;
-// What a dual-camera fix can bear (vision.md section 5): scale to 0.1 %, principal point to 1 px.
+// What a dual-camera fix can bear (core/localisation/README.md): scale to 0.1 %, principal point to 1 px.
 constexpr double kMostSigmaF = 0.001;
 constexpr double kMostSigmaCentre_px = 2;
 constexpr double kMostSigmaK1 = 0.02;
@@ -83,7 +83,7 @@ Result<LensCalibration> calibrate_lens(std::span<const BoardView> views, int wid
     cv::Mat lens = cv::Mat::zeros(5, 1, CV_64F);
     std::vector<cv::Mat> turns, shifts;
     cv::Mat deviation, unused_pose, unused_views;
-    // Square pixels and one radial term: the camera model of design.md section 10.
+    // Square pixels and one radial term: the camera model of core/vision/README.md.
     constexpr int kModel = cv::CALIB_FIX_ASPECT_RATIO | cv::CALIB_ZERO_TANGENT_DIST |
                            cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3;
     LensCalibration out;

@@ -10,7 +10,7 @@
 #include "core/vision/optics.hpp"
 
 /// Calibration of a downward camera: the lens from pictures of a chessboard held at several tilts,
-/// the mounting from known points on the floor. Never the data sheet's numbers (equations.md 14:
+/// the mounting from known points on the floor. Never the data sheet's numbers (Tang, eq. 14:
 /// they are 4 to 14 % off).
 namespace pulseline::calibration {
 

@@ -17,7 +17,7 @@
 namespace pulseline::fleet {
 namespace {
 
-/// Orders go on only after the person's act of design.md section 4.
+/// Orders go on only after a person's act: POST /api/v1/fleet/resume.
 void interrupt_after_restart(FleetState& fleet, Time now) {
     bool any_vehicle = false;
     for (const JobOrderId& id : fleet.orders.open()) {

@@ -21,7 +21,7 @@ geometry::Point2 velocity_at(geometry::Point2 place, const Twist& twist) {
 }
 
 /// Rollers of the wheels at front left and rear right lead to the right, the others to the left
-/// (Wang, equations.md section 5): +1 where a rim turning forward drives to the left.
+/// (Wang; rollers at 45 degrees): +1 where a rim turning forward drives to the left.
 double roller_side(const Wheel& wheel) {
     return wheel.position.x_m * wheel.position.y_m > 0 ? -1 : 1;
 }

@@ -8,7 +8,7 @@ namespace pulseline::planning {
 
 /// A* over (cell, direction) with a bucket queue and the turn bound: every map, also with one-way
 /// and weighted cells and barred turns; costs whose sums fit 30 bits after dividing by their
-/// greatest common divisor. 2 to 5 times as fast as a binary heap (planning.md 3.2).
+/// greatest common divisor. 2 to 5 times as fast as a binary heap.
 ///
 /// `Label` holds what is known of a state: from the top, query stamp (newer is less), cost, and
 /// what it was reached by; so one comparison of what lies above the last three bits tells whether a

@@ -23,7 +23,7 @@ Result<GridCost> unit_cell_cost(double k_same, double k_diff);
 Result<GridCost> hall_cost(const plant::RoutingCost& cost, double resolution_m);
 
 /// Lower bound of the cost from a place and heading to the goal, `T` an integer type that holds it:
-/// the exact cost on an empty floor (planning.md 4.1), hence consistent. With cheap turns
+/// the exact cost on an empty floor (README.md), hence consistent. With cheap turns
 /// (turn < 0) every step may cost as little as step + turn, and turns are not counted.
 template <class T>
 class FloorBound {

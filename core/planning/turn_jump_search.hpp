@@ -9,7 +9,7 @@ namespace pulseline::planning {
 
 /// Turn-jump search: A* over turning points only, exact for the direction-penalised cost
 /// k_same x length + P x turns with P = k_diff - k_same >= 0 on a uniform map (4-connected, every
-/// free cell may be entered, left and turned in alike). planning.md 4.1.
+/// free cell may be entered, left and turned in alike). See README.md.
 ///
 /// A *leg* is a straight run in direction e, entered at p from a leg in direction d across it.
 /// Among the paths of least cost take one with fewest turns, of those one with least length, of

@@ -6,7 +6,7 @@
 #include "core/base/angle.hpp"
 #include "core/plant/plant.hpp"
 
-/// What is printed on the floor (design.md section 10): the one thing printing, simulation and
+/// What is printed on the floor (core/vision/README.md): the one thing printing, simulation and
 /// detection share. Right and down are as printed, seen from above.
 namespace pulseline::plant {
 

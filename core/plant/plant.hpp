@@ -28,7 +28,7 @@ using AreaId = Key<struct AreaTag>;
 using VehicleTypeId = Key<struct VehicleTypeTag>;
 using VehicleId = Key<struct VehicleTag>;
 
-/// How a vehicle travels one leg (design.md section 3). kAuto asks the planner to choose. kOblique
+/// How a vehicle travels one leg. kAuto asks the planner to choose. kOblique
 /// keeps the heading on the way and turns at its end, kCombined turns on the way (Wang's oblique
 /// and combined moves); both are for vehicles that can move in any direction.
 enum class MotionMode {
@@ -94,7 +94,7 @@ struct Marker {
     double size_m = 0.060;
     HallId hall;
     Pose2
-        pose;  // surveyed centre; heading: direction of the code's "up" edge (design.md section 10)
+        pose;  // surveyed centre; heading: direction of the code's "up" edge
     double sigma_xy_m = 0.0001;
     double sigma_heading_rad = 0.0005;
 };
@@ -126,7 +126,7 @@ struct CameraMounting {
     double tilt_v_rad = 0;
 };
 
-/// Downward camera (design.md section 10).
+/// Downward camera (core/vision/README.md).
 struct Camera : CameraMounting {
     std::string name;  // "front", "back"
     double f_px = 3317.78;

@@ -5,7 +5,7 @@
 
 namespace pulseline::simulation {
 
-/// What spoils an image: the level table of design.md section 10. Lens distortion belongs to the
+/// What spoils an image: the table of levels in core/vision/README.md. Lens distortion belongs to the
 /// camera; rotation and offset to the vehicle's pose.
 struct ImageConditions {
     double blur_sigma_px = 0.7;

@@ -53,7 +53,7 @@ double rolling_speed(const plant::VehicleType& type, const plant::Wheel& wheel, 
     const Point2 floor{twist.vx_mps - twist.turn_radps * wheel.position.y_m,
                        twist.vy_mps + twist.turn_radps * wheel.position.x_m};
     if (on_rollers(type) && !wheel.steered) {
-        // Rollers at 45 degrees (Wang, equations.md section 5).
+        // Rollers at 45 degrees (Wang).
         return floor.x_m + (wheel.position.x_m * wheel.position.y_m > 0 ? -1 : 1) * floor.y_m;
     }
     return floor.x_m * std::cos(angle_rad) + floor.y_m * std::sin(angle_rad);

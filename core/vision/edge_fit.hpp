@@ -34,7 +34,7 @@ enum class FitEffort { kLocate, kMeasure };
 
 /// Robust fit of the placement to printed borders. Input: sites of a marker whose code is known (or
 /// of the part of it that every code has), the width of its narrowest feature in marker units, a
-/// placement good to a quarter of that. Method (vision.md, finding 2): sub-pixel edge position by
+/// placement good to a quarter of that. Method: sub-pixel edge position by
 /// the area under short profiles between the levels on both sides, Tukey-weighted least squares
 /// over position, angle, scale, camera tilt (with a prior, so that it only enters as far as the
 /// edges show it) and growth of the ink; lens distortion known. Nothing when too few edges show.

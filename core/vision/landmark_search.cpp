@@ -59,7 +59,7 @@ Match match(const Similarity& place, const std::vector<RoundPeak>& peaks, double
     return m;
 }
 
-/// Least squares over the matched dots (equations.md section 3, planar, with scale).
+/// Least squares over the matched dots (core/localisation/README.md, with scale).
 Similarity refined(const Match& m) {
     Pixel marker;
     Pixel image;

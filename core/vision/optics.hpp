@@ -7,7 +7,7 @@
 #include "core/geometry/pose2.hpp"
 #include "core/plant/plant.hpp"
 
-/// The camera model of design.md section 10: pixel centres at integers, u right, v down, radial
+/// The camera model (README.md): pixel centres at integers, u right, v down, radial
 /// distortion x_d = x (1 + k1 r^2) with r in units of F.
 namespace pulseline::vision {
 

@@ -20,8 +20,8 @@ struct LocateInput {
     bool json = false;
 };
 
-/// Prints one line per accepted marker, or one with the reason per image without any (design.md
-/// section 11). kLocateUnreadable when the camera file or an image cannot be read; the other images
+/// Prints one line per accepted marker, or one with the reason per image without any.
+/// kLocateUnreadable when the camera file or an image cannot be read; the other images
 /// are still looked at.
 int locate(const LocateInput& input, std::ostream& out);
 

@@ -1,5 +1,6 @@
 // No test is lost: each belongs to a suite, and those that the tables of faults and of pretences name exist.
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { test } from "node:test";
@@ -69,4 +70,26 @@ test("every test belongs to a suite", () => {
   for (const [, name] of cmake.matchAll(/^ +pulseline_test\((\w+)/gm)) if (!name.startsWith("test_")) lost.push(name);
   assert.ok(globs.size > 5 && leftOut.length > 3, "the script was read");
   assert.deepEqual(lost, []);
+});
+
+const tracked = execFileSync("git", ["ls-files"], { cwd: ROOT, encoding: "utf8" }).trim().split("\n").filter((file) => existsSync(join(ROOT, file)));
+const folders = new Set(tracked.flatMap((file) => file.split("/").map((_, i, parts) => parts.slice(0, i).join("/"))));
+
+test("every document that a source or a document names is in the repository", () => {
+  const missing = tracked.filter((file) => /\.(md|[ch]pp|mjs|tsx?|css|sql|sh)$/.test(file) || file === "dev").flatMap((file) =>
+    [...textOf(file).matchAll(/(?<![\w*.$}/-])([\w./-]*\w\.md)\b/g)].map(([, name]) => name)
+      .filter((name) => ![name, join(dirname(file), name), join("core", name)].some((path) => tracked.includes(path)))
+      .map((name) => `${name} in ${file}`));
+  assert.deepEqual(missing, []);
+});
+
+test("every path that a document shows exists", () => {
+  const missing = tracked.filter((file) => file.endsWith(".md")).flatMap((file) =>
+    [...textOf(file).matchAll(/`((?:\.\.?\/|core|api|db|server|web|tests|docker)[\w./-]*\/[\w./*-]+)`/g)].map(([, name]) => name.replace(/\/$/, ""))
+      .filter((name) => {
+        const path = name.replace(/\*.*$/, "");
+        return !folders.has(path) && !tracked.some((known) => known === path || known.startsWith(path));
+      })
+      .map((name) => `${name} in ${file}`));
+  assert.deepEqual(missing, []);
 });

@@ -32,7 +32,7 @@ class Drives {
     return this.system.lastTruth(VEHICLE);
   }
 
-  /** The person of design.md section 4: looks at the vehicle, then allows it to move. */
+  /** The person who looks at the vehicle, then allows it to move. */
   async allowToMove() {
     await this.client.untilVehicle(VEHICLE, (v) => v.link === "live", "is heard");
     await until("the resume is accepted", async () => {

@@ -42,7 +42,7 @@ struct StartConditions : ::testing::Test {
         EXPECT_FALSE(made.error().what.empty());
         EXPECT_EQ(world.store.orders.size(), before) << "nothing is stored";
     }
-    /// Servers die; the person of design.md section 4 lets the vehicles move.
+    /// Servers die; a person lets the vehicles move.
     void crash_and_resume() {
         world.crash_server();
         world.run(1);

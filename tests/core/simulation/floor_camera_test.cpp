@@ -40,7 +40,7 @@ TEST(FloorProjection, TiltMovesTheFootByHeightTimesTangent) {
     const plant::Camera camera;
     const auto foot =
         FloorProjection(camera, conditions).floor_from_image({camera.cu_px, camera.cv_px});
-    EXPECT_NEAR(foot.x_m, 0.397e-3, 1e-6);  // equations.md section 2: 0.05 deg = 0.40 mm
+    EXPECT_NEAR(foot.x_m, 0.397e-3, 1e-6);  // core/localisation/README.md: 0.05 deg = 0.40 mm
     EXPECT_NEAR(foot.y_m, 0, 1e-9);
 }
 
