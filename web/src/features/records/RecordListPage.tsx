@@ -50,13 +50,7 @@ export function RecordListPage() {
     </Button>
   );
   return (
-    <Card
-      className="listpage"
-      level={1}
-      title={t("title")}
-      summary={t("summary", counts)}
-      flush
-    >
+    <Card className="listpage" level={1} title={t("title")} summary={t("summary", counts)} flush>
       <div className="filters">
         <RecordFilters filter={{ vehicle, station, result }} onFilter={filter} />
         {stops.length > 0 && failed && (

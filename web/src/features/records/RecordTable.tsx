@@ -34,11 +34,7 @@ export function RecordTable({ stops }: { stops: readonly ListedStop[] }) {
           "record" in stop ? (
             <Row key={stop.record.id} stop={stop.record} time={dateTime(stop.at, now)} />
           ) : (
-            <UnmeasuredRow
-              key={stop.unmeasured.seq}
-              event={stop.unmeasured}
-              time={dateTime(stop.at, now)}
-            />
+            <UnmeasuredRow key={stop.unmeasured.seq} event={stop.unmeasured} time={dateTime(stop.at, now)} />
           ),
         )}
       </tbody>

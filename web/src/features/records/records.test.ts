@@ -196,7 +196,10 @@ describe("the list of measured and unmeasured stops", () => {
     expect(minutes(list)).toEqual(shown);
   });
   it("knows how each came out", () => {
-    const list = listedStops({ items: [record(9), record(5, false)], more: false }, { items: [event(7)], more: false });
+    const list = listedStops(
+      { items: [record(9), record(5, false)], more: false },
+      { items: [event(7)], more: false },
+    );
     expect(list.map(resultOf)).toEqual([undefined, "unmeasured", "outside"]);
   });
 });

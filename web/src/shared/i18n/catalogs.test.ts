@@ -85,10 +85,11 @@ describe("codes of the core", () => {
     "vision",
   ];
   // Said on the command line and in logs only, or of a file that nobody sees in the browser.
-  const kNotForScreens = new Set(["no_home_station", "traffic_record_broken"]);
+  const kNotForScreens = new Set(["no_home_station", "traffic_record_broken", "journal_broken"]);
   const codes = new Set<string>();
   for (const folder of kFolders) {
-    for (const name of readdirSync(`${core}/${folder}`).filter((n) => n.endsWith(".cpp"))) {
+    const names = readdirSync(`${core}/${folder}`, { recursive: true, encoding: "utf8" });
+    for (const name of names.filter((n) => n.endsWith(".cpp"))) {
       const text = readFileSync(`${core}/${folder}/${name}`, "utf8");
       for (const told of kTold) for (const match of text.matchAll(told)) codes.add(match[1]!);
     }
