@@ -4,18 +4,11 @@ const kTabs = ["loads", "cameras", "why", "stops"];
 const isNarrow = (page) => page.viewportSize().width < 1280;
 const press = (page, selector) => page.locator(selector).first().click();
 
-const kArmed = "[data-state=armed], .is-armed";
-
-/**
- * Arms a command and keeps it so: it falls back after eight seconds, and a look may take longer. A press is lost where the page
- * moves under the finger, as it does when a banner comes; then a person presses again.
- */
+/** Arms a command and keeps it so: it falls back after eight seconds, and a look may take longer. */
 const armed = (button) => async (page) => {
-  for (let tries = 1; (await page.locator(kArmed).count()) === 0; ++tries) {
-    await page.locator(button).and(page.locator(":not([aria-disabled=true])")).first().click();
-    const shown = page.locator(kArmed).first().waitFor({ timeout: 5_000 });
-    await (tries < 3 ? shown.catch(() => {}) : shown);
-  }
+  if ((await page.locator("[data-state=armed], .is-armed").count()) > 0) return;
+  await page.locator(button).and(page.locator(":not([aria-disabled=true])")).first().click();
+  await page.locator("[data-state=armed], .is-armed").first().waitFor();
 };
 
 const vehicle = (id, more = {}) => ({ name: `vehicle ${id}`, path: `/vehicles/${id}`, ready: ".pcard, .whyl, .card .pin", ...more });
