@@ -77,8 +77,9 @@ export class CanvasRenderer implements Renderer {
     // Number plates lie on the floor: who drives over one is not hidden by it.
     const plates = input.layers.labels ? this.labels.drawPlates(pen, input) : [];
     drawBodies(pen, input.model, inView, input.overlays);
-    if (input.layers.labels) this.labels.drawTags(pen, input, inView, plates);
+    // A tag that has no room in the hall lies over the ruler, not under its numbers.
     if (input.layers.rulers) drawRulers(pen, input.model, input.words.north);
+    if (input.layers.labels) this.labels.drawTags(pen, input, inView, plates);
   }
 
   private drawHallOnce(input: FrameInput, width: number, height: number): void {
