@@ -30,7 +30,9 @@ export function OrderDetail({ order }: { order: JobOrder }) {
       <p className="ans1" role="status">
         <StatusSymbol name={stateSymbol[order.state]} />
         {/* Of a cancelled order the reason says what the state says, and by whom. */}
-        <span>{why === undefined ? state : isCancelled(order) ? why : t("detail.because", { state, why })}</span>
+        <span>
+          {why === undefined ? state : isCancelled(order) ? why : t("detail.because", { state, why })}
+        </span>
       </p>
       <div
         className="way"
