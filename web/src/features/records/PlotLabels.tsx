@@ -8,8 +8,8 @@ import type { Ellipse } from "./statistics";
 import {
   ellipseLabel,
   headingFactor,
-  kMargin,
   labelSide,
+  marginOf,
   rayLength,
   ticksOf,
   toleranceLabelSide,
@@ -36,16 +36,16 @@ export function PlotLabels({
   return (
     <>
       <Axes scale={scale} />
-      <ToleranceLabel stop={stop} half={half} />
+      <ToleranceLabel stop={stop} scale={scale} />
       {spread && (
-        <Label at={spread} half={half} className="tlb">
+        <Label at={spread} scale={scale} className="tlb">
           {t("ellipse")}
         </Label>
       )}
-      <Label at={label} half={half} className="tcurl">
+      <Label at={label} scale={scale} className="tcurl">
         {mm(stop.dx_m)}, {mm(stop.dy_m)}
       </Label>
-      <Label at={{ x: at.x, y: at.y + rayLength(at.y, half) * 1.08 }} half={half} className="tlb">
+      <Label at={{ x: at.x, y: at.y + rayLength(at.y, half) * 1.08 }} scale={scale} className="tlb">
         {t("heading_wedge", { factor: headingFactor(stop) })}
       </Label>
     </>
@@ -54,13 +54,14 @@ export function PlotLabels({
 
 interface LabelProps {
   at: { x: number; y: number };
-  half: number;
+  scale: PlotScale;
   className: string;
   children: ReactNode;
 }
 
-function Label({ at, half, className, children }: LabelProps) {
-  const percent = (v: number) => `${50 + (50 * v) / (half * kMargin)}%`;
+function Label({ at, scale, className, children }: LabelProps) {
+  const view = scale.half * marginOf(scale).view;
+  const percent = (v: number) => `${50 + (50 * v) / view}%`;
   return (
     <span className={`lb ${className}`} style={{ left: percent(at.x), top: percent(-at.y) }}>
       {children}
@@ -70,24 +71,24 @@ function Label({ at, half, className, children }: LabelProps) {
 
 function Axes({ scale }: { scale: PlotScale }) {
   const { half, step } = scale;
-  const edge = -half * 1.08;
+  const edge = -half * marginOf(scale).numbers;
   const text = (v: number) => number(v, { decimals: limitDecimals(step), sign: true });
   return (
     <>
       {ticksOf(scale)
         .filter((v) => Math.abs(v) < half * 0.9)
         .flatMap((v) => [
-          <Label key={`x${v}`} at={{ x: v, y: edge }} half={half} className="ax">
+          <Label key={`x${v}`} at={{ x: v, y: edge }} scale={scale} className="ax">
             {text(v)}
           </Label>,
-          <Label key={`y${v}`} at={{ x: edge, y: v }} half={half} className="ax">
+          <Label key={`y${v}`} at={{ x: edge, y: v }} scale={scale} className="ax">
             {text(v)}
           </Label>,
         ])}
-      <Label at={{ x: half * 0.95, y: edge }} half={half} className="ax b">
+      <Label at={{ x: half * 0.95, y: edge }} scale={scale} className="ax b">
         dx
       </Label>
-      <Label at={{ x: edge, y: half * 0.95 }} half={half} className="ax b">
+      <Label at={{ x: edge, y: half * 0.95 }} scale={scale} className="ax b">
         dy
       </Label>
     </>
@@ -95,12 +96,13 @@ function Axes({ scale }: { scale: PlotScale }) {
 }
 
 /** Beside the tolerance's corner; the locator says it where that corner is out of the picture. */
-function ToleranceLabel({ stop, half }: { stop: StopRecord; half: number }) {
+function ToleranceLabel({ stop, scale }: { stop: StopRecord; scale: PlotScale }) {
+  const { half } = scale;
   const tol = { x: stop.tolerance.dx_m * 1000, y: stop.tolerance.dy_m * 1000 };
   if (beyond(half, tol) !== "none") return null;
   const side = toleranceLabelSide({ x: stop.dx_m * 1000, y: stop.dy_m * 1000 }, half);
   return (
-    <Label at={{ x: tol.x * 0.72, y: tol.y * 0.93 * side }} half={half} className="tlb b">
+    <Label at={{ x: tol.x * 0.72, y: tol.y * 0.93 * side }} scale={scale} className="tlb b">
       ±{limitText(tol.x)}
       {tol.y !== tol.x && ` / ±${limitText(tol.y)}`} mm
     </Label>

@@ -6,7 +6,7 @@ import { PlotGround } from "./PlotGround";
 import { PlotLabels } from "./PlotLabels";
 import { PlotStop } from "./PlotStop";
 import { ellipse95, type Ellipse } from "./statistics";
-import { kMargin, type PlotScale } from "./targetScale";
+import { marginOf, type PlotScale } from "./targetScale";
 import "./plots.css";
 import "./TargetPlot.css";
 
@@ -22,7 +22,7 @@ export function TargetPlot({
 }) {
   const { t } = useTranslation("records");
   const { half } = scale;
-  const view = half * kMargin;
+  const view = half * marginOf(scale).view;
   const points = earlier
     .map((s) => ({ x: s.dx_m * 1000, y: s.dy_m * 1000 }))
     .filter((p) => Math.abs(p.x) <= half && Math.abs(p.y) <= half);
@@ -57,7 +57,7 @@ export function TargetPlot({
           <rect x={-half} y={-half} width={2 * half} height={2 * half} className="tfr" />
         </svg>
         <PlotLabels stop={stop} ellipse={ellipse} scale={scale} />
-        <Locator stop={stop} half={half} />
+        <Locator stop={stop} scale={scale} />
       </div>
     </div>
   );

@@ -10,7 +10,7 @@ import {
   plotReach_mm,
 } from "./closeUp";
 import { series } from "./statistics";
-import { closeScale, ellipseLabel, ticksOf } from "./targetScale";
+import { closeScale, ellipseLabel, marginOf, ticksOf } from "./targetScale";
 import { rowCloseUp } from "./trendScale";
 
 const stop = (dx_mm: number, dy_mm: number) => ({ dx_m: dx_mm / 1000, dy_m: dy_mm / 1000 }) as StopRecord;
@@ -67,6 +67,9 @@ describe("a close-up", () => {
 });
 
 describe("what stands in a close-up", () => {
+  it("has more room around it where its numbers have decimals", () => {
+    expect(marginOf(closeScale(1)).view).toBeGreaterThan(marginOf(closeScale(2)).view);
+  });
   it.each([
     [0.3, 0.2, { x: -1, y: -1 }],
     [-0.3, -0.2, { x: 1, y: 1 }],

@@ -7,8 +7,13 @@ export interface PlotScale {
   step: number;
 }
 
-/** The plot with what stands around it is this much wider than the plot itself. */
-export const kMargin = 1.133;
+/**
+ * Half the width of the plot with the numbers around it, and where these stand, as shares of the plot: numbers with decimals are
+ * wider, and on a phone they would be cut.
+ */
+export function marginOf({ step }: PlotScale): { view: number; numbers: number } {
+  return Number.isInteger(step) ? { view: 1.133, numbers: 1.08 } : { view: 1.2, numbers: 1.1 };
+}
 
 /** Values at which the grid has a line. */
 export function ticksOf({ half, step }: PlotScale): number[] {
