@@ -11,6 +11,10 @@
 /// What the fleet shows of itself: plain copies, safe to hand to another thread.
 namespace pulseline::fleet {
 
+/// How far a bracket may differ from the mean of its end, front or back, as a share of it. Between
+/// the ends a load may lie where it likes, as aircraft do, inside the wheel base.
+constexpr double kBracketBalance = 0.10;
+
 /// The bracket that departs farthest from the mean of its end; of two that do so alike, the one
 /// farther from the mean of all. Nothing without a load.
 struct BracketShare {

@@ -8,10 +8,8 @@
 /// the machine and its load before it may leave where it stands.
 namespace pulseline::fleet {
 
-/// How far a bracket may differ from the mean of its end, front or back, as a share of it. Between
-/// the ends a load may lie where it likes, as aircraft do, inside the wheel base.
-constexpr double kBracketBalance = 0.10;
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
+
 std::optional<BracketShare> worst_bracket(const VehicleRun& run);
 
 /// The first one that bars the drive: parking_feet_down {furthest_m}, load_too_heavy {load_kg,
