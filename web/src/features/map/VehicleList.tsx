@@ -31,6 +31,7 @@ export function VehicleList(props: VehicleListProps) {
   const stations = useStations();
   const numbers = useMemo(() => new Map(stations.map((s) => [s.id, String(s.number)])), [stations]);
   const names = useMemo(() => new Map(vehicles.map((v) => [v.id, v.name])), [vehicles]);
+  const ready = useLive((s) => s.ready);
   const since = useLive((s) => s.since);
   const byId = useLive((s) => s.vehicles);
   const groups = grouped(vehicles, find, since);
@@ -80,7 +81,7 @@ export function VehicleList(props: VehicleListProps) {
             </Link>
           </div>
         ))}
-        {groups.length === 0 && found.length === 0 && (
+        {ready && groups.length === 0 && found.length === 0 && (
           <p className="lab none">
             {vehicles.length > 0 ? (
               t("not_found")

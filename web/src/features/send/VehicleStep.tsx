@@ -1,6 +1,6 @@
 import { useTranslation } from "react-i18next";
 import type { Plant, Vehicle } from "@/shared/api/types";
-import { symbolOf } from "@/shared/live";
+import { symbolOf, useLive } from "@/shared/live";
 import { StatusSymbol, VehicleMini } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
@@ -36,7 +36,8 @@ export interface VehicleStepProps {
 export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
   const { t } = useTranslation("send");
   const place = usePlace();
-  if (vehicles.length === 0) return <p className="lab">{t("vehicle.none")}</p>;
+  const ready = useLive((s) => s.ready);
+  if (vehicles.length === 0) return ready ? <p className="lab">{t("vehicle.none")}</p> : null;
   if (selected && !choosing) {
     const load =
       selected.load_name || selected.load_kg > 0
