@@ -139,7 +139,7 @@ test("a stop that was not measured comes into the list of records, with its reas
       : ["未测量", /13 号站的停站未能测量：/, `${items.length} 次未测量`];
     const rows = page.locator(".rows tr", { has: page.locator(`a[href="/orders/${order.id}"]`) });
     await rows.first().waitFor({ timeout: 10_000 }); // nobody has loaded the page again
-    assert.equal(await rows.count(), items.length);
+    await until("each of them is a row", async () => (await rows.count()) === items.length, { timeout_s: 10, every_ms: 50 });
     assert.match(await rows.first().innerText(), reason);
     await rows.first().getByText(words, { exact: true }).waitFor();
     await page.getByText(count).first().waitFor();
