@@ -9,7 +9,8 @@ namespace pulseline::calibration {
 namespace {
 
 constexpr std::size_t kFewestViews = 4;
-// What a dual-camera fix can bear (core/localisation/README.md): scale to 0.1 %, principal point to 1 px.
+// What a dual-camera fix can bear (core/localisation/README.md): scale to 0.1 %, principal point to
+// 1 px.
 constexpr double kMostSigmaF = 0.001;
 constexpr double kMostSigmaCentre_px = 2;
 constexpr double kMostSigmaK1 = 0.02;

@@ -93,8 +93,7 @@ struct Marker {
     std::string payload;  // "ST01-F"; the number as text for AprilTag and landmark
     double size_m = 0.060;
     HallId hall;
-    Pose2
-        pose;  // surveyed centre; heading: direction of the code's "up" edge
+    Pose2 pose;  // surveyed centre; heading: direction of the code's "up" edge
     double sigma_xy_m = 0.0001;
     double sigma_heading_rad = 0.0005;
 };

@@ -5,8 +5,8 @@
 
 namespace pulseline::simulation {
 
-/// What spoils an image: the table of levels in core/vision/README.md. Lens distortion belongs to the
-/// camera; rotation and offset to the vehicle's pose.
+/// What spoils an image: the table of levels in core/vision/README.md. Lens distortion belongs to
+/// the camera; rotation and offset to the vehicle's pose.
 struct ImageConditions {
     double blur_sigma_px = 0.7;
     double motion_blur_px = 0;

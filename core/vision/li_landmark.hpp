@@ -32,9 +32,9 @@ struct LiPose {
     Eigen::Vector3d camera_in_marker() const { return -rotation.transpose() * translation; }
 };
 
-/// From four coplanar points: eq. (9) in its corrected form (core/localisation/README.md), by the null
-/// vector of the eight equations. `rays`: x/z and y/z of A, D, E, F after undistortion. Not for
-/// positioning: its tilt noise times the height is a thousand times the planar fit's error.
+/// From four coplanar points: eq. (9) in its corrected form (core/localisation/README.md), by the
+/// null vector of the eight equations. `rays`: x/z and y/z of A, D, E, F after undistortion. Not
+/// for positioning: its tilt noise times the height is a thousand times the planar fit's error.
 LiPose li_p4p(const std::array<Eigen::Vector2d, 4>& marker_m,
               const std::array<Eigen::Vector2d, 4>& rays);
 

@@ -3,9 +3,9 @@
 #include <deque>
 #include <limits>
 
-#include "core/fleet/state/fields.hpp"
 #include "core/fleet/journal/input.hpp"
 #include "core/fleet/journal/snapshot.hpp"
+#include "core/fleet/state/fields.hpp"
 #include "db/history.hpp"
 #include "db/journal_rows.hpp"
 

@@ -1,6 +1,6 @@
 // Detection, accuracy and time of every marker reader on rendered images, level by level
-// (core/vision/README.md), beside the libraries and the papers' pipelines on the same images, on one core.
-// usage: bench_vision [images per kind and level, default 1000] [kind] [level]
+// (core/vision/README.md), beside the libraries and the papers' pipelines on the same images, on
+// one core. usage: bench_vision [images per kind and level, default 1000] [kind] [level]
 // [--own] [--benchmark_out=FILE]
 // --own leaves the comparators out
 #include <fmt/core.h>

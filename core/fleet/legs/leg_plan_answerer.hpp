@@ -6,7 +6,8 @@
 #include "core/fleet/state/leg_plan.hpp"
 #include "core/planning/leg_planner.hpp"
 
-/// The other side of leg_plans.hpp: what the fleet has asked for is planned here, on another thread.
+/// The other side of leg_plans.hpp: what the fleet has asked for is planned here, on another
+/// thread.
 namespace pulseline::fleet {
 
 /// Answers the questions of Outputs::plans_wanted, and keeps its planner for the next one.

@@ -1,6 +1,5 @@
 #include "core/fleet/state/job_order.hpp"
 
-
 namespace pulseline::fleet {
 
 const char* to_string(Integration level) {

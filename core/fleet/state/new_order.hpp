@@ -32,7 +32,8 @@ struct NewOrder {
     std::vector<std::string> after;  // ids, or client order ids, of orders that have to end first
     std::string sequence;            // empty: none
     std::vector<NewStep> steps;
-    bool planned_beside = false;  // its free manoeuvres are known to be possible (legs/leg_plans.hpp)
+    bool planned_beside =
+        false;  // its free manoeuvres are known to be possible (legs/leg_plans.hpp)
     std::string from_template;
     ScheduleId from_schedule;
     std::string actor;  // who asks

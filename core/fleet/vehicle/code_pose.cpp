@@ -7,7 +7,8 @@
 namespace pulseline::fleet {
 namespace {
 
-// A camera's own angle of one code: from the edge fit (vision/edge_fit), used only when one code is seen.
+// A camera's own angle of one code: from the edge fit (vision/edge_fit), used only when one code is
+// seen.
 constexpr double kSigmaUp_rad = 2e-4;
 
 /// A vehicle cannot stand outside the walls: a camera or the survey is wrong.

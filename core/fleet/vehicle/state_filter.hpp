@@ -9,8 +9,8 @@
 /// would only fill the journal; poses and speeds are shown from a table of newest values.
 namespace pulseline::fleet {
 
-/// A driving vehicle's base is extended by where it is and not on an old pose (dispatch/extend_bases.cpp),
-/// so the fleet sees it this often whatever it says.
+/// A driving vehicle's base is extended by where it is and not on an old pose
+/// (dispatch/extend_bases.cpp), so the fleet sees it this often whatever it says.
 constexpr Duration kDrivingEvery = std::chrono::milliseconds(500);
 /// What nobody decides by (speeds, temperatures, the age of a report) is never older than this.
 constexpr Duration kStandingEvery = std::chrono::seconds(2);

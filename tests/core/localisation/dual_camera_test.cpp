@@ -38,7 +38,8 @@ protected:
 };
 
 TEST(Locate, ReproducesTheVectorOfTangsEquations18And19) {
-    // The test vector of core/localisation/README.md: image centres in px, camera frame y to the RIGHT.
+    // The test vector of core/localisation/README.md: image centres in px, camera frame y to the
+    // RIGHT.
     const double lambda_m = 0.13713984375e-3;
     const Pose2 station{50, 20, radians(45)};
     const std::vector<SurveyedCode> survey{
