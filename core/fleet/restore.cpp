@@ -107,6 +107,7 @@ void take_vehicles_of_plant(FleetState& fleet) {
         run.record.id = vehicle.id;
     }
 }
+
 namespace {
 
 /// What it may have driven since its row was written counts as driven: its pose is no surer.

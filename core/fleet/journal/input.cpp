@@ -75,6 +75,7 @@ template <auto Method>
 void write(Writer& out, const To<Method>& call) {
     std::apply(out, call.arguments);
 }
+
 template <auto Method>
 void read(Reader& in, To<Method>& call) {
     std::apply(in, call.arguments);

@@ -1,7 +1,6 @@
 #include "core/fleet/legs/leg_plans.hpp"
 
 #include <cmath>
-#include <utility>
 
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/geometry/pose2.hpp"

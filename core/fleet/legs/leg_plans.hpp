@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/planning/leg_planner.hpp"
 

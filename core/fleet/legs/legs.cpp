@@ -1,6 +1,5 @@
 #include "core/fleet/legs/legs.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/fleet/floor/admission.hpp"

@@ -1,7 +1,5 @@
 #include "core/fleet/orders/orders.hpp"
 
-#include <algorithm>
-
 #include "core/fleet/orders/checks.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/orders/start_conditions.hpp"

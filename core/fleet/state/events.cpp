@@ -1,7 +1,5 @@
 #include "core/fleet/state/events.hpp"
 
-#include <algorithm>
-
 #include "core/fleet/state/fleet_state.hpp"
 
 namespace pulseline::fleet {

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "core/fleet/state/fields.hpp"
-#include "core/fleet/state/views.hpp"
 
 namespace pulseline::fleet {
 

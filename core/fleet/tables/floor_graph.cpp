@@ -13,6 +13,7 @@ std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall) {
     }
     return 0;
 }
+
 namespace {
 
 constexpr double kSameLine_rad = 0.02;

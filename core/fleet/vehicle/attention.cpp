@@ -1,6 +1,5 @@
 #include "core/fleet/vehicle/attention.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/fleet/state/events.hpp"

@@ -17,41 +17,44 @@ export function RecordFilters({
   const { t } = useTranslation("records");
   const plant = usePlant().data;
   const stations = [...(plant?.stations ?? [])].sort((a, b) => a.number - b.number);
+  const choice = (
+    name: FilterName,
+    label: string,
+    all: string,
+    options: readonly (readonly [string | number, string])[],
+  ) => (
+    <label className="field">
+      <span className="cap">{label}</span>
+      <select value={filter[name] ?? ""} onChange={(event) => onFilter(name, event.target.value)}>
+        <option value="">{all}</option>
+        {options.map(([value, text]) => (
+          <option key={value} value={value}>
+            {text}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
   return (
     <>
-      <label className="field">
-        <span className="cap">{t("filter.vehicle")}</span>
-        <select value={filter.vehicle ?? ""} onChange={(event) => onFilter("vehicle", event.target.value)}>
-          <option value="">{t("filter.all_vehicles")}</option>
-          {plant?.vehicles.map((v) => (
-            <option key={v.id} value={v.id}>
-              {v.name}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label className="field">
-        <span className="cap">{t("filter.station")}</span>
-        <select value={filter.station ?? ""} onChange={(event) => onFilter("station", event.target.value)}>
-          <option value="">{t("filter.all_stations")}</option>
-          {stations.map((s) => (
-            <option key={s.id} value={s.number}>
-              {s.number}, {s.name}
-            </option>
-          ))}
-        </select>
-      </label>
-      <label className="field">
-        <span className="cap">{t("col.result")}</span>
-        <select value={filter.result ?? ""} onChange={(event) => onFilter("result", event.target.value)}>
-          <option value="">{t("filter.all_results")}</option>
-          {kResults.map((result) => (
-            <option key={result} value={result}>
-              {t(result)}
-            </option>
-          ))}
-        </select>
-      </label>
+      {choice(
+        "vehicle",
+        t("filter.vehicle"),
+        t("filter.all_vehicles"),
+        (plant?.vehicles ?? []).map((v) => [v.id, v.name]),
+      )}
+      {choice(
+        "station",
+        t("filter.station"),
+        t("filter.all_stations"),
+        stations.map((s) => [s.number, `${s.number}, ${s.name}`]),
+      )}
+      {choice(
+        "result",
+        t("col.result"),
+        t("filter.all_results"),
+        kResults.map((r) => [r, t(r)]),
+      )}
     </>
   );
 }

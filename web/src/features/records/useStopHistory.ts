@@ -1,5 +1,5 @@
 import { useInfiniteQuery, useQuery, useQueryClient } from "@tanstack/react-query";
-import { useEffect, useMemo } from "react";
+import { useEffect, useMemo, useRef } from "react";
 import { api, call } from "@/shared/api";
 import type { StopRecord } from "@/shared/api/types";
 import { useStopRecords, useUnmeasuredTurn } from "@/shared/live";
@@ -46,7 +46,10 @@ export function useStopHistory(filter: StopFilter, limit = kPage) {
 export function useUnmeasuredHistory({ vehicle, station }: StopFilter) {
   const queries = useQueryClient();
   const turn = useUnmeasuredTurn();
+  const asked = useRef(turn);
   useEffect(() => {
+    if (asked.current === turn) return;
+    asked.current = turn;
     void queries.invalidateQueries({ queryKey: ["unmeasured-stops"] });
   }, [queries, turn]);
   const pages = useInfiniteQuery({
