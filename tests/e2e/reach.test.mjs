@@ -8,11 +8,12 @@ import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mj
 import { reachFaultsOf } from "../harness/reach.mjs";
 
 const VEHICLES = ["TP-01", "MV-01"];
+const BROKEN = ["TP-02", "TP-03"]; // join for the last tests, which are about banners
 let system, client, browser, stop, order;
 
 before(async () => {
   system = await System.create("final-assembly");
-  system.prepareVehicles(VEHICLES);
+  system.prepareVehicles([...VEHICLES, ...BROKEN]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
   VEHICLES.forEach((id, i) => system.startAgent(id, { seed: 21 + i }));
@@ -121,7 +122,7 @@ test("battery, fields and mode of a vehicle stay at every width", async () => {
   await page.context().close();
 });
 
-// Last: MV-01 is told that it stands where its numbers are longest.
+// Late: MV-01 is told that it stands where its numbers are longest.
 test("the longest numbers of a pose leave the columns apart", async () => {
   await client.post("/api/v1/vehicles/MV-01/init-position", { ...(await client.get("/api/v1/vehicles/MV-01")).pose, x_m: 114.6, y_m: 57, heading_rad: Math.PI });
   await client.untilVehicle("MV-01", (v) => v.pose.x_m > 114, "stands where it was told");
@@ -138,4 +139,56 @@ test("the longest numbers of a pose leave the columns apart", async () => {
     await picture(page, `pose-${width}`);
   }
   await page.context().close();
+});
+
+// From here on two vehicles have a broken wheel, and after that the fleet is paused, too.
+test("on a phone the most urgent alarm is whole in three lines, and its vehicle and the other alarms are a press away", async () => {
+  for (const id of BROKEN) system.startAgent(id, { seed: 23, sensing: "analytic", extra: ["--fault", "wheel=front drive@1"] });
+  for (const id of BROKEN) await client.untilVehicle(id, (v) => v.wheels.some((w) => w.fault !== ""), "has a broken wheel");
+  for (const [lang, wheel, todo] of [
+    ["en", "TP-02: Wheel front drive: fault of the steering drive", "Have the wheel looked at before it moves on."],
+    ["zh", "TP-02：前驱动轮：转向驱动故障", "继续行驶前请检修该车轮。"],
+  ]) {
+    const page = await signedIn(browser, system, "operator", { width: 390, height: 844, lang, path: "/orders" });
+    const banner = page.locator(".banner.high");
+    await banner.getByText(wheel).waitFor();
+    await banner.getByRole("button", { name: /^(1 more|另 1 项)$/ }).waitFor();
+    const seen = await banner.evaluate((e) => {
+      const words = document.createRange();
+      words.selectNodeContents(e.querySelector(".txt"));
+      const [text] = e.querySelectorAll(".txt");
+      return { lines: new Set([...words.getClientRects()].filter((r) => r.width > 0).map((r) => Math.round(r.bottom / 9))).size, cut: text.scrollHeight > text.clientHeight + 1 || text.scrollWidth > text.clientWidth + 1, height: e.offsetHeight };
+    });
+    assert.ok(seen.lines <= 3 && !seen.cut && seen.height <= 3 * 18 + 14, JSON.stringify(seen));
+    await picture(page, `banner-phone-${lang}`);
+    await banner.getByRole("link").click();
+    await page.locator(".vcard", { hasText: todo }).waitFor();
+    await banner.getByRole("button").click();
+    for (const id of BROKEN) await page.locator("main tr", { hasText: id }).waitFor();
+    assert.deepEqual(await reachFaultsOf(page), []);
+    await page.context().close();
+  }
+});
+
+test("two banners on a tablet leave the pad of Send all its keys, and Start its place", async () => {
+  await client.post("/api/v1/fleet/pause");
+  for (const lang of ["en", "zh"]) {
+    const page = await signedIn(browser, system, "operator", { width: 1024, height: 768, lang, path: "/send" });
+    await page.goto(`${system.url}/send?vehicle=MV-01`);
+    await page.locator(".banner.held").waitFor();
+    await page.locator(".banner.high").waitFor();
+    await page.locator(".key").first().waitFor();
+    await picture(page, `banners-send-${lang}`);
+    const hidden = await page.locator(".key, .confirm .btn").evaluateAll((all) => all.filter((e) => {
+      const { left, right, top, bottom } = e.getBoundingClientRect();
+      const inset = 4; // rounded corners
+      const corners = [[left + inset, top + inset], [right - inset, top + inset], [left + inset, bottom - inset], [right - inset, bottom - inset]];
+      return bottom - top < 76 || !corners.every(([x, y]) => e.contains(document.elementFromPoint(x, y)));
+    }).map((e) => e.textContent || e.getAttribute("aria-label")));
+    assert.deepEqual(hidden, [], "without scrolling");
+    const place = await page.locator(".confirm .go").evaluate((e) => Math.round(innerWidth - e.getBoundingClientRect().right));
+    assert.ok(place <= 24, `Start is at the right, ${place} px from the edge`);
+    assert.deepEqual(await reachFaultsOf(page), []);
+    await page.context().close();
+  }
 });

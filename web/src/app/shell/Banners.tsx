@@ -1,4 +1,4 @@
-import { useEffect, useMemo, useState } from "react";
+import { useEffect, useMemo, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import type { Fleet } from "@/shared/api/types";
 import { age, days, timeOfDay } from "@/shared/i18n/format";
@@ -13,8 +13,9 @@ import {
   useVehicles,
   type Alarm,
 } from "@/shared/live";
-import { navigate } from "@/shared/router";
+import { Link, navigate } from "@/shared/router";
 import { Banner, Button, goGuard } from "@/shared/ui";
+import { usePhone } from "@/shared/ui/useNarrow";
 import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { PauseBanner } from "./PauseBanner";
 import "./Banners.css";
@@ -101,25 +102,56 @@ function AlarmBanner({ alarm, more }: { alarm: Alarm; more: number }) {
   const { t } = useTranslation();
   const words = useAlarmWords();
   const vehicle = useVehicle(alarm.vehicle);
+  const phone = usePhone();
+  const map = `/map?vehicle=${encodeURIComponent(alarm.vehicle)}`;
+  const what = (
+    <>
+      <b>{vehicle?.name ?? alarm.vehicle}</b>
+      {t("alarm.colon")}
+      {words.text(alarm, vehicle)}
+    </>
+  );
+  const show = <Button onPress={() => navigate(map)}>{t("alarm.show")}</Button>;
+  if (phone) return <BriefAlarm priority={alarm.priority} what={what} map={map} more={more} show={show} />;
   return (
     <Banner
       priority={alarm.priority}
       what={
         <>
-          <b>{vehicle?.name ?? alarm.vehicle}</b>
-          {t("alarm.colon")}
-          {words.text(alarm, vehicle)}
+          {what}
           {more > 0 && <span className="lab"> {t("alarm.more", { count: more })}</span>}
         </>
       }
       todo={words.todo(alarm)}
+      actions={show}
+    />
+  );
+}
+
+/** On a phone the sentence alone, and a press on it shows the vehicle with what to do; the others are a press away, too. */
+function BriefAlarm({ priority, what, map, more, show }: BriefAlarmProps) {
+  const { t } = useTranslation();
+  return (
+    <Banner
+      priority={priority}
+      brief
+      what={<Link to={map}>{what}</Link>}
       actions={
-        <Button onPress={() => navigate(`/map?vehicle=${encodeURIComponent(alarm.vehicle)}`)}>
-          {t("alarm.show")}
-        </Button>
+        more > 0 ? (
+          <Button onPress={() => navigate("/vehicles")}>{t("alarm.others", { count: more })}</Button>
+        ) : (
+          show
+        )
       }
     />
   );
+}
+interface BriefAlarmProps {
+  priority: Alarm["priority"];
+  what: ReactNode;
+  map: string;
+  more: number;
+  show: ReactNode;
 }
 
 /** Vehicles that a person must allow to move; hidden while the fleet is paused, where the corner says it. */

@@ -1,10 +1,10 @@
 import { useTranslation } from "react-i18next";
 import { CheckRow, StatusSymbol } from "@/shared/ui";
 import { useTemplates, useWords } from "@/shared/words/useWords";
-import { checkWords } from "./checkWords";
+import { checksSummary, checkWords } from "./checkWords";
 import type { ShownCheck } from "./floorCheck";
 import { useNarrow } from "@/shared/ui/useNarrow";
-import { countChecks, foldChecks, type Preview } from "./preview";
+import { countChecks, foldChecks, makesWait, type Preview } from "./preview";
 import "./ChecksStep.css";
 
 /** Checks that a person may get hurt by. */
@@ -36,6 +36,7 @@ export function ChecksStep({
       value={text(check)}
       ageS={check.age_s}
       critical={critical.has(check.code)}
+      waits={makesWait(check)}
     />
   );
   return (
@@ -68,14 +69,14 @@ export function useCheckText(): (check: ShownCheck) => string {
   return (check) => checkWords(check, words.names, template, words.reason);
 }
 
-/** "9 of 9 pass, 1 note" */
-export function useChecksSummary(): (checks: readonly ShownCheck[] | undefined) => string | undefined {
+/** The checks in one line, behind the sign of the worst. */
+export function ChecksSummary({ checks }: { checks: readonly ShownCheck[] }) {
   const { t } = useTranslation("send");
-  return (checks) => {
-    if (!checks) return undefined;
-    const { pass, note, fail, total } = countChecks(checks);
-    if (fail > 0) return t("checks.summary_fail", { fail, total });
-    if (note === 0) return t("checks.summary", { pass, total });
-    return t(note === 1 ? "checks.summary_note_one" : "checks.summary_note_other", { pass, total, note });
-  };
+  const { fail, wait, note } = countChecks(checks);
+  return (
+    <>
+      {fail + wait + note > 0 && <StatusSymbol name={fail + wait > 0 ? "a-2" : "a-3"} />}{" "}
+      {checksSummary(checks, (key, params) => t(key, params))}
+    </>
+  );
 }

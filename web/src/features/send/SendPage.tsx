@@ -44,7 +44,7 @@ export function SendPage() {
       {!orderId && busy && vehicle && (
         <BusyNote busy={busy} vehicle={vehicle} start={start} body={body} why={send.why} />
       )}
-      <div className={`sgrid ${orderId ? "moving" : ""}`} data-step={current}>
+      <div className={`sgrid ${orderId ? "moving" : ""}`} data-step={orderId ? undefined : current}>
         {orderId ? (
           <MovePanel
             order={order}

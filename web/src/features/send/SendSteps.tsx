@@ -5,7 +5,7 @@ import { PanelFailed } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { duration } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { ChecksStep, useChecksSummary } from "./ChecksStep";
+import { ChecksStep, ChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
 import { StationStep } from "./StationStep";
 import { Step } from "./Step";
@@ -29,7 +29,6 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
   const { t } = useTranslation("send");
   const words = useWords();
   const place = usePlace();
-  const summary = useChecksSummary();
   const narrow = useNarrow();
   const [choosing, setChoosing] = useState(false);
   const { vehicle, station, option, preview, step, checks, instead } = send;
@@ -106,7 +105,12 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
             }}
           />
         </Step>
-        <Step number={4} title={t("checks.title")} right={summary(checks)} open={current === 4}>
+        <Step
+          number={4}
+          title={t("checks.title")}
+          right={checks && <ChecksSummary checks={checks} />}
+          open={current === 4}
+        >
           {preview.kind === "failed" ? (
             <PanelFailed what={t("preview.failed")} error={preview.problem} onRetry={send.retry} />
           ) : (

@@ -7,7 +7,7 @@ export interface StepProps {
   title: string;
   /** The step's answer in a few words; shown when it is folded (tablets), `right` always. */
   answer?: string | undefined;
-  right?: string | undefined;
+  right?: ReactNode;
   open: boolean;
   onOpen?: () => void;
   /** On tablets, closes an open step that is answered. */

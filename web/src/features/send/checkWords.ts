@@ -1,5 +1,6 @@
 import type { Params, Reason } from "@/shared/api/types";
 import type { ShownCheck } from "./floorCheck";
+import { countChecks } from "./preview";
 import { degrees, millimetres } from "@/shared/words/format";
 import { listParams, say, type Names, type Template } from "@/shared/words/words";
 
@@ -34,4 +35,17 @@ export function checkWords(
     check.code === "load" && check.result === "pass" && typeof total === "number" && total < 1000;
   const key = isEmpty ? "checks.pass.load_empty" : `checks.${check.result}.${check.code}`;
   return say(key, params, names, template) ?? listParams(check.params, names, template("words.join") ?? ", ");
+}
+
+const kSumOrder = ["fail", "wait", "note", "pass"] as const;
+
+/** "1 must wait, 1 to note, 10 pass": the worst first, nothing counted twice, and "All 12 pass" only where all do. */
+export function checksSummary(
+  checks: readonly ShownCheck[],
+  say: (key: string, params?: Params) => string,
+): string {
+  const sum = countChecks(checks);
+  if (sum.pass === checks.length) return say("checks.sum.all", { count: sum.pass });
+  const parts = kSumOrder.filter((part) => sum[part] > 0);
+  return parts.map((part) => say(`checks.sum.${part}`, { count: sum[part] })).join(say("words.join"));
 }

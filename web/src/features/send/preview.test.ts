@@ -2,7 +2,6 @@ import { describe, expect, it } from "vitest";
 import type { Check, Station, DryRun, ModeOption, Vehicle } from "@/shared/api/types";
 import {
   chosenOption,
-  countChecks,
   foldChecks,
   NewestOnly,
   previewKey,
@@ -103,8 +102,11 @@ describe("checks", () => {
     const { rows, folded } = foldChecks(all, true);
     expect([rows.map((c) => c.code), folded.map((c) => c.code)]).toEqual([["safety", "wheels"], ["link"]]);
   });
-  it("counts a note as passed", () =>
-    expect(countChecks(all)).toEqual({ pass: 2, note: 1, fail: 1, total: 3 }));
+  it("puts what makes it wait before what passes, and hides it nowhere", () => {
+    const taken = [check("link", "pass"), check("station", "note"), check("wheels", "note")];
+    expect(sortChecks(taken).map((c) => c.code)).toEqual(["station", "link", "wheels"]);
+    expect(foldChecks(taken, true).rows.map((c) => c.code)).toEqual(["station", "wheels"]);
+  });
 });
 
 describe("modes", () => {

@@ -50,11 +50,14 @@ export const kDebounceMs = 250;
 
 const order: Record<ShownCheck["result"], number> = { fail: 0, note: 1, pass: 2 };
 
-/** Fails on top; within one result the server's order stays, and notes keep their place. */
+/** What a note says of the way there: the order is taken, and the vehicle waits. */
+const kWaits = new Set<ShownCheck["code"]>(["station", "clearance", "mode"]);
+export const makesWait = (check: ShownCheck) => check.result === "note" && kWaits.has(check.code);
+
+/** Fails on top, then what makes it wait; within one result the server's order stays, and notes keep their place. */
 export function sortChecks(checks: readonly ShownCheck[]): ShownCheck[] {
-  const fails = checks.filter((c) => c.result === "fail");
-  const rest = checks.filter((c) => c.result !== "fail");
-  return [...fails, ...rest];
+  const rank = (c: ShownCheck) => (c.result === "fail" ? 0 : makesWait(c) ? 1 : 2);
+  return [...checks].sort((a, b) => rank(a) - rank(b));
 }
 
 /** On a small screen the passed ones stand in one line that opens, so that no failed one is below the edge. */
@@ -77,15 +80,17 @@ export function worst(checks: readonly ShownCheck[]): ShownCheck["result"] | und
   );
 }
 
-export function countChecks(checks: readonly ShownCheck[]): {
-  pass: number;
-  note: number;
-  fail: number;
-  total: number;
-} {
-  const of = (r: ShownCheck["result"]) => checks.filter((c) => c.result === r).length;
-  // A note does not hold the move: it counts as passed.
-  return { pass: of("pass") + of("note"), note: of("note"), fail: of("fail"), total: checks.length };
+export type CheckSum = Record<"fail" | "wait" | "note" | "pass", number>;
+
+/** Each check counts once, under what it means for the start: fails, makes it wait, is to be noted, passes. */
+export function countChecks(checks: readonly ShownCheck[]): CheckSum {
+  const of = (has: (c: ShownCheck) => boolean) => checks.filter(has).length;
+  return {
+    fail: of((c) => c.result === "fail"),
+    wait: of(makesWait),
+    note: of((c) => c.result === "note" && !makesWait(c)),
+    pass: of((c) => c.result === "pass"),
+  };
 }
 
 const modeOrder: MotionMode[] = [

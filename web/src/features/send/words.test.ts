@@ -7,8 +7,9 @@ import wordsEn from "@/shared/i18n/words.en.json";
 import wordsZh from "@/shared/i18n/words.zh.json";
 import sprite from "@/shared/ui/sprite.svg?raw";
 import { noNames } from "@/shared/words/words";
-import { checkWords } from "./checkWords";
+import { checksSummary, checkWords } from "./checkWords";
 import en from "./i18n.en.json";
+import zh from "./i18n.zh.json";
 import { modeIcon } from "./ModeStep";
 import { deviationValues, moveWords, type Segment } from "./moveWords";
 import { dimension, wayOf } from "./moveGeometry";
@@ -32,6 +33,40 @@ const segment = (over: Partial<Segment>): Segment => ({
   length_m: 0,
   duration_s: 1,
   ...over,
+});
+
+describe("the line of the checks", () => {
+  const from =
+    (catalog: object) =>
+    (key: string, params: Record<string, unknown> = {}) =>
+      String(key.split(".").reduce<unknown>((o, k) => (o as Record<string, unknown>)[k], catalog)).replace(
+        /\{\{(\w+)\}\}/g,
+        (_, name: string) => String(params[name]),
+      );
+  it.each([
+    [["link pass", "load pass"], "All 2 pass", "2 项全部通过"],
+    [["link pass", "load pass", "wheels note"], "1 to note, 2 pass", "1 项须留意，2 项通过"],
+    [
+      ["link pass", "station note", "wheels note"],
+      "1 must wait, 1 to note, 1 pass",
+      "1 项须等待，1 项须留意，1 项通过",
+    ],
+    [["station note"], "1 must wait", "1 项须等待"],
+    [
+      ["safety fail", "clearance note", "link pass"],
+      "1 failed, 1 must wait, 1 pass",
+      "1 项未通过，1 项须等待，1 项通过",
+    ],
+  ])("of %j is %s", (made, inEnglish, inChinese) => {
+    const checks = made.map((one) => {
+      const [code, result] = one.split(" ");
+      return { code, result, params: {} } as Check;
+    });
+    expect([checksSummary(checks, from(en)), checksSummary(checks, from(zh))]).toEqual([
+      inEnglish,
+      inChinese,
+    ]);
+  });
 });
 
 describe("moveWords", () => {

@@ -20,13 +20,18 @@ export interface BannerProps {
   actions?: ReactNode;
   /** Word in the coloured block; the priority by default. */
   word?: string;
+  /** A sentence that a press follows, and no second one: at most three lines on a phone. */
+  brief?: boolean;
 }
 
 /** The most urgent thing only, always at the same place: top of the page. */
-export function Banner({ priority, what, todo, age, actions, word }: BannerProps) {
+export function Banner({ priority, what, todo, age, actions, word, brief }: BannerProps) {
   const { t } = useTranslation();
   return (
-    <div className={`banner ${priority}`} role={priority === "held" ? "status" : "alert"}>
+    <div
+      className={`banner ${priority} ${brief ? "brief" : ""}`}
+      role={priority === "held" ? "status" : "alert"}
+    >
       <div className="pri">
         <StatusSymbol name={prioritySymbol[priority]} />
         <span>{word ?? t(`priority.${priority}`)}</span>

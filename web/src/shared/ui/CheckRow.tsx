@@ -13,6 +13,8 @@ export interface CheckRowProps {
   ageS?: number | undefined;
   /** A failed check that may hurt somebody is critical, else high. */
   critical?: boolean;
+  /** A note for which the order would wait: amber, as in the command bar. */
+  waits?: boolean;
   /** What it says is too old to be believed: nothing passes any more. */
   stale?: boolean;
 }
@@ -23,10 +25,12 @@ export function sortChecks<T extends { result: CheckResult }>(checks: readonly T
   return [...checks].sort((a, b) => kOrder[a.result] - kOrder[b.result]);
 }
 
-export function CheckRow({ result, name, value, ageS, critical, stale }: CheckRowProps) {
+export function CheckRow({ result, name, value, ageS, critical, waits, stale }: CheckRowProps) {
+  const note = waits ? "a-2" : "a-3";
   const symbol =
-    result === "pass" ? (stale ? "s-stale" : "c-ok") : result === "note" ? "a-3" : critical ? "a-1" : "a-2";
-  const wash = result === "pass" ? "" : result === "note" ? "warn" : critical ? "crit" : "fail";
+    result === "pass" ? (stale ? "s-stale" : "c-ok") : result === "note" ? note : critical ? "a-1" : "a-2";
+  const wash =
+    result === "pass" ? "" : result === "note" && !waits ? "warn" : critical && !waits ? "crit" : "fail";
   return (
     <div className={`chk ${wash} ${stale ? "old" : ""}`} data-result={result} data-stale={stale}>
       <StatusSymbol name={symbol} className={result === "pass" ? "quiet" : ""} />

@@ -1,9 +1,10 @@
 import { useSyncExternalStore } from "react";
 
-const query = typeof window === "undefined" ? undefined : window.matchMedia("(max-width: 1279px)");
+const media = (query: string) => (typeof window === "undefined" ? undefined : window.matchMedia(query));
+const tablet = media("(max-width: 1279px)");
+const phone = media("(max-width: 719px)");
 
-/** True on tablets, where one thing is shown at a time. */
-export function useNarrow(): boolean {
+function useMatches(query: MediaQueryList | undefined): boolean {
   return useSyncExternalStore(
     (listener) => {
       query?.addEventListener("change", listener);
@@ -12,3 +13,9 @@ export function useNarrow(): boolean {
     () => query?.matches ?? false,
   );
 }
+
+/** True on tablets and phones, where one thing is shown at a time. */
+export const useNarrow = (): boolean => useMatches(tablet);
+
+/** True on phones, where all stands in one column. */
+export const usePhone = (): boolean => useMatches(phone);
