@@ -20,6 +20,9 @@ import { useAlarmWords } from "@/shared/words/useAlarmWords";
 import { PauseBanner } from "./PauseBanner";
 import "./Banners.css";
 
+/** So many vehicles that wait are named in the banner; the panel behind its button has all. */
+const kNamed = 3;
+
 /** A cut shorter than this is not worth a word: a page that just loaded, a reconnect. */
 const kGraceMs = 300;
 
@@ -163,7 +166,9 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
   const may = useMayCommand();
   const waiting = vehicles.filter((v) => v.needs_resume && !v.paused && !silent(v));
   if (waiting.length === 0 || fleet?.paused) return null;
-  const names = waiting.map((v) => v.name).join(", ");
+  const first = waiting.slice(0, kNamed).map((v) => v.name);
+  const more = waiting.length - first.length;
+  const names = first.join(t("join")) + (more > 0 ? ` ${t("resume.more", { count: more })}` : "");
   return (
     <Banner
       priority="high"
