@@ -58,6 +58,7 @@ async function open({ path, size = [1920, 1080], lang = "en", theme = "light", c
     const timer = setInterval(() => {
       ws.send(JSON.stringify({ type: "poses", at: new Date().toISOString(), poses: [] }));
     }, 200);
+    timer.unref(); // a page that is closed does not close its stream here
     ws.onClose(() => clearInterval(timer));
   });
   const mark = path.includes("?") ? "&" : "?";

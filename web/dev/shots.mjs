@@ -53,6 +53,7 @@ async function open(width, height, lang, theme, options = {}) {
       if (options.cut && tick > 8) return;
       socket.send(JSON.stringify(poses(first.vehicles, tick++)));
     }, 100);
+    timer.unref(); // a page that is closed does not close its stream here
     socket.onClose(() => clearInterval(timer));
   });
   const separator = path.includes("?") ? "&" : "?";
