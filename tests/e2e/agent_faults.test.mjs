@@ -1,4 +1,4 @@
-// Each fault that an agent can inject, but a bearing that grinds (which takes long to grow warm), as its pages tell it: headline,
+// Each fault that an agent can inject, but a bearing that grinds (see warm_wheel.test.mjs), as its pages tell it: headline,
 // counter, list and what to do, in both languages and at three sizes. A broken wheel and dark cameras are in truth.test.mjs; what
 // frees the way again is in closed_loop/safe_stops.test.mjs.
 import assert from "node:assert/strict";
