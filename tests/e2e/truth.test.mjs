@@ -47,14 +47,17 @@ test("Start says why it is off for a station that is not for the vehicle; an ord
 
 test("at an occupied station the bar says for which vehicle it will wait, and the check names it", async () => {
   const { number } = system.plant.model.stations.find((s) => s.id === system.plant.vehicle("TP-02").home);
-  for (const [lang, waits, check] of [
-    ["en", `It will wait for TP-02, which stands at station ${number}.`, `Station ${number} is taken: will wait for TP-02`],
-    ["zh", `将等待 TP-02：它正停在 ${number} 号站。`, `${number} 号站被占用：将等待 TP-02`],
+  for (const [lang, waits, check, line] of [
+    ["en", `It will wait for TP-02, which stands at station ${number}.`, `Station ${number} is taken: will wait for TP-02`, /^ ?\d to wait for, .*\d+ pass$/],
+    ["zh", `将等待 TP-02：它正停在 ${number} 号站。`, `${number} 号站被占用：将等待 TP-02`, /^ ?\d 项须等待，.*\d+ 项通过$/],
   ]) {
     const page = await signedIn(browser, system, "operator", { lang });
     await page.goto(`${system.url}/send?vehicle=TP-01&station=${number}`);
     await page.locator(".confirm .waits", { hasText: waits }).waitFor({ timeout: 20_000 });
-    await page.locator(".checks .chk[data-result=note]", { hasText: check }).waitFor();
+    const row = page.locator(".checks .chk[data-result=note]", { hasText: check });
+    await row.waitFor();
+    assert.equal(await row.locator("svg use[href$='a-2']").count(), 1, "amber, as in the bar");
+    await page.locator(".s4 .ans.r", { hasText: line }).waitFor();
     assert.equal(await page.locator("button.go").getAttribute("data-state"), "ready", "a person may decide to wait");
     await picture(page, `send-occupied-${lang}`);
     assert.deepEqual(page.errors, []);

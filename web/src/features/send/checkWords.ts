@@ -39,7 +39,7 @@ export function checkWords(
 
 const kSumOrder = ["fail", "wait", "note", "pass"] as const;
 
-/** "1 must wait, 1 to note, 10 pass": the worst first, nothing counted twice, and "All 12 pass" only where all do. */
+/** "1 to wait for, 1 to note, 10 pass": the worst first, nothing counted twice, and "All 12 pass" only where all do. */
 export function checksSummary(
   checks: readonly ShownCheck[],
   say: (key: string, params?: Params) => string,

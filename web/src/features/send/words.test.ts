@@ -48,13 +48,13 @@ describe("the line of the checks", () => {
     [["link pass", "load pass", "wheels note"], "1 to note, 2 pass", "1 项须留意，2 项通过"],
     [
       ["link pass", "station note", "wheels note"],
-      "1 must wait, 1 to note, 1 pass",
+      "1 to wait for, 1 to note, 1 pass",
       "1 项须等待，1 项须留意，1 项通过",
     ],
-    [["station note"], "1 must wait", "1 项须等待"],
+    [["station note"], "1 to wait for", "1 项须等待"],
     [
       ["safety fail", "clearance note", "link pass"],
-      "1 failed, 1 must wait, 1 pass",
+      "1 failed, 1 to wait for, 1 pass",
       "1 项未通过，1 项须等待，1 项通过",
     ],
   ])("of %j is %s", (made, inEnglish, inChinese) => {
