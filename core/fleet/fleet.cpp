@@ -18,6 +18,7 @@
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -75,7 +76,8 @@ void Fleet::vehicle_heard(const plant::VehicleId& id, Time now) {
     if (VehicleRun* run = fleet.find(id)) hear(fleet, *run, now);
 }
 
-void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now) {
+void Fleet::vehicle_state(const plant::VehicleId& id, const vda5050::StateMessage& state,
+                          Time now) {
     FleetState& fleet = input<&Fleet::vehicle_state>(now, id, state);
     VehicleRun* run = fleet.find(id);
     if (!run) return;
@@ -84,7 +86,8 @@ void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state,
     dispatch_for(fleet, *run, now);
 }
 
-void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now) {
+void Fleet::vehicle_factsheet(const plant::VehicleId& id, const vda5050::Factsheet& factsheet,
+                              Time now) {
     FleetState& fleet = input<&Fleet::vehicle_factsheet>(now, id, factsheet);
     VehicleRun* run = fleet.find(id);
     if (!run) return;
@@ -92,7 +95,7 @@ void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& facts
     hear(fleet, *run, now);
 }
 
-void Fleet::vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error,
+void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::VehicleError& error,
                                     Time now) {
     FleetState& fleet = input<&Fleet::vehicle_message_refused>(now, id, error);
     VehicleRun* run = fleet.find(id);
@@ -147,10 +150,10 @@ void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
     const Reason reason{"command_expired", {}};
     const auto stand = [&](VehicleRun& run) {
         // It has not been told to go on, and is not now.
-        if (is_asked(run, "stopPause")) {
+        if (is_asked(run, vda5050::kStopPause)) {
             run.record.paused = Pause{{}, now, false};
             fleet.store(run);
-            pause_motion(fleet, run, "startPause", now);
+            pause_motion(fleet, run, vda5050::kStartPause, now);
         }
         require_person(fleet, run, reason, now);
     };

@@ -10,6 +10,7 @@
 #include "core/fleet/state/job_control.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
+#include "core/vda5050/actions.hpp"
 
 // What people and programs ask of job orders.
 namespace pulseline::fleet {
@@ -77,7 +78,7 @@ Status pause(FleetState& fleet, JobOrder& order, const std::string& actor, Time 
     set_order_state(fleet, order, JobState::kInterrupted, {"paused_by_person", {{"actor", actor}}},
                     actor, now);
     VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (run && run->has_leg()) pause_motion(fleet, *run, "startPause", now);
+    if (run && run->has_leg()) pause_motion(fleet, *run, vda5050::kStartPause, now);
     return {};
 }
 
@@ -99,7 +100,7 @@ Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time
     const bool was_paused = std::exchange(order.pause_requested, false);
     set_order_state(fleet, order, JobState::kRunning, {}, actor, now);
     // Also without a leg: the drive may have ended while the pause was on its way.
-    if (was_paused && run) pause_motion(fleet, *run, "stopPause", now);
+    if (was_paused && run) pause_motion(fleet, *run, vda5050::kStopPause, now);
     return {};
 }
 
@@ -118,7 +119,7 @@ Status end(FleetState& fleet, JobOrder& order, bool as_stop, const std::string& 
     } else if (!asked_before) {
         cancel_leg(fleet, *run, now);
         // A pause that waits at the vehicle would outlive the order that asked for it.
-        if (order.pause_requested) pause_motion(fleet, *run, "stopPause", now);
+        if (order.pause_requested) pause_motion(fleet, *run, vda5050::kStopPause, now);
     }
     return {};
 }

@@ -12,6 +12,7 @@
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
+#include "core/vda5050/actions.hpp"
 
 // What people ask of vehicles and of the fleet as a whole.
 namespace pulseline::fleet {
@@ -63,7 +64,7 @@ void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, bool wi
     fleet.store(run);
     fleet.out.fleet_changed = true;
     add_event(fleet, now, "vehicle.paused", {}, run.record.leg, id, actor);
-    pause_motion(fleet, run, "startPause", now);
+    pause_motion(fleet, run, vda5050::kStartPause, now);
     JobOrder* order = fleet.orders.of(id);
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted,
@@ -138,10 +139,10 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                     {{"x_m", pose.x_m}, {"y_m", pose.y_m}});
     }
     std::erase_if(run->actions,
-                  [](const PendingAction& p) { return p.action.type == "initPosition"; });
-    Action action;
-    action.type = "initPosition";
-    action.init_position = InitPosition{pose, stated.hall, {}};
+                  [](const PendingAction& p) { return p.action.type == vda5050::kInitPosition; });
+    vda5050::Action action;
+    action.type = vda5050::kInitPosition;
+    action.init_position = vda5050::InitPosition{pose, stated.hall, {}};
     run->stated = VehicleRun::Statement{stated, now, actor};
     add_event(fleet, now, "vehicle.init_position", {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
@@ -197,7 +198,7 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         run.connection_refused = false;
         fleet.out.fleet_changed = true;
         fleet.store(run);
-        if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
+        if (was_paused || run.state.paused) pause_motion(fleet, run, vda5050::kStopPause, now);
         if (is_in_doubt(run)) end_doubt(fleet, run, now);
 
         resume_leg(fleet, run, actor, now);

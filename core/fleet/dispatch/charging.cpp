@@ -11,6 +11,7 @@
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
+#include "core/vda5050/actions.hpp"
 
 // Vehicles without an order whose battery is low go to chargers.
 namespace pulseline::fleet {
@@ -43,7 +44,7 @@ bool is_taken(const FleetState& fleet, const plant::Station& charger, const Vehi
 std::optional<Reason> may_not_charge(const VehicleRun& run, Time now) {
     const Params who{{"vehicle", run.record.id.str()}};
     if (is_loaded(run)) return Reason{"charge_loaded", who};
-    if (!run.factsheet || !has(run.factsheet->node_actions, "startCharging")) {
+    if (!run.factsheet || !has(run.factsheet->node_actions, vda5050::kStartCharging)) {
         return Reason{"charge_not_announced", who};
     }
     if (run.charge_retry && now < *run.charge_retry) return Reason{"charge_failed", who};
@@ -100,11 +101,11 @@ std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Sta
 
 bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.state.charging || !run.factsheet) return false;
-    if (!has(run.factsheet->actions, "stopCharging")) return false;
-    if (!is_asked(run, "stopCharging") && (!run.charge_retry || now >= *run.charge_retry)) {
+    if (!has(run.factsheet->actions, vda5050::kStopCharging)) return false;
+    if (!is_asked(run, vda5050::kStopCharging) && (!run.charge_retry || now >= *run.charge_retry)) {
         run.charge_retry = now + kAskAgain;
-        Action action;
-        action.type = "stopCharging";
+        vda5050::Action action;
+        action.type = vda5050::kStopCharging;
         send_action(fleet, run, std::move(action), now);
     }
     return true;

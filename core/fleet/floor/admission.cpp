@@ -87,8 +87,8 @@ traffic::Sequence sequence_of(const FleetState& fleet, const VehicleRun& run) {
     return sequence;
 }
 
-OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
-    OrderNode node;
+vda5050::OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
+    vda5050::OrderNode node;
     const std::size_t index = leg.nodes.size();
     node.node_id = "p" + std::to_string(index);
     node.sequence_id = static_cast<std::int64_t>(2 * index);
@@ -97,8 +97,8 @@ OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
     return node;
 }
 
-OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment) {
-    OrderEdge edge;
+vda5050::OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment) {
+    vda5050::OrderEdge edge;
     const std::size_t index = leg.nodes.size();
     edge.edge_id = "e" + std::to_string(index);
     edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
@@ -126,7 +126,7 @@ void append_move(const FloorClass& of_class, Leg& leg, traffic::PlaceIndex place
         segment.end = segments.back().end;
         segment.turn_rad += segments.back().turn_rad;
     }
-    OrderEdge edge = horizon_edge(leg, std::move(segment));
+    vda5050::OrderEdge edge = horizon_edge(leg, std::move(segment));
     if (from) {
         const auto way = of_class.way_between.find({*from, place});
         if (way != of_class.way_between.end()) {

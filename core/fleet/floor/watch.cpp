@@ -25,7 +25,7 @@ bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t no
     const Leg& leg = run.leg();
     const auto body = plant::outline_with_load(*run.type, is_loaded(run));
     for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
-        const OrderEdge& edge = leg.edges[i - 1];
+        const vda5050::OrderEdge& edge = leg.edges[i - 1];
         const auto under = traffic::tiles_under(hall_index(fleet, leg.hall),
                                                 floor_along(body, edge.segment, edge.corridor), 0);
         const auto outside = fleet.floor.monitor.check_footprint(run.floor.vehicle, under);

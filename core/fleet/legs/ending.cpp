@@ -8,6 +8,7 @@
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 
@@ -22,7 +23,8 @@ void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.gave_up = false;
     run.cancelling = false;
     // Repeated, it would hit the next leg.
-    std::erase_if(run.actions, [](const auto& p) { return p.action.type == "cancelOrder"; });
+    std::erase_if(run.actions,
+                  [](const auto& p) { return p.action.type == vda5050::kCancelOrder; });
     run.leg_started.reset();
     run.floor.leg_planned = false;
     run.floor.idle_since.reset();

@@ -52,7 +52,7 @@ kinematics::ExpectedDeviation expected_of_drive(const VehicleRun& run) {
     std::vector<kinematics::Segment> segments;
     double length_m = 0;
     bool drives = false;  // else it only measures again where it stands
-    for (const OrderEdge& edge : run.leg().edges) {
+    for (const vda5050::OrderEdge& edge : run.leg().edges) {
         segments.push_back(edge.segment);
         length_m += std::abs(edge.segment.length_m);
         drives = drives || edge.segment.length_m != 0 || edge.segment.turn_rad != 0;
@@ -69,7 +69,7 @@ Arrival arrival_of(const VehicleRun& run, const plant::Station& station, const P
 }
 
 StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
-                       const StopMeasurement& found, Time now) {
+                       const vda5050::StopMeasurement& found, Time now) {
     const Leg& leg = run.leg();
     StopRecord stop;
     stop.id = StopRecordId(fleet.ids.next(now));
@@ -120,13 +120,14 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
 
 }  // namespace
 
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& told, Time now) {
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopMeasurement& told,
+                        Time now) {
     const plant::Station* station = plant::find_station(fleet.plant, run.leg().station);
     if (!station) return;
     if (const char* fault = fault_of(fleet, run, *station, told.pose)) {
         return take_failed_stop(fleet, run, fault, now);
     }
-    StopMeasurement found = told;
+    vda5050::StopMeasurement found = told;
     found.pose.heading_rad = wrap(told.pose.heading_rad);
     if (found.arrived && fault_of(fleet, run, *station, *found.arrived)) found.arrived.reset();
     const StopRecord stop = stop_record(fleet, run, *station, found, now);

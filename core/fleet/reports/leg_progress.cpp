@@ -13,11 +13,13 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
-const VehicleError* rejection_of(const StateMessage& state, const std::string& order_id) {
+const vda5050::VehicleError* rejection_of(const vda5050::StateMessage& state,
+                                          const std::string& order_id) {
     for (const auto& error : state.errors) {
         for (const auto& [key, value] : error.references) {
             if (key == "orderId" && value == order_id) return &error;
@@ -35,7 +37,7 @@ void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
 }  // namespace
 
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     Leg& leg = run.leg();
     if (state.order_id != leg.id.str()) {
         // Without pose it has restarted: an order sent before must not set it in motion.
@@ -76,11 +78,11 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
 
     bool measures = false;
     for (const auto& action : leg.nodes.back().actions) {
-        if (action.type != "measureStop") continue;
+        if (action.type != vda5050::kMeasureStop) continue;
         measures = true;
-        const ActionState* found = find_action(state, action.id);
+        const vda5050::ActionState* found = find_action(state, action.id);
         if (!found) continue;
-        if (found->status == ActionStatus::kFinished && found->measurement) {
+        if (found->status == vda5050::ActionStatus::kFinished && found->measurement) {
             take_measured_stop(fleet, run, *found->measurement, now);
             return;
         }
@@ -91,7 +93,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
             return;
         }
         JobOrder* order = fleet.find(leg.order);
-        if (found->status == ActionStatus::kRunning && order &&
+        if (found->status == vda5050::ActionStatus::kRunning && order &&
             leg.step < static_cast<int>(order->steps.size()) &&
             order->steps[static_cast<std::size_t>(leg.step)].state == StepState::kDriving) {
             order->steps[static_cast<std::size_t>(leg.step)].state = StepState::kMeasuring;
@@ -107,9 +109,10 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     }
     if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
         for (const auto& action : leg.nodes.back().actions) {
-            const ActionState* found = find_action(state, action.id);
+            const vda5050::ActionState* found = find_action(state, action.id);
             if (found && !is_final(found->status)) return;
-            if (found && found->status == ActionStatus::kFailed && action.type == "startCharging") {
+            if (found && found->status == vda5050::ActionStatus::kFailed &&
+                action.type == vda5050::kStartCharging) {
                 charge_failed(fleet, run, found->result_description, now);
             }
         }
@@ -119,7 +122,7 @@ void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
     }
     if (!measures && idle && stands_at_stop(fleet, run) && state.pose) {
         // A vehicle without measureStop: its own pose at the last node is the measurement.
-        StopMeasurement found;
+        vda5050::StopMeasurement found;
         found.pose = *state.pose;
         found.sigma_xy_m = state.deviation_range_m;
         found.method = "vehicle_pose";

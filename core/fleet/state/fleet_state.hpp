@@ -15,7 +15,7 @@
 #include "core/fleet/state/standing_orders.hpp"
 #include "core/fleet/state/views.hpp"
 #include "core/fleet/tables/plant_tables.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 /// The fleet's own state: structs only, what is done with them is in the other rooms. Not for use
 /// outside core/fleet.
@@ -23,7 +23,7 @@ namespace pulseline::fleet {
 
 /// An instant action on its way: sent again until the vehicle reports it final.
 struct PendingAction {
-    Action action;
+    vda5050::Action action;
     Time first_sent;
     std::optional<Time> last_sent;
     int sends = 0;
@@ -58,10 +58,10 @@ struct VehicleRun {
     bool connection_refused = false;
     Link link = Link::kNever;
     std::optional<Time> last_heard;
-    StateMessage state;
+    vda5050::StateMessage state;
     std::optional<Time> state_at;
     std::int64_t newest_header = 0;  // of the states on this connection; 0: none yet
-    std::optional<Factsheet> factsheet;
+    std::optional<vda5050::Factsheet> factsheet;
 
     // The order message under way.
     bool leg_seen = false;            // the vehicle has shown this leg's id

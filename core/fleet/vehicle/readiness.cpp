@@ -5,6 +5,7 @@
 
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -22,8 +23,9 @@ bool raises_feet_first(const JobOrder& order) {
     if (step.phase != StepPhase::kBefore) return false;
     const auto todo = step.before.begin() +
                       static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
-    return std::any_of(todo, step.before.end(),
-                       [](const StepAction& action) { return action.type == "raiseParking"; });
+    return std::any_of(todo, step.before.end(), [](const StepAction& action) {
+        return action.type == vda5050::kRaiseParking;
+    });
 }
 
 constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
@@ -129,16 +131,17 @@ std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run
 
 // One whose drive failed while it corrected its stop says that it does not drive, but not that the
 // correction is over.
-bool has_nothing_left(const StateMessage& state) {
+bool has_nothing_left(const vda5050::StateMessage& state) {
     return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
-           std::none_of(state.action_states.begin(), state.action_states.end(),
-                        [](const auto& action) { return action.status == ActionStatus::kRunning; });
+           std::none_of(
+               state.action_states.begin(), state.action_states.end(),
+               [](const auto& action) { return action.status == vda5050::ActionStatus::kRunning; });
 }
 
 bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }
 
 bool has_foreign_order(const VehicleRun& run) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     return !run.has_leg() && run.reconciled && !state.order_id.empty() &&
            !(state.node_states.empty() && state.edge_states.empty());
 }

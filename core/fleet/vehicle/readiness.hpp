@@ -16,7 +16,7 @@ bool is_on_its_way(const VehicleRun& run);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
 bool is_automatic(const VehicleRun& run);
 /// It has given up its order, or done all of it.
-bool has_nothing_left(const StateMessage& state);
+bool has_nothing_left(const vda5050::StateMessage& state);
 /// It carries out an order that this server has not given, or has forgotten.
 bool has_foreign_order(const VehicleRun& run);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.

@@ -15,6 +15,7 @@
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/motion.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -87,14 +88,14 @@ LegView leg_view(const VehicleRun& run, Time now) {
 /// A report of before the pause, or of one that is still braking, does not count.
 bool stands_paused(const VehicleRun& run) {
     return run.record.paused && run.state.paused && !run.state.driving &&
-           !is_asked(run, "startPause");
+           !is_asked(run, vda5050::kStartPause);
 }
 
 /// Beside its line it says why.
 std::optional<Reason> detour(const VehicleRun& run) {
     const bool goes_round =
         std::any_of(run.state.errors.begin(), run.state.errors.end(),
-                    [](const VehicleError& error) { return error.type == "going_round"; });
+                    [](const vda5050::VehicleError& error) { return error.type == "going_round"; });
     return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
 }
 
