@@ -27,7 +27,7 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     run.claim_left = false;
     run.stated.reset();
     JobOrder* order = fleet.orders.of(run.record.id);
-    drop_leg(fleet, run, now);
+    end_leg(fleet, run, LegEnd::kOffFloor, now);
     leave_floor(fleet, run, now);
     if (order && order->cancel_requested) abort_order(fleet, *order, order->reason, {}, now);
 }

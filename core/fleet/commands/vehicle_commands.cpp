@@ -81,11 +81,11 @@ void resume_leg(FleetState& fleet, VehicleRun& run, const std::string& actor, Ti
     }
     if (is_on_its_way(run)) {
         // It could be begun after it was forgotten here, so the vehicle is asked once more.
-        run.update_sends = 0;
+        run.delivery.sent_anew();
         return send_order_update(fleet, run, 0, now);
     }
     // The vehicle never got it or gave it up; the step starts anew from where it stands.
-    forget_leg(fleet, run, now);
+    end_leg(fleet, run, LegEnd::kLost, now);
 }
 
 void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::string& actor,

@@ -87,7 +87,8 @@ const JobOrder* elder_of(const FleetState& fleet, const JobOrder& order, const V
 
 /// Gives up a leg that leads no further; the vehicle gets one of its own from where it stands.
 bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
-    if (run.cancelling || !run.leg_seen || run.update_sent) return false;
+    if (run.delivery.cancelling() || !run.delivery.seen() || run.delivery.unconfirmed())
+        return false;
     if (cannot_move(fleet, run) || !is_dead_end(fleet, run)) return false;
     cancel_leg(fleet, run, now);
     return true;
@@ -98,25 +99,20 @@ bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
 /// and the step begins anew.
 bool drop_unsent(FleetState& fleet, VehicleRun& run, Time now) {
     const Leg& leg = run.leg();
-    if (run.cancelling || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty()) return false;
+    if (run.delivery.cancelling() || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty())
+        return false;
     const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
     if (plan.last() > plan.passed) return false;
     if (!leg.order.empty() && plan.place != traffic::kNoPlace) return false;
-    JobOrder* order = fleet.find(leg.order);
-    drop_leg(fleet, run, now);
-    if (!order) return true;
-    Step& step = order->steps[order->current_step];
-    step.state = StepState::kPending;
-    step.leg = {};
-    fleet.store(*order);
+    end_leg(fleet, run, LegEnd::kUnsent, now);
     return true;
 }
 
 /// A leg that outlived a restart has its base only; the rest of it is planned again.
 void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
-    if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
+    if (run.floor.leg_planned || run.delivery.cancelling() || waits_to_try(run, now)) return;
     if (run.leg().nodes.size() < 2 || cannot_move(fleet, run)) return;
-    if (!run.leg_seen || run.update_sent) return;
+    if (!run.delivery.seen() || run.delivery.unconfirmed()) return;
     const bool had_horizon = run.leg().nodes.size() > run.leg().released_nodes;
     const bool had_stop = !run.leg().nodes.back().actions.empty();
     const auto reason = plan_on_floor(fleet, run, now);

@@ -280,7 +280,8 @@ void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {
 void follow_replans(FleetState& fleet, Time now) {
     for (const auto vehicle : fleet.floor.traffic.take_replanned()) {
         VehicleRun* run = fleet.find(plant::VehicleId(fleet.floor.traffic.name(vehicle)));
-        if (!run || !run->has_leg() || !run->floor.leg_planned || run->cancelling) continue;
+        if (!run || !run->has_leg() || !run->floor.leg_planned || run->delivery.cancelling())
+            continue;
         if (!take_horizon(fleet, *run)) continue;
         Leg& leg = run->leg();
         add_event(fleet, now, "leg.rerouted", leg.order, leg.id, leg.vehicle, {},
@@ -294,7 +295,7 @@ void follow_replans(FleetState& fleet, Time now) {
             cancel_leg(fleet, *run, now);
             continue;
         }
-        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->leg_seen) {
+        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->delivery.seen()) {
             ++leg.update_id;
             send_order_update(fleet, *run, leg.released_nodes - 1, now);
         }

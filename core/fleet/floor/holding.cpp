@@ -165,7 +165,7 @@ void hold_what_is_free(FleetState& fleet, VehicleRun& run, const TileSet& stand,
 
 /// At the end of its base the floor under it can be asked for again, as without a leg.
 bool clears_up_on_leg(const VehicleRun& run) {
-    return run.floor.conflict && run.leg_seen && !run.state.driving &&
+    return run.floor.conflict && run.delivery.seen() && !run.state.driving &&
            run.leg().passed_nodes == run.leg().released_nodes;
 }
 

@@ -93,7 +93,7 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
         if (found == states.end()) break;
         const std::string& type = wanted[step.actions_done].type;
         if (found->status == vda5050::ActionStatus::kFailed) {
-            drop_leg(fleet, run, now, true);
+            end_leg(fleet, run, LegEnd::kDone, now);
             if (step.phase == StepPhase::kBefore) step.state = StepState::kPending;
             const Params params{{"action", type},
                                 {"phase", to_string(step.phase)},
@@ -110,7 +110,7 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
     }
     if (step.actions_done != before) fleet.store(*order);
     if (step.actions_done < wanted.size() || run.state.driving) return;
-    drop_leg(fleet, run, now, true);
+    end_leg(fleet, run, LegEnd::kDone, now);
     step.leg = {};
     if (step.phase == StepPhase::kAfter) {
         finish_step(fleet, *order, static_cast<std::size_t>(leg.step), now);

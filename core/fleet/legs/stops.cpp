@@ -106,7 +106,7 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
     JobOrder* order = fleet.find(run.leg().order);
     const int attempt = run.leg().attempt;
     const int step = run.leg().step;
-    drop_leg(fleet, run, now, run.leg().passed_nodes == run.leg().nodes.size());
+    end_leg(fleet, run, LegEnd::kAnotherApproach, now);
     if (!order) return;
     auto& current = order->steps[static_cast<std::size_t>(step)];
     current.state = StepState::kPending;
@@ -166,7 +166,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopM
         return;
     }
     pass_stop(fleet, run, now);
-    drop_leg(fleet, run, now, true);
+    end_leg(fleet, run, LegEnd::kDone, now);
     if (!order) return;
     take_good_stop(fleet, *order, static_cast<std::size_t>(stop.step), now);
 }

@@ -46,9 +46,9 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
              {"result", found->result_description}});
         return true;
     });
-    if (cancelled) finish_cancel(fleet, run, now);
+    if (cancelled) end_leg(fleet, run, LegEnd::kCancelled, now);
     if (!again) return;
-    run.cancelling = false;
+    run.delivery.cancel_failed();
     cancel_leg(fleet, run, now);
 }
 

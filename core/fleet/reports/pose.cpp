@@ -258,7 +258,7 @@ void end_doubt(FleetState& fleet, VehicleRun& run, Time now) {
 
 void keep_doubt(FleetState& fleet, VehicleRun& run, Time now) {
     hold_both_floors(fleet, run, now);
-    if (run.has_leg() && !run.gave_up) cancel_leg(fleet, run, now);
+    if (run.has_leg() && !run.delivery.lost()) cancel_leg(fleet, run, now);
 }
 
 void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& before, Time now) {

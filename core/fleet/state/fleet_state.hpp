@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/fleet/state/floor_state.hpp"
+#include "core/fleet/state/leg_delivery.hpp"
 #include "core/fleet/state/leg_plan.hpp"
 #include "core/fleet/state/order_book.hpp"
 #include "core/fleet/state/ports.hpp"
@@ -63,14 +64,7 @@ struct VehicleRun {
     std::int64_t newest_header = 0;  // of the states on this connection; 0: none yet
     std::optional<vda5050::Factsheet> factsheet;
 
-    // The order message under way.
-    bool leg_seen = false;            // the vehicle has shown this leg's id
-    std::size_t update_from = 0;      // first node of the last update
-    std::optional<Time> update_sent;  // until the vehicle shows its update id
-    int update_sends = 0;
-    std::optional<Time> order_sent;  // newest message of this leg on this connection
-    bool gave_up = false;            // the vehicle does not have this leg; see forget_leg
-    bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
+    LegDelivery delivery;
     FloorStand floor;
     /// Where it was believed to be, newest and at least a second before: see take_pose.
     struct Seen {
@@ -86,10 +80,9 @@ struct VehicleRun {
         Time at;
         std::string actor;
     };
-    std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
-    std::optional<Time> claim_told;   // newest report that can follow the claim of its record
-    bool claim_left = false;          // the newest report cannot
-    std::optional<Time> leg_started;
+    std::optional<Statement> stated;    // by a person; none once the vehicle has said the same
+    std::optional<Time> claim_told;     // newest report that can follow the claim of its record
+    bool claim_left = false;            // the newest report cannot
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
     Time errors_from;                   // of the minute in which its errors are counted

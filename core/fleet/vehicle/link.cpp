@@ -35,11 +35,11 @@ void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.connected = true;
     run.reconciled = false;
     run.newest_header = 0;
-    run.order_sent.reset();  // what was under way on the old connection is lost
+    run.delivery.reconnected();
     add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
     hear(fleet, run, now);
     // Without order and pose, nothing tells a cut line from a vehicle that was switched off and on.
-    if (run.gave_up) require_person(fleet, run, {"vehicle_lost_order", {}}, now);
+    if (run.delivery.lost()) require_person(fleet, run, {"vehicle_lost_order", {}}, now);
 }
 
 void disconnect(FleetState& fleet, VehicleRun& run, Time now) {

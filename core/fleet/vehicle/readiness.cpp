@@ -86,7 +86,7 @@ std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, 
     }
     if (run.state.paused) return because("vehicle_paused");
     if (has_foreign_order(run)) return because("foreign_order", {{"order", run.state.order_id}});
-    if (run.cancelling || run.state.driving) return because("vehicle_busy");
+    if (run.delivery.cancelling() || run.state.driving) return because("vehicle_busy");
     if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
     return std::nullopt;
 }
@@ -147,9 +147,10 @@ bool has_foreign_order(const VehicleRun& run) {
 }
 
 bool is_on_its_way(const VehicleRun& run) {
-    if (run.leg_seen || !run.order_sent) return false;
+    const auto sent = run.delivery.on_this_connection();
+    if (run.delivery.seen() || !sent) return false;
     // One that fell silent may have got it, and have driven all of its base since.
-    return !run.state_at || *run.state_at - *run.order_sent < kLongestWay;
+    return !run.state_at || *run.state_at - *sent < kLongestWay;
 }
 
 bool waits_for_person(const VehicleRun& run) {

@@ -27,10 +27,7 @@ void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Tim
     message.nodes.assign(leg.nodes.begin() + offset, leg.nodes.end());
     message.edges.assign(leg.edges.begin() + offset, leg.edges.end());
     fleet.out.messages.push_back({run.record.id, std::move(message), std::nullopt});
-    run.update_from = from;
-    run.update_sent = now;
-    if (run.connected) run.order_sent = now;
-    ++run.update_sends;
+    run.delivery.sent(from, run.connected, now);
 }
 
 void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
@@ -43,9 +40,8 @@ void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string&
 }
 
 void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.has_leg() || run.cancelling) return;
-    run.cancelling = true;
-    run.update_sent.reset();
+    if (!run.has_leg() || run.delivery.cancelling()) return;
+    run.delivery.cancel();
     vda5050::Action action;
     action.type = vda5050::kCancelOrder;
     add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
@@ -78,13 +74,14 @@ void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, T
 void resend(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
         if (!run.connected || !run.reconciled) continue;
-        const bool unseen = run.has_leg() && run.update_sent && !waits_for_person(run);
-        if (unseen && now - *run.update_sent >= kResendEvery) {
-            if (run.update_sends >= kOrderSends) {
-                run.update_sent.reset();
+        const auto since = run.delivery.unconfirmed_since();
+        const bool unconfirmed = run.has_leg() && since && !waits_for_person(run);
+        if (unconfirmed && now - *since >= kResendEvery) {
+            if (run.delivery.sends() >= kOrderSends) {
+                run.delivery.unanswered();
                 require_person(fleet, run, {"order_not_accepted", {}}, now);
             } else {
-                send_order_update(fleet, run, run.update_from, now);
+                send_order_update(fleet, run, run.delivery.sent_from(), now);
             }
         }
         for (auto& pending : run.actions) {

@@ -77,10 +77,10 @@ LegView leg_view(const VehicleRun& run, Time now) {
     }
     if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
     view.progress = total_s > 0 ? passed_s / total_s : 1.0;
-    view.started = run.leg_started;
-    if (run.leg_started) {
+    view.started = run.delivery.started();
+    if (view.started) {
         const Time left = now + from_seconds((total_s - passed_s) / speed_share(run));
-        view.expected = std::max(*run.leg_started + from_seconds(view.duration_s), left);
+        view.expected = std::max(*view.started + from_seconds(view.duration_s), left);
     }
     return view;
 }
@@ -138,9 +138,9 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
         const bool measuring = order && order->current_step < order->steps.size() &&
                                order->steps[order->current_step].state == StepState::kMeasuring;
         if (measuring) return {Activity::kMeasuring, std::nullopt};
-        if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
+        if (run.delivery.cancelling()) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
-        if (!run.leg_seen) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        if (!run.delivery.seen()) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
         if (run.leg().order.empty()) {
             if (auto wait = floor_wait(fleet, run); wait && !moving) {
                 return {Activity::kWaiting, std::move(wait)};
