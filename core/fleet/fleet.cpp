@@ -9,8 +9,10 @@
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/reports/vehicle_report.hpp"
 #include "core/fleet/restore.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/link.hpp"
@@ -102,7 +104,7 @@ void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::V
     if (!run || !may_tell_error(fleet, *run, now)) return;
     Params params{{"text", error.description}};
     for (const auto& [key, value] : error.references) params.push_back({key, value});
-    add_event(fleet, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));
+    add_event(fleet, now, event::kVehicleMessageMalformed, {}, {}, id, {}, std::move(params));
 }
 
 void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
@@ -110,7 +112,7 @@ void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
     VehicleRun* run = fleet.find(id);
     if (!run) return;
     run->connection_refused = true;
-    require_person(fleet, *run, {"identity_conflict", {{"vehicle", id.str()}}}, now);
+    require_person(fleet, *run, {reasons::kIdentityConflict, {{"vehicle", id.str()}}}, now);
 }
 
 bool Fleet::connection_refused(const plant::VehicleId& id) const {
@@ -121,14 +123,14 @@ bool Fleet::connection_refused(const plant::VehicleId& id) const {
 void Fleet::store_failed(const StoreFault& fault, Time now) {
     FleetState& fleet = input<&Fleet::store_failed>(now, fault);
     fleet.store_fault = fault;
-    add_event(fleet, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
+    add_event(fleet, now, event::kStoreFailed, {}, {}, {}, {}, {{"cause", fault.cause}});
     fleet.out.fleet_changed = true;
 }
 
 void Fleet::store_works_again(Time now) {
     FleetState& fleet = input<&Fleet::store_works_again>(now);
     if (!fleet.store_fault) return;
-    add_event(fleet, now, "store.recovered", {}, {}, {}, {},
+    add_event(fleet, now, event::kStoreRecovered, {}, {}, {}, {},
               {{"cause", fleet.store_fault->cause},
                {"read_only_s", seconds(now - fleet.store_fault->since)}});
     const Time since = fleet.store_fault->since;
@@ -147,7 +149,7 @@ void Fleet::store_works_again(Time now) {
 void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
                              const std::vector<JobOrderId>& orders, Time now) {
     FleetState& fleet = input<&Fleet::commands_expired>(now, vehicles, orders);
-    const Reason reason{"command_expired", {}};
+    const Reason reason{reasons::kCommandExpired, {}};
     const auto stand = [&](VehicleRun& run) {
         // It has not been told to go on, and is not now.
         if (is_asked(run, vda5050::kStopPause)) {
@@ -173,7 +175,8 @@ void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
 
 void Fleet::server_stood_still(Time since, Time now) {
     FleetState& fleet = input<&Fleet::server_stood_still>(now, since);
-    add_event(fleet, now, "server.stood_still", {}, {}, {}, {}, {{"for_s", seconds(now - since)}});
+    add_event(fleet, now, event::kServerStoodStill, {}, {}, {}, {},
+              {{"for_s", seconds(now - since)}});
     for (auto& [id, run] : fleet.vehicles) {
         if (!run.last_heard) continue;
         // What a live vehicle said meanwhile lies unread. Who was silent before stays it.
@@ -189,14 +192,14 @@ void Fleet::clock_differs(Duration ahead, Time now) {
     FleetState& fleet = input<&Fleet::clock_differs>(now, ahead);
     const Time since = fleet.clock_difference ? fleet.clock_difference->since : now;
     fleet.clock_difference = ClockDifference{ahead, since};
-    add_event(fleet, now, "clock.differs", {}, {}, {}, {}, {{"ahead_s", seconds(ahead)}});
+    add_event(fleet, now, event::kClockDiffers, {}, {}, {}, {}, {{"ahead_s", seconds(ahead)}});
     fleet.out.fleet_changed = true;
 }
 
 void Fleet::clock_agrees(Time now) {
     FleetState& fleet = input<&Fleet::clock_agrees>(now);
     if (!fleet.clock_difference) return;
-    add_event(fleet, now, "clock.agrees", {}, {}, {}, {},
+    add_event(fleet, now, event::kClockAgrees, {}, {}, {}, {},
               {{"differed_s", seconds(now - fleet.clock_difference->since)}});
     fleet.clock_difference.reset();
     fleet.out.fleet_changed = true;

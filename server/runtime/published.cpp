@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::server {
@@ -74,9 +75,9 @@ bool starts(const fleet::VehicleMessage& message) {
 void append_starts(Acts& to, const std::vector<fleet::Event>& events) {
     for (const auto& event : events) {
         if (event.actor.empty()) continue;
-        if (event.type == "vehicle.resumed") to.vehicles.push_back(event.vehicle);
-        const bool order = event.type == "job_order.created" ||
-                           (event.type == "job_order.state" && goes_on(event));
+        if (event.type == fleet::event::kVehicleResumed) to.vehicles.push_back(event.vehicle);
+        const bool order = event.type == fleet::event::kJobOrderCreated ||
+                           (event.type == fleet::event::kJobOrderState && goes_on(event));
         if (order) to.orders.push_back(event.order);
     }
 }

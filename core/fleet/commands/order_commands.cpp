@@ -5,6 +5,7 @@
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/orders/orders.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/job_control.hpp"
@@ -111,7 +112,7 @@ Status end(FleetState& fleet, JobOrder& order, bool as_stop, const std::string& 
     order.stop_requested = as_stop;
     order.reason = {as_stop ? "stopped_by_person" : "cancelled_by_person", {{"actor", actor}}};
     fleet.store(order);
-    add_event(fleet, now, as_stop ? "job_order.stop_requested" : "job_order.cancel_requested",
+    add_event(fleet, now, as_stop ? event::kJobOrderStopRequested : event::kJobOrderCancelRequested,
               order.id, {}, order.assigned_vehicle, actor);
     VehicleRun* run = fleet.find(order.assigned_vehicle);
     if (!run || !run->has_leg() || run->leg().order != order.id) {
@@ -143,7 +144,7 @@ Status remove(FleetState& fleet, JobOrder& order, JobMethod method, const std::s
     if (!is_final(order.state)) {
         abort_order(fleet, order, {"removed_by_person", {{"actor", actor}}}, actor, now);
     }
-    add_event(fleet, now, "job_order.removed", order.id, {}, order.assigned_vehicle, actor,
+    add_event(fleet, now, event::kJobOrderRemoved, order.id, {}, order.assigned_vehicle, actor,
               {{"method", to_string(method)}});
     fleet.store(order);
     return {};

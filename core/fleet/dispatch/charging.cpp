@@ -5,6 +5,7 @@
 
 #include "core/fleet/dispatch/assignment.hpp"
 #include "core/fleet/legs/legs.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -28,7 +29,7 @@ bool has(const std::vector<std::string>& actions, const char* type) {
 
 /// Keeps the charger for the vehicle that stands there: it charges, or nobody can send it away.
 bool keeps_charger(const FleetState& fleet, const VehicleRun& run) {
-    return charges_on(run) || is_loaded(run) || cannot_move(fleet, run).has_value();
+    return charges_on(run) || is_loaded(run) || cannot_move(fleet, run);
 }
 
 bool is_taken(const FleetState& fleet, const plant::Station& charger, const VehicleRun& by) {
@@ -91,7 +92,7 @@ std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Sta
     leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);
     if (auto reason = try_leg(fleet, run, std::move(*leg), now)) return reason;
     fleet.store(run);
-    add_event(fleet, now, "vehicle.goes_charging", {}, id, run.record.id, {},
+    add_event(fleet, now, event::kVehicleGoesCharging, {}, id, run.record.id, {},
               {{"station", std::int64_t{charger.number}}, {"percent", run.state.battery_percent}});
     send_leg(fleet, run, now);
     return std::nullopt;
@@ -113,7 +114,7 @@ bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
 
 void charge_failed(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {
     run.charge_retry = now + kTryAgain;
-    add_event(fleet, now, "vehicle.charge_failed", {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehicleChargeFailed, {}, run.record.leg, run.record.id, {},
               {{"why", why}});
 }
 

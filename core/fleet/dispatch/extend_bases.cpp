@@ -7,9 +7,6 @@
 namespace pulseline::fleet {
 namespace {
 
-// No base is extended on an older pose while the vehicle drives.
-constexpr Duration kPoseTooOld = std::chrono::seconds(2);
-
 /// A leg that has nothing on the floor yet has not been sent either.
 bool is_first_grant(const VehicleRun& run) {
     return run.leg().released_nodes == 1 && run.leg().nodes.size() > 1 && !run.delivery.seen() &&
@@ -18,19 +15,15 @@ bool is_first_grant(const VehicleRun& run) {
 
 }  // namespace
 
-bool may_extend_base(const VehicleRun& run, Time now) {
+bool may_extend_base(const FleetState& fleet, const VehicleRun& run, Time now) {
     if (!run.has_leg() || run.delivery.unconfirmed()) return false;
     if (!run.delivery.seen() && !is_first_grant(run)) return false;
-    if (waits_for_person(run)) return false;
-    if (!run.connected || !run.reconciled || !run.state_at) return false;
-    if (run.state.driving && now - *run.state_at > kPoseTooOld) return false;
-    if (!is_automatic(run)) return false;
-    return run.link == Link::kLive;
+    return !bars_extension(fleet, run, now);
 }
 
 void extend_bases(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
-        if (may_extend_base(run, now)) extend_base(fleet, run, now);
+        if (may_extend_base(fleet, run, now)) extend_base(fleet, run, now);
     }
 }
 

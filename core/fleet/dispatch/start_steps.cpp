@@ -11,8 +11,10 @@
 #include "core/fleet/legs/legs.hpp"
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/orders/planning.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
@@ -141,7 +143,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     if (waits_to_try(run, now)) return;
     if (const JobOrder* elder = elder_of(fleet, order, run, now)) {
         set_order_reason(fleet, order,
-                         {"goes_first",
+                         {reasons::kGoesFirst,
                           {{"vehicle", elder->assigned_vehicle.str()},
                            {"order", "JO-" + std::to_string(elder->number)}}},
                          now);
@@ -187,8 +189,8 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     fleet.store(order);
     fleet.store(run);
     fleet.changed_stations.insert(station->id);
-    add_event(fleet, now, run.leg().actions_only ? "step.actions" : "step.started", order.id, id,
-              run.record.id, {},
+    add_event(fleet, now, run.leg().actions_only ? event::kStepActions : event::kStepStarted,
+              order.id, id, run.record.id, {},
               {{"step", static_cast<std::int64_t>(order.current_step)},
                {"station", std::int64_t{station->number}},
                {"mode", plant::to_string(run.leg().mode)},
@@ -204,8 +206,8 @@ void start_steps(FleetState& fleet, Time now) {
     for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
         VehicleRun* run = fleet.find(order->assigned_vehicle);
         if (!run || run->has_leg() || order->current_step >= order->steps.size()) continue;
-        if (const auto reason = not_ready_for(fleet, *order, *run, now)) {
-            set_order_reason(fleet, *order, *reason, now);
+        if (const auto barred = not_ready_for(fleet, *order, *run, now)) {
+            set_order_reason(fleet, *order, barred->reason, now);
             continue;
         }
         start_step(fleet, *order, *run, now);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/fleet/floor/floor.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -284,7 +285,7 @@ void follow_replans(FleetState& fleet, Time now) {
             continue;
         if (!take_horizon(fleet, *run)) continue;
         Leg& leg = run->leg();
-        add_event(fleet, now, "leg.rerouted", leg.order, leg.id, leg.vehicle, {},
+        add_event(fleet, now, event::kLegRerouted, leg.order, leg.id, leg.vehicle, {},
                   {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
                    {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
         fleet.store(*run);

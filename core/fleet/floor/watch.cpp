@@ -1,5 +1,6 @@
 #include "core/fleet/floor/watch.hpp"
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
@@ -16,7 +17,7 @@ constexpr Duration kCheckEvery = std::chrono::seconds(1);
 /// Nothing is granted any more.
 void stop_floor(FleetState& fleet, const traffic::Violation& violation, Time now) {
     fleet.floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violation)}}};
-    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, fleet.floor.stopped->params);
+    add_event(fleet, now, event::kTrafficViolation, {}, {}, {}, {}, fleet.floor.stopped->params);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -79,7 +80,8 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
 void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now) {
     JobOrder* order = fleet.orders.of(run.record.id);
     if (!order || order->state != JobState::kRunning) return;
-    const char* code = is_loaded(run) ? "load_on_withdrawn_vehicle" : "vehicle_withdrawn";
+    const char* code =
+        is_loaded(run) ? reasons::kLoadOnWithdrawnVehicle : reasons::kVehicleWithdrawn;
     set_order_state(fleet, *order, JobState::kInterrupted,
                     {code, {{"vehicle", run.record.id.str()}}}, actor, now);
 }

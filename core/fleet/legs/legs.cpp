@@ -6,6 +6,7 @@
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/grants.hpp"
 #include "core/fleet/legs/expected_end.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -106,7 +107,7 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     const bool is_new = before == 1 && !run.delivery.unconfirmed() && !run.delivery.seen();
     if (!is_new) ++leg.update_id;
     send_order_update(fleet, run, is_new ? 0 : before - 1, now);
-    add_event(fleet, now, "leg.released", leg.order, leg.id, leg.vehicle, {},
+    add_event(fleet, now, event::kLegReleased, leg.order, leg.id, leg.vehicle, {},
               {{"nodes", static_cast<std::int64_t>(leg.released_nodes)},
                {"of", static_cast<std::int64_t>(leg.nodes.size())},
                {"update", leg.update_id}});

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -98,14 +99,15 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
             const Params params{{"action", type},
                                 {"phase", to_string(step.phase)},
                                 {"why", found->result_description}};
-            add_event(fleet, now, "step.action_failed", order->id, leg.id, leg.vehicle, {}, params);
+            add_event(fleet, now, event::kStepActionFailed, order->id, leg.id, leg.vehicle, {},
+                      params);
             set_order_state(fleet, *order, JobState::kInterrupted, {"action_failed", params}, {},
                             now);
             return;
         }
         if (found->status != vda5050::ActionStatus::kFinished) break;
         ++step.actions_done;
-        add_event(fleet, now, "step.action_done", order->id, leg.id, leg.vehicle, {},
+        add_event(fleet, now, event::kStepActionDone, order->id, leg.id, leg.vehicle, {},
                   {{"action", type}, {"phase", to_string(step.phase)}});
     }
     if (step.actions_done != before) fleet.store(*order);

@@ -5,6 +5,7 @@
 #include "core/fleet/floor/grants.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/legs/step_actions.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -141,7 +142,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopM
     run.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
     fleet.changed_stations.insert(station->id);
     fleet.store(run);
-    add_event(fleet, now, "stop.measured", stop.order, stop.leg, stop.vehicle, {},
+    add_event(fleet, now, event::kStopMeasured, stop.order, stop.leg, stop.vehicle, {},
               {{"stop", stop.id.str()},
                {"station", static_cast<std::int64_t>(stop.station_number)},
                {"dx_m", stop.dx_m},
@@ -175,7 +176,7 @@ void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why
     const Leg& leg = run.leg();
     const plant::Station* station = plant::find_station(fleet.plant, leg.station);
     const std::int64_t number = station ? station->number : 0;
-    add_event(fleet, now, "stop.not_measured", leg.order, leg.id, run.record.id, {},
+    add_event(fleet, now, event::kStopNotMeasured, leg.order, leg.id, run.record.id, {},
               {{"station", number}, {"why", why}, {"attempt", std::int64_t{leg.attempt}}});
     try_again(fleet, run, {"stop_not_measured", {{"station", number}, {"why", why}}}, now);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -39,7 +40,7 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
             cancelled = !again;
         }
         add_event(
-            fleet, now, "vehicle.action", {}, {}, run.record.id, {},
+            fleet, now, event::kVehicleAction, {}, {}, run.record.id, {},
             {{"action", pending.action.type},
              {"action_id", pending.action.id},
              {"status", found->status == vda5050::ActionStatus::kFinished ? "finished" : "failed"},

@@ -9,8 +9,10 @@
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/legs/stops.hpp"
 #include "core/fleet/reports/action_states.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/vda5050/actions.hpp"
@@ -30,7 +32,7 @@ const vda5050::VehicleError* rejection_of(const vda5050::StateMessage& state,
 
 /// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
 void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
-    require_person(fleet, run, {"vehicle_lost_order", {}}, now);
+    require_person(fleet, run, {reasons::kVehicleLostOrder, {}}, now);
     end_leg(fleet, run, LegEnd::kLost, now);
 }
 
@@ -44,7 +46,8 @@ void take_other_order(FleetState& fleet, VehicleRun& run, Time now) {
     const auto* error = rejection_of(run.state, run.leg().id.str());
     if (!error) return;
     require_person(fleet, run,
-                   {"order_rejected", {{"type", error->type}, {"text", error->description}}}, now);
+                   {reasons::kOrderRejected, {{"type", error->type}, {"text", error->description}}},
+                   now);
     end_leg(fleet, run, LegEnd::kRejected, now);
 }
 
@@ -53,7 +56,7 @@ void take_shown_leg(FleetState& fleet, VehicleRun& run, Time now) {
     const vda5050::StateMessage& state = run.state;
     Leg& leg = run.leg();
     if (run.delivery.shown(now)) {
-        add_event(fleet, now, "leg.accepted", leg.order, leg.id, leg.vehicle, {});
+        add_event(fleet, now, event::kLegAccepted, leg.order, leg.id, leg.vehicle, {});
         if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
     }
     if (state.order_update_id >= leg.update_id) run.delivery.confirmed();
@@ -115,7 +118,7 @@ void end_own_drive(FleetState& fleet, VehicleRun& run, Time now) {
             charge_failed(fleet, run, found->result_description, now);
         }
     }
-    add_event(fleet, now, "leg.ended", {}, leg.id, leg.vehicle, {});
+    add_event(fleet, now, event::kLegEnded, {}, leg.id, leg.vehicle, {});
     end_leg(fleet, run, LegEnd::kDone, now);
 }
 

@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "core/fleet/floor/holding.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/code_pose.hpp"
@@ -151,7 +153,7 @@ void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time n
     }
     if (was_known) return;
     add_event(
-        fleet, now, "vehicle.pose_confirmed", {}, {}, run.record.id, {},
+        fleet, now, event::kVehiclePoseConfirmed, {}, {}, run.record.id, {},
         {{"x_m", told.pose.x_m}, {"y_m", told.pose.y_m}, {"heading_rad", told.pose.heading_rad}});
     fleet.store(run);
 }
@@ -159,7 +161,7 @@ void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time n
 void lose_pose(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.record.pose_known) return;
     run.record.pose_known = false;
-    add_event(fleet, now, "vehicle.pose_lost", {}, {}, run.record.id, {});
+    add_event(fleet, now, event::kVehiclePoseLost, {}, {}, run.record.id, {});
     fleet.store(run);
 }
 
@@ -179,14 +181,14 @@ void doubt(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now
         params.push_back({"known_y_m", known.y_m});
         params.push_back({"known_heading_rad", known.heading_rad});
     }
-    add_event(fleet, now, "vehicle.pose_jumped", {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehiclePoseJumped, {}, run.record.leg, run.record.id, {},
               std::move(params));
     run.record.claim = told;
     run.claim_told = now;
     run.claim_left = false;
     run.record.pose_known = false;
     run.stated.reset();
-    const Reason jumped{"pose_jumped", {{"vehicle", name}, {"distance_m", distance_m}}};
+    const Reason jumped{reasons::kPoseJumped, {{"vehicle", name}, {"distance_m", distance_m}}};
     require_person(fleet, run, jumped, now);
     run.record.needs_resume_reason = jumped;  // whatever was asked before, this comes first
     fleet.store(run);

@@ -8,8 +8,10 @@
 #include "core/fleet/reports/action_states.hpp"
 #include "core/fleet/reports/leg_progress.hpp"
 #include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -42,7 +44,8 @@ void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
     if (run.record.integration != Integration::kUtilise) return;
     require_person(
         fleet, run,
-        {"foreign_order", {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}}, now);
+        {reasons::kForeignOrder, {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}},
+        now);
 }
 
 /// An error is its type and what it refers to; its text may count up or tell the time.
@@ -53,7 +56,7 @@ void note_errors(FleetState& fleet, VehicleRun& run,
             return old.type == error.type && old.references == error.references;
         });
         if (known || !may_tell_error(fleet, run, now)) continue;
-        add_event(fleet, now, "vehicle.error", {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleError, {}, run.record.leg, run.record.id, {},
                   {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
     }
 }
@@ -63,11 +66,11 @@ void note_errors(FleetState& fleet, VehicleRun& run,
 void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, Time now) {
     const std::string& mode = run.state.operating_mode;
     if (mode != before) {
-        add_event(fleet, now, "vehicle.operating_mode", {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleOperatingMode, {}, run.record.leg, run.record.id, {},
                   {{"from", before}, {"to", mode}});
     }
     if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
-    require_person(fleet, run, {"driven_by_hand", {{"operating_mode", mode}}}, now);
+    require_person(fleet, run, {reasons::kDrivenByHand, {{"operating_mode", mode}}}, now);
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/vda5050/actions.hpp"
@@ -34,7 +36,7 @@ void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string&
     if (is_asked(run, vda5050::kCancelOrder)) return;
     vda5050::Action action;
     action.type = vda5050::kCancelOrder;
-    add_event(fleet, now, "vehicle.foreign_order_cancelled", {}, {}, run.record.id, actor,
+    add_event(fleet, now, event::kVehicleForeignOrderCancelled, {}, {}, run.record.id, actor,
               {{"order", run.state.order_id}});
     send_action(fleet, run, std::move(action), now);
 }
@@ -44,7 +46,8 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
     run.delivery.cancel();
     vda5050::Action action;
     action.type = vda5050::kCancelOrder;
-    add_event(fleet, now, "leg.cancel_requested", run.leg().order, run.leg().id, run.record.id, {});
+    add_event(fleet, now, event::kLegCancelRequested, run.leg().order, run.leg().id, run.record.id,
+              {});
     send_action(fleet, run, std::move(action), now);
 }
 
@@ -79,7 +82,7 @@ void resend(FleetState& fleet, Time now) {
         if (unconfirmed && now - *since >= kResendEvery) {
             if (run.delivery.sends() >= kOrderSends) {
                 run.delivery.unanswered();
-                require_person(fleet, run, {"order_not_accepted", {}}, now);
+                require_person(fleet, run, {reasons::kOrderNotAccepted, {}}, now);
             } else {
                 send_order_update(fleet, run, run.delivery.sent_from(), now);
             }
@@ -92,7 +95,7 @@ void resend(FleetState& fleet, Time now) {
             ++pending.sends;
             if (!pending.escalated && now - pending.first_sent >= kEscalateAfter) {
                 pending.escalated = true;
-                add_event(fleet, now, "vehicle.action_unconfirmed", {}, run.record.leg, id, {},
+                add_event(fleet, now, event::kVehicleActionUnconfirmed, {}, run.record.leg, id, {},
                           {{"action", pending.action.type}, {"action_id", pending.action.id}});
             }
         }

@@ -107,6 +107,25 @@ void show_standing(StationView& view, const VehicleRun& run) {
     if (measured_here) view.last_stop = run.record.last_stop;
 }
 
+Activity activity_of(Bar bar) {
+    switch (bar) {
+        case Bar::kFatalError:
+        case Bar::kWheelFault:
+        case Bar::kSafetyStop:
+        case Bar::kNotAutomatic:
+        case Bar::kFieldViolation:
+            return Activity::kBlocked;
+        case Bar::kPaused:
+        case Bar::kPausesItself:
+            return Activity::kPaused;
+        case Bar::kPoseUnknown:
+        case Bar::kSilent:
+            return Activity::kUnknown;
+        default:
+            return Activity::kWaiting;
+    }
+}
+
 struct Doing {
     Activity activity = Activity::kUnknown;
     std::optional<Reason> reason;
@@ -115,7 +134,8 @@ struct Doing {
 Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     const JobOrder* order = fleet.orders.of(run.record.id);
     if (run.record.integration == Integration::kIgnore) {
-        return {Activity::kUnknown, not_ready(fleet, run, now)};
+        const auto barred = not_ready(fleet, run, now);
+        return {Activity::kUnknown, barred ? std::optional(barred->reason) : std::nullopt};
     }
     if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
     if (run.link == Link::kLost || run.link == Link::kGone) {
@@ -124,15 +144,8 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     }
     const bool moving = run.has_leg() && run.state.driving;
     if (moving && run.link == Link::kLive) return {Activity::kMoving, detour(run)};
-    if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
-        const std::string& code = reason->code;
-        const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
-                             code == "vehicle_safety_stop" || code == "not_automatic" ||
-                             code == "field_violation";
-        Activity activity = blocked ? Activity::kBlocked : Activity::kWaiting;
-        if (code == "vehicle_paused") activity = Activity::kPaused;
-        if (code == "pose_unknown" || code == "vehicle_silent") activity = Activity::kUnknown;
-        return {activity, reason};
+    if (const auto barred = not_ready(fleet, run, now); barred && barred->by != Bar::kBusy) {
+        return {activity_of(barred->by), barred->reason};
     }
     if (run.has_leg()) {
         const bool measuring = order && order->current_step < order->steps.size() &&
