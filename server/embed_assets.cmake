@@ -72,7 +72,7 @@ foreach(FILE IN LISTS FILES)
 endforeach()
 string(REPLACE "\\;" ";" ROWS "${ROWS}")
 file(WRITE ${OUT}/assets_data.S "${ASSEMBLER}.section .note.GNU-stack,\"\",%progbits\n")
-file(WRITE ${OUT}/assets_table.cpp "#include \"server/assets.hpp\"\n\n${EXTERNS}
+file(WRITE ${OUT}/assets_table.cpp "#include \"server/sessions/assets.hpp\"\n\n${EXTERNS}
 namespace pulseline::server {
 namespace {
 const Asset kAssets[] = {

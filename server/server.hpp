@@ -7,7 +7,7 @@
 #include "api/access/access_control.hpp"
 #include "core/fleet/state/ports.hpp"
 #include "core/plant/plant.hpp"
-#include "server/options.hpp"
+#include "server/base/options.hpp"
 
 namespace pulseline::server {
 

@@ -1,21 +1,18 @@
 #include "api/access/access_control.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <mutex>
 #include <unordered_map>
 
 #include "api/access/credentials.hpp"
+#include "api/access/new_user.hpp"
 #include "api/access/secrets.hpp"
 #include "api/access/sign_in_limit.hpp"
 
 namespace pulseline::access {
 namespace {
 
-constexpr std::size_t kMinPasswordBytes = 8;
-constexpr std::size_t kMaxPasswordBytes = 128;
-constexpr std::size_t kMaxNameBytes = 64;
 constexpr std::size_t kSecretBytes = 32;
 constexpr std::size_t kTokenIdLength = 12;
 constexpr const char* kTokenActor = "token:";
@@ -24,35 +21,9 @@ constexpr Duration kStoreUse = std::chrono::minutes(1);
 // A hall without vehicles stores nothing else for an hour; uses tell of later times until then.
 constexpr Duration kNothingStored = std::chrono::minutes(65);
 
-bool usable_name(const std::string& name) {
-    return !name.empty() && name.size() <= kMaxNameBytes &&
-           std::all_of(name.begin(), name.end(), [](unsigned char c) {
-               return std::isalnum(c) != 0 || c == '.' || c == '_' || c == '-' || c == '@';
-           });
-}
-
 tl::unexpected<Error> wrong_credentials() {
     return fail(Errc::kForbidden, "wrong_credentials",
                 "Name or password is wrong; check both and try again.");
-}
-
-Status check_new_user(const std::string& name, const std::string& password) {
-    if (!usable_name(name)) {
-        return fail(Errc::kInvalid, "bad_user_name",
-                    "A user name is 1 to 64 letters, digits or any of . _ - @; choose another.",
-                    "/name");
-    }
-    if (password.size() < kMinPasswordBytes || password.size() > kMaxPasswordBytes) {
-        return fail(Errc::kInvalid, "bad_password",
-                    "A password has 8 to 128 bytes; choose one of that length.", "/password",
-                    {{"min_bytes", static_cast<std::int64_t>(kMinPasswordBytes)},
-                     {"max_bytes", static_cast<std::int64_t>(kMaxPasswordBytes)}});
-    }
-    if (password == name) {
-        return fail(Errc::kInvalid, "bad_password",
-                    "The password is the user's name; choose another.", "/password");
-    }
-    return {};
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <iterator>
 
-#include "api/http/common_json.hpp"
-#include "api/http/job_order_json.hpp"
-#include "api/http/vehicle_json.hpp"
+#include "api/http/orders/job_order_json.hpp"
+#include "api/http/vehicles/vehicle_json.hpp"
+#include "api/http/wire/common_json.hpp"
 
 namespace pulseline::events {
 namespace {

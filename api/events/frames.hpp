@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "api/http/contexts.hpp"
+#include "api/http/wire/contexts.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/plant/plant.hpp"
 

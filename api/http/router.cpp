@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include "api/access/secrets.hpp"
-#include "api/http/problem.hpp"
-#include "api/http/requests.hpp"
+#include "api/http/orders/order_requests.hpp"
+#include "api/http/wire/problem.hpp"
 
 namespace pulseline::api {
 namespace {

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "api/http/contexts.hpp"
-#include "api/http/message.hpp"
+#include "api/http/wire/contexts.hpp"
+#include "api/http/wire/message.hpp"
 
 /// The one table of operations: who may call each, and where it runs. Deny by default.
 ///

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/base/result.hpp"
-#include "core/planning/grid.hpp"
+#include "core/planning/grid/grid.hpp"
 #include "core/plant/occupancy_grid.hpp"
 
 /// Benchmark grids and problems in the MovingAI formats (movingai.com/benchmarks/formats.html):

@@ -7,7 +7,7 @@
 #include "core/base/result.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/plant/plant.hpp"
-#include "core/vision/optics.hpp"
+#include "core/vision/optics/optics.hpp"
 
 /// Calibration of a downward camera: the lens from pictures of a chessboard held at several tilts,
 /// the mounting from known points on the floor. Never the data sheet's numbers (Tang, eq. 14:

@@ -9,8 +9,10 @@
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/reports/vehicle_report.hpp"
 #include "core/fleet/restore.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/link.hpp"
@@ -18,6 +20,7 @@
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -75,7 +78,8 @@ void Fleet::vehicle_heard(const plant::VehicleId& id, Time now) {
     if (VehicleRun* run = fleet.find(id)) hear(fleet, *run, now);
 }
 
-void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now) {
+void Fleet::vehicle_state(const plant::VehicleId& id, const vda5050::StateMessage& state,
+                          Time now) {
     FleetState& fleet = input<&Fleet::vehicle_state>(now, id, state);
     VehicleRun* run = fleet.find(id);
     if (!run) return;
@@ -84,7 +88,8 @@ void Fleet::vehicle_state(const plant::VehicleId& id, const StateMessage& state,
     dispatch_for(fleet, *run, now);
 }
 
-void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now) {
+void Fleet::vehicle_factsheet(const plant::VehicleId& id, const vda5050::Factsheet& factsheet,
+                              Time now) {
     FleetState& fleet = input<&Fleet::vehicle_factsheet>(now, id, factsheet);
     VehicleRun* run = fleet.find(id);
     if (!run) return;
@@ -92,14 +97,14 @@ void Fleet::vehicle_factsheet(const plant::VehicleId& id, const Factsheet& facts
     hear(fleet, *run, now);
 }
 
-void Fleet::vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error,
+void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::VehicleError& error,
                                     Time now) {
     FleetState& fleet = input<&Fleet::vehicle_message_refused>(now, id, error);
     VehicleRun* run = fleet.find(id);
     if (!run || !may_tell_error(fleet, *run, now)) return;
     Params params{{"text", error.description}};
     for (const auto& [key, value] : error.references) params.push_back({key, value});
-    add_event(fleet, now, "vehicle.message_malformed", {}, {}, id, {}, std::move(params));
+    add_event(fleet, now, event::kVehicleMessageMalformed, {}, {}, id, {}, std::move(params));
 }
 
 void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
@@ -107,7 +112,7 @@ void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
     VehicleRun* run = fleet.find(id);
     if (!run) return;
     run->connection_refused = true;
-    require_person(fleet, *run, {"identity_conflict", {{"vehicle", id.str()}}}, now);
+    require_person(fleet, *run, {reasons::kIdentityConflict, {{"vehicle", id.str()}}}, now);
 }
 
 bool Fleet::connection_refused(const plant::VehicleId& id) const {
@@ -118,14 +123,14 @@ bool Fleet::connection_refused(const plant::VehicleId& id) const {
 void Fleet::store_failed(const StoreFault& fault, Time now) {
     FleetState& fleet = input<&Fleet::store_failed>(now, fault);
     fleet.store_fault = fault;
-    add_event(fleet, now, "store.failed", {}, {}, {}, {}, {{"cause", fault.cause}});
+    add_event(fleet, now, event::kStoreFailed, {}, {}, {}, {}, {{"cause", fault.cause}});
     fleet.out.fleet_changed = true;
 }
 
 void Fleet::store_works_again(Time now) {
     FleetState& fleet = input<&Fleet::store_works_again>(now);
     if (!fleet.store_fault) return;
-    add_event(fleet, now, "store.recovered", {}, {}, {}, {},
+    add_event(fleet, now, event::kStoreRecovered, {}, {}, {}, {},
               {{"cause", fleet.store_fault->cause},
                {"read_only_s", seconds(now - fleet.store_fault->since)}});
     const Time since = fleet.store_fault->since;
@@ -144,13 +149,13 @@ void Fleet::store_works_again(Time now) {
 void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
                              const std::vector<JobOrderId>& orders, Time now) {
     FleetState& fleet = input<&Fleet::commands_expired>(now, vehicles, orders);
-    const Reason reason{"command_expired", {}};
+    const Reason reason{reasons::kCommandExpired, {}};
     const auto stand = [&](VehicleRun& run) {
         // It has not been told to go on, and is not now.
-        if (is_asked(run, "stopPause")) {
+        if (is_asked(run, vda5050::kStopPause)) {
             run.record.paused = Pause{{}, now, false};
             fleet.store(run);
-            pause_motion(fleet, run, "startPause", now);
+            pause_motion(fleet, run, vda5050::kStartPause, now);
         }
         require_person(fleet, run, reason, now);
     };
@@ -170,7 +175,8 @@ void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
 
 void Fleet::server_stood_still(Time since, Time now) {
     FleetState& fleet = input<&Fleet::server_stood_still>(now, since);
-    add_event(fleet, now, "server.stood_still", {}, {}, {}, {}, {{"for_s", seconds(now - since)}});
+    add_event(fleet, now, event::kServerStoodStill, {}, {}, {}, {},
+              {{"for_s", seconds(now - since)}});
     for (auto& [id, run] : fleet.vehicles) {
         if (!run.last_heard) continue;
         // What a live vehicle said meanwhile lies unread. Who was silent before stays it.
@@ -186,14 +192,14 @@ void Fleet::clock_differs(Duration ahead, Time now) {
     FleetState& fleet = input<&Fleet::clock_differs>(now, ahead);
     const Time since = fleet.clock_difference ? fleet.clock_difference->since : now;
     fleet.clock_difference = ClockDifference{ahead, since};
-    add_event(fleet, now, "clock.differs", {}, {}, {}, {}, {{"ahead_s", seconds(ahead)}});
+    add_event(fleet, now, event::kClockDiffers, {}, {}, {}, {}, {{"ahead_s", seconds(ahead)}});
     fleet.out.fleet_changed = true;
 }
 
 void Fleet::clock_agrees(Time now) {
     FleetState& fleet = input<&Fleet::clock_agrees>(now);
     if (!fleet.clock_difference) return;
-    add_event(fleet, now, "clock.agrees", {}, {}, {}, {},
+    add_event(fleet, now, event::kClockAgrees, {}, {}, {}, {},
               {{"differed_s", seconds(now - fleet.clock_difference->since)}});
     fleet.clock_difference.reset();
     fleet.out.fleet_changed = true;

@@ -15,9 +15,9 @@
 #include "core/fleet/state/new_order.hpp"
 #include "core/fleet/state/ports.hpp"
 #include "core/fleet/state/standing_orders.hpp"
-#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/fleet/state/views.hpp"
 #include "core/plant/plant.hpp"
+#include "core/vda5050/messages.hpp"
 
 namespace pulseline::fleet {
 
@@ -106,10 +106,12 @@ public:
     void vehicle_disconnected(const plant::VehicleId& id, Time now);
     /// Any frame or pong; silence is counted from the last one.
     void vehicle_heard(const plant::VehicleId& id, Time now);
-    void vehicle_state(const plant::VehicleId& id, const StateMessage& state, Time now);
-    void vehicle_factsheet(const plant::VehicleId& id, const Factsheet& factsheet, Time now);
+    void vehicle_state(const plant::VehicleId& id, const vda5050::StateMessage& state, Time now);
+    void vehicle_factsheet(const plant::VehicleId& id, const vda5050::Factsheet& factsheet,
+                           Time now);
     /// A message that was no valid VDA 5050: told as an event, changes nothing else.
-    void vehicle_message_refused(const plant::VehicleId& id, const VehicleError& error, Time now);
+    void vehicle_message_refused(const plant::VehicleId& id, const vda5050::VehicleError& error,
+                                 Time now);
     /// Three takeovers of one identity within 60 s: refused until a person resumes the vehicle.
     void vehicle_identity_conflict(const plant::VehicleId& id, Time now);
     bool connection_refused(const plant::VehicleId& id) const;

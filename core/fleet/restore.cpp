@@ -9,8 +9,10 @@
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/orders/recurrence.hpp"
 #include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 
@@ -26,12 +28,12 @@ void interrupt_after_restart(FleetState& fleet, Time now) {
             order.assigned_vehicle.empty() ? order.wanted_vehicle : order.assigned_vehicle;
         if (vehicle.empty()) any_vehicle = true;
         if (VehicleRun* run = fleet.find(vehicle)) {
-            require_person(fleet, *run, {"server_restarted", {}}, now);
+            require_person(fleet, *run, {reasons::kServerRestarted, {}}, now);
         }
     }
     for (auto& [id, run] : fleet.vehicles) {
         if (any_vehicle || run.has_leg()) {
-            require_person(fleet, run, {"server_restarted", {}}, now);
+            require_person(fleet, run, {reasons::kServerRestarted, {}}, now);
         }
     }
 }
@@ -93,7 +95,7 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
     }
     for (auto& one : stored.templates) bring_back(one.created, now);
     fleet.ids.next(stored.last_time);  // ids still sort as they were made
-    add_event(fleet, now, "clock.was_ahead", {}, {}, {}, {},
+    add_event(fleet, now, event::kClockWasAhead, {}, {}, {}, {},
               {{"ahead_s", seconds(stored.last_time - now)}});
 }
 

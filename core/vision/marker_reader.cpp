@@ -2,9 +2,9 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/vision/apriltag_reader.hpp"
-#include "core/vision/landmark_reader.hpp"
-#include "core/vision/qr_reader.hpp"
+#include "core/vision/apriltag/apriltag_reader.hpp"
+#include "core/vision/landmark/landmark_reader.hpp"
+#include "core/vision/qr/qr_reader.hpp"
 
 namespace pulseline::vision {
 

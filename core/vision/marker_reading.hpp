@@ -8,8 +8,8 @@
 #include "core/base/result.hpp"
 #include "core/geometry/pose2.hpp"
 #include "core/plant/plant.hpp"
-#include "core/vision/edge_fit.hpp"
-#include "core/vision/optics.hpp"
+#include "core/vision/edge/edge_fit.hpp"
+#include "core/vision/optics/optics.hpp"
 
 namespace pulseline::vision {
 

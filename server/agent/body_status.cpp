@@ -19,8 +19,8 @@ std::string text_of(const Param& param) {
 }
 
 /// A drive that has stopped of itself, as an error: it needs a person.
-fleet::VehicleError stopped_error(const Reason& cause) {
-    fleet::VehicleError error;
+vda5050::VehicleError stopped_error(const Reason& cause) {
+    vda5050::VehicleError error;
     error.fatal = true;
     if (cause.code == "slip") {
         error.type = "wheelSlip";
@@ -37,14 +37,15 @@ fleet::VehicleError stopped_error(const Reason& cause) {
 
 }  // namespace
 
-BodyStatus::BodyStatus(const simulation::Drive& motion) : motion_(motion) {
+BodyStatus::BodyStatus(const onboard::Drive& motion) : motion_(motion) {
     for (const auto& wheel : motion.type().wheels) {
         wheels_.push_back({wheel.name, 0, 0, kAmbient_c, ""});
     }
 }
 
 bool BodyStatus::seize_bearing(const std::string& name) {
-    const bool known = std::ranges::find(wheels_, name, &fleet::WheelStatus::name) != wheels_.end();
+    const bool known =
+        std::ranges::find(wheels_, name, &vda5050::WheelStatus::name) != wheels_.end();
     if (known) hot_wheel_ = name;
     return known;
 }
@@ -80,7 +81,7 @@ void BodyStatus::step(double dt_s) {
     }
 }
 
-void BodyStatus::write_state(fleet::StateMessage& state) const {
+void BodyStatus::write_state(vda5050::StateMessage& state) const {
     state.wheels = wheels_;
     const std::string at_fault = broken_wheel_.empty() ? faulty_wheel() : broken_wheel_;
     if (!at_fault.empty()) {

@@ -3,28 +3,28 @@
 #include <string>
 #include <vector>
 
-#include "core/fleet/state/vehicle_messages.hpp"
-#include "core/simulation/drive.hpp"
+#include "core/onboard/drive.hpp"
+#include "core/vda5050/messages.hpp"
 
 namespace pulseline::agent {
 
 /// What the rest of the machine reports: its wheels, and why its drive has stopped.
 class BodyStatus {
 public:
-    explicit BodyStatus(const simulation::Drive& motion);
+    explicit BodyStatus(const onboard::Drive& motion);
 
     void step(double dt_s);
     void break_wheel(const std::string& name) { broken_wheel_ = name; }
     /// The wheel runs hot when it turns. False: there is no such wheel.
     bool seize_bearing(const std::string& name);
-    void write_state(fleet::StateMessage& state) const;
+    void write_state(vda5050::StateMessage& state) const;
 
 private:
     std::vector<kinematics::WheelMotion> wheel_motions() const;
     std::string faulty_wheel() const;
 
-    const simulation::Drive& motion_;
-    std::vector<fleet::WheelStatus> wheels_;
+    const onboard::Drive& motion_;
+    std::vector<vda5050::WheelStatus> wheels_;
     std::vector<kinematics::WheelMotion> rolling_;
     std::string broken_wheel_;
     std::string hot_wheel_;

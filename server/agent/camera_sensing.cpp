@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "core/localisation/dual_camera.hpp"
-#include "core/simulation/true_camera.hpp"
-#include "core/vision/camera_picture.hpp"
+#include "core/simulation/world/true_camera.hpp"
+#include "core/vision/optics/camera_picture.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -18,8 +18,8 @@ constexpr std::size_t kQrBytes = 11;  // of a version 1 symbol, level Q
 }  // namespace
 
 CameraSensing::CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                             const simulation::Drive& motion, bool rendered, std::uint64_t seed,
-                             bool loaded)
+                             const simulation::SimulatedDrive& motion, bool rendered,
+                             std::uint64_t seed, bool loaded)
     : world_(world), hall_(hall), motion_(motion), random_(seed), actual_(motion.type().cameras) {
     options_.mode = rendered ? simulation::Sensing::kRendered : simulation::Sensing::kAnalytic;
     options_.errors = world.errors;
@@ -61,7 +61,7 @@ void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) 
 
 bool CameraSensing::take_fresh() { return std::exchange(fresh_, false); }
 
-Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& target) {
+Result<vda5050::StopMeasurement> CameraSensing::measure(const vda5050::StopTarget& target) {
     simulation::KnownFloor known{motion_.believed_pose(), {}};
     for (const auto& marker : target.markers) {
         // Of a kind that it has never heard of it sees none.
@@ -86,8 +86,8 @@ Result<fleet::StopMeasurement> CameraSensing::measure(const fleet::StopTarget& t
     const auto fix = localisation::locate(seen, survey);
     if (!fix) return fail(fix.error());
     fix_ = *fix;
-    return fleet::StopMeasurement{fix->pose, fix->sigma_xy_m, fix->sigma_heading_rad,
-                                  localisation::to_string(fix->method), fix->payloads};
+    return vda5050::StopMeasurement{fix->pose, fix->sigma_xy_m, fix->sigma_heading_rad,
+                                    localisation::to_string(fix->method), fix->payloads};
 }
 
 std::vector<CameraSensing::Picture> CameraSensing::pictures() const {

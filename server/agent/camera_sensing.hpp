@@ -7,17 +7,19 @@
 #include <utility>
 #include <vector>
 
-#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/localisation/dual_camera.hpp"
-#include "core/simulation/stop_sensor.hpp"
-#include "core/simulation/vehicle_stop.hpp"
-#include "core/simulation/world.hpp"
+#include "core/onboard/stop_procedure.hpp"
+#include "core/onboard/stop_sensing.hpp"
+#include "core/simulation/machine/simulated_drive.hpp"
+#include "core/simulation/world/stop_sensor.hpp"
+#include "core/simulation/world/world.hpp"
+#include "core/vda5050/messages.hpp"
 
 namespace pulseline::agent {
 
 /// The simulated cameras of one vehicle: what they see of the true codes, and the pose computed
 /// from it with the survey that an order brings.
-class CameraSensing : public simulation::StopSensing {
+class CameraSensing : public onboard::StopSensing {
 public:
     struct Picture {
         std::string camera;
@@ -27,13 +29,13 @@ public:
     /// `motion` is asked for the true pose at every look.
     /// `loaded`: the vehicle carries its load.
     CameraSensing(const simulation::World& world, const plant::HallId& hall,
-                  const simulation::Drive& motion, bool rendered, std::uint64_t seed,
+                  const simulation::SimulatedDrive& motion, bool rendered, std::uint64_t seed,
                   bool loaded = false);
 
-    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override;
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override;
     /// Takes new images and reads them.
     void look();
-    const std::vector<fleet::CameraReading>& readings() const { return readings_; }
+    const std::vector<vda5050::CameraReading>& readings() const { return readings_; }
     /// The fix of the newest measurement, once.
     std::optional<localisation::PoseFix> take_fix() { return std::exchange(fix_, std::nullopt); }
     /// True once after each look.
@@ -53,12 +55,12 @@ private:
 
     const simulation::World& world_;
     plant::HallId hall_;
-    const simulation::Drive& motion_;
+    const simulation::SimulatedDrive& motion_;
     simulation::SensingOptions options_;
     std::mt19937_64 random_;
     std::vector<plant::Camera> actual_;
-    std::vector<fleet::CameraReading> readings_;
-    std::vector<fleet::CameraReading> pictured_;  // what the images show, one per image
+    std::vector<vda5050::CameraReading> readings_;
+    std::vector<vda5050::CameraReading> pictured_;  // what the images show, one per image
     std::vector<cv::Mat> images_;
     std::vector<double> sizes_m_;  // of the codes looked for in them
     std::optional<localisation::PoseFix> fix_;

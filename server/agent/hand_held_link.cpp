@@ -1,6 +1,5 @@
 #include "server/agent/hand_held_link.hpp"
 
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "server/agent/hand_held.hpp"
+#include "server/base/log.hpp"
 
 namespace pulseline::agent {
 
@@ -82,9 +82,9 @@ net::awaitable<void> HandHeldLink::run() {
         error_code ec;
         co_await impl_->acceptor.async_accept(impl_->control, into(ec));
         if (ec) co_return;
-        spdlog::info("a hand-held control is connected");
+        server::log::info("hand_held.connected");
         co_await impl_->serve();
-        spdlog::info("the hand-held control is gone");
+        server::log::info("hand_held.gone");
     }
 }
 

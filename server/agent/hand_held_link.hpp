@@ -6,7 +6,7 @@
 
 #include "core/base/result.hpp"
 #include "server/agent/vehicle.hpp"
-#include "server/net.hpp"
+#include "server/base/net.hpp"
 
 namespace pulseline::agent {
 

@@ -1,13 +1,14 @@
 #include "server/agent/link_client.hpp"
 
-#include <spdlog/spdlog.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <random>
 #include <utility>
 
-#include "server/signal.hpp"
-#include "server/web_socket.hpp"
+#include "server/base/log.hpp"
+#include "server/base/signal.hpp"
+#include "server/base/web_socket.hpp"
 
 namespace pulseline::agent {
 
@@ -46,7 +47,7 @@ void log_end(const std::exception_ptr& error) {
     try {
         if (error) std::rethrow_exception(error);
     } catch (const std::exception& e) {
-        spdlog::error("the link threw: {}", e.what());
+        server::log::error("link.failed", {{"what", e.what()}});
     }
 }
 
@@ -94,7 +95,7 @@ struct LinkClient::Impl {
     void trouble(const std::string& what) {
         if (what == last_trouble) return;
         last_trouble = what;
-        spdlog::warn("{}: {}", name(), what);
+        server::log::warn("link.trouble", {{"vehicle", name()}, {"what", what}});
     }
 };
 
@@ -151,7 +152,8 @@ net::awaitable<void> LinkClient::Impl::write_loop(WebSocket& socket) {
 net::awaitable<void> LinkClient::Impl::session(WebSocket& socket) {
     if (!co_await handshake(socket)) co_return;
     const auto began = Vehicle::Steady::now();
-    spdlog::info("{}: connected to {}:{}", name(), address.host, address.port);
+    server::log::info("link.open",
+                      {{"vehicle", name()}, {"host", address.host}, {"port", address.port}});
     last_trouble.clear();
     open = true;
     vehicle.link_up();
@@ -176,12 +178,15 @@ net::awaitable<void> LinkClient::Impl::session(WebSocket& socket) {
     vehicle.link_down();
     if (ec == websocket::error::closed && socket.close_code() == kReplaced) {
         was_replaced = true;
-        spdlog::error(
-            "{}: another session with this identity took over (close code {}); this one "
-            "stays away. End the other program or start only one.",
-            name(), kReplaced);
+        server::log::error("link.replaced",
+                           {{"vehicle", name()},
+                            {"what",
+                             "Another session with this identity took over; this one stays away. "
+                             "End the other program or start only one."}});
     } else if (!stopping) {
-        spdlog::warn("{}: the link ended: {} {}", name(), ec.message(), socket.close_reason());
+        server::log::warn("link.ended", {{"vehicle", name()},
+                                         {"what", ec.message()},
+                                         {"reason", std::string(socket.close_reason())}});
     }
     if (Vehicle::Steady::now() - began > kGoodSession) delay_s = kFirstDelay_s;
 }

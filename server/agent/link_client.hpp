@@ -5,7 +5,7 @@
 
 #include "server/agent/options.hpp"
 #include "server/agent/vehicle.hpp"
-#include "server/net.hpp"
+#include "server/base/net.hpp"
 
 namespace pulseline::agent {
 

@@ -1,6 +1,4 @@
 // pulseline-agent: simulated vehicles that obey a Pulseline server over the vehicle link.
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <memory>
@@ -14,7 +12,8 @@
 #include "server/agent/options.hpp"
 #include "server/agent/truth_log.hpp"
 #include "server/agent/vehicle.hpp"
-#include "server/net.hpp"
+#include "server/base/log.hpp"
+#include "server/base/net.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -183,9 +182,6 @@ Result<int> run(const Options& options) {
 
 int main(int argc, char** argv) {
     using namespace pulseline;
-    spdlog::set_default_logger(spdlog::stderr_color_mt("agent"));
-    spdlog::flush_on(spdlog::level::info);
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%eZ %^%l%$ %v", spdlog::pattern_time_type::utc);
     cv::setNumThreads(1);  // many agents share one machine
     int exit_code = 0;
     const auto options = agent::read_options(argc, argv, exit_code);
@@ -193,9 +189,9 @@ int main(int argc, char** argv) {
     try {
         const auto ended = agent::run(*options);
         if (ended) return *ended;
-        spdlog::error("{}", ended.error().what);
+        server::log::error("agent.ended", {{"what", ended.error().what}});
     } catch (const std::exception& error) {
-        spdlog::error("the agent ends: {}", error.what());
+        server::log::error("agent.ended", {{"what", error.what()}});
     }
     return agent::kExitTrouble;
 }

@@ -1,26 +1,18 @@
 #include "server/agent/vehicle.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
 
-#include "api/vehicle/connection.hpp"
-#include "api/vehicle/factsheet.hpp"
-#include "api/vehicle/frame.hpp"
-#include "api/vehicle/instant_actions.hpp"
-#include "api/vehicle/order.hpp"
-#include "api/vehicle/state.hpp"
-#include "api/vehicle/visualization.hpp"
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
+#include "server/agent/utc.hpp"
+#include "server/base/log.hpp"
 
 namespace pulseline::agent {
 namespace {
 
 using namespace std::chrono_literals;
-using vda5050::Topic;
 
 constexpr auto kMinStateInterval = 50ms;
 constexpr auto kStateInterval = 1s;
@@ -33,14 +25,7 @@ constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 constexpr int kLookShare = 10;
 constexpr double kOwnStep_s = 0.1;
 constexpr double kRounding = 1e-9;
-constexpr double kSeen_m = 30;      // a scanner's range and two long bodies
-constexpr double kRangeSigmas = 3;  // what deviationRange covers
-
-Time utc_now() {
-    return time_from_ns(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                            std::chrono::system_clock::now().time_since_epoch())
-                            .count());
-}
+constexpr double kSeen_m = 30;  // a scanner's range and two long bodies
 
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> chargers(const plant::Plant& plant) {
@@ -66,7 +51,7 @@ control::MotionCompensation learned_before(const std::optional<LearnedMoves>& le
     if (!learned) return {};
     auto before = learned->load();
     if (before) return std::move(*before);
-    spdlog::warn("{}", before.error().what);
+    server::log::warn("learned.not_read", {{"what", before.error().what}});
     return {};
 }
 
@@ -76,11 +61,11 @@ geometry::Polygon thing_at(geometry::Point2 place) {
     return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
 }
 
-std::unique_ptr<simulation::Drive> make_drive(const plant::VehicleType& type,
-                                              const plant::Vehicle& vehicle,
-                                              const geometry::Pose2& true_pose,
-                                              const VehicleSettings& settings,
-                                              const localisation::ErrorBudget& errors) {
+std::unique_ptr<simulation::SimulatedDrive> make_drive(const plant::VehicleType& type,
+                                                       const plant::Vehicle& vehicle,
+                                                       const geometry::Pose2& true_pose,
+                                                       const VehicleSettings& settings,
+                                                       const localisation::ErrorBudget& errors) {
     const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
     const bool driven = std::any_of(type.wheels.begin(), type.wheels.end(),
                                     [](const plant::Wheel& wheel) { return wheel.driven; });
@@ -103,7 +88,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       sensing_(world, hall_, *drive_, settings.rendered,
                simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
                plant::is_loaded(vehicle)),
-      equipment_(type_, chargers(world.plant), first_charge(vehicle, settings),
+      equipment_(type_, drive_->true_pose(), chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       learned_(settings.learned.empty() ? std::nullopt
@@ -111,14 +96,15 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                                               std::in_place, settings.learned, vehicle.id.str())),
       executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
+      scanners_(world, hall_, type_, drive_->true_pose(),
+                simulation::seed_for(settings.seed, "scanners " + vehicle.id.str())),
       estimate_(geometry::Pose2{}),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
     drive_->set_believed({});  // where it stands it is told, or its codes say
     if (settings.servo_drive) {
-        look_out_.emplace(world, vehicle, hall_, *drive_,
-                          simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
+        look_out_.emplace(scanners_, vehicle, *drive_);
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
     }
 }
@@ -165,8 +151,8 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     if (pictures_due_ && now - last_pictures_ >= kPictureInterval) send_pictures(now);
 }
 
-void Vehicle::see(LookOut::Neighbours neighbours) {
-    if (look_out_) look_out_->see(std::move(neighbours));
+void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {
+    scanners_.see(std::move(neighbours));
 }
 
 void Vehicle::show_body(const plant::HallId& hall, geometry::Point2 from,
@@ -197,10 +183,10 @@ void Vehicle::apply(const Fault& fault) {
         case Fault::Kind::kDark:
             return sensing_.darken();
         case Fault::Kind::kObstacle:
-            if (look_out_) look_out_->put(thing_at(fault.place));
+            scanners_.put(thing_at(fault.place));
             return;
         case Fault::Kind::kWayFree:
-            if (look_out_) look_out_->take_away();
+            scanners_.take_away();
             return;
         case Fault::Kind::kWheel:
             body_.break_wheel(fault.wheel);
@@ -216,7 +202,9 @@ void Vehicle::apply(const Fault& fault) {
             known = servo != nullptr && servo->kill_encoder(fault.wheel);
             break;
     }
-    if (!known) spdlog::warn("{}: no wheel {} can fail so", vehicle_.id.str(), fault.wheel);
+    if (!known)
+        server::log::warn("fault.unknown_wheel",
+                          {{"vehicle", vehicle_.id.str()}, {"wheel", fault.wheel}});
 }
 
 void Vehicle::keep_learned() {
@@ -224,8 +212,8 @@ void Vehicle::keep_learned() {
     stopping_ = executor_.acting();
     if (!ended || !learned_) return;
     if (const auto saved = learned_->save(executor_.compensation()); !saved) {
-        spdlog::warn("{}: what it has learned is not kept: {}", vehicle_.id.str(),
-                     saved.error().what);
+        server::log::warn("learned.not_kept",
+                          {{"vehicle", vehicle_.id.str()}, {"what", saved.error().what}});
     }
 }
 
@@ -243,166 +231,6 @@ void Vehicle::look_while_standing(Steady::time_point now) {
     look_every_ =
         std::max(kLookInterval, kLookShare * settings_.vehicles * (Steady::now() - begin));
     last_look_ = now;
-}
-
-fleet::StateMessage Vehicle::state() {
-    fleet::StateMessage state;
-    executor_.write_state(state);
-    body_.write_state(state);
-    equipment_.write_state(state);
-    if (look_out_ && !executor_.in_hand()) {
-        look_out_->write_state(state);
-        going_round_->write_state(state);
-    }
-    state.cameras = sensing_.readings();
-    state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
-    state.localization_score = estimate_.score();
-    return state;
-}
-
-template <class Put>
-void Vehicle::put_whole(Put put) {
-    try {
-        put();
-    } catch (const vda5050::NotFinite& broken) {
-        spdlog::error("{}: a message was left out: {}", vehicle_.id.str(), broken.what());
-    }
-}
-
-void Vehicle::send_state(Steady::time_point now) {
-    last_state_ = now;
-    state_due_ = false;
-    put_whole([&] {
-        outbox_.put_state(vda5050::encode_frame(
-            Topic::kState, false,
-            vda5050::encode_state(state(), headers_.next(Topic::kState, utc_now()))));
-    });
-}
-
-void Vehicle::send_visualization() {
-    const fleet::VisualizationMessage message{drive_->believed_pose(), true, drive_->velocity_mps(),
-                                              drive_->turn_rate_radps()};
-    fleet::StateMessage map;
-    executor_.write_state(map);
-    put_whole([&] {
-        outbox_.put_visualization(vda5050::encode_frame(
-            Topic::kVisualization, false,
-            vda5050::encode_visualization(message, map.map_id,
-                                          headers_.next(Topic::kVisualization, utc_now()))));
-    });
-}
-
-void Vehicle::send_pictures(Steady::time_point now) {
-    pictures_due_ = false;
-    last_pictures_ = now;
-    for (const auto& picture : sensing_.pictures()) {
-        auto frame = vda5050::encode_camera_frame(
-            {picture.camera, vda5050::timestamp(utc_now()), "image/jpeg", picture.jpeg});
-        if (frame) outbox_.put_picture(picture.camera, std::move(*frame));
-    }
-}
-
-void Vehicle::send_factsheet() {
-    if (!linked_) return;
-    vda5050::FactsheetSource source;
-    source.type = &type_;
-    source.time_factor = settings_.time_factor;
-    source.node_actions = simulation::stop_action_types();
-    source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
-                               equipment_.action_types().end());
-    source.instant_actions = simulation::instant_action_types();
-    put_whole([&] {
-        outbox_.put_event(vda5050::encode_frame(
-            Topic::kFactsheet, true,
-            vda5050::encode_factsheet(source, headers_.next(Topic::kFactsheet, utc_now()))));
-    });
-}
-
-void Vehicle::link_up() {
-    outbox_.clear();
-    linked_ = true;
-    outbox_.put_event(vda5050::encode_frame(
-        Topic::kConnection, true,
-        vda5050::encode_connection(fleet::ConnectionState::kOnline,
-                                   headers_.next(Topic::kConnection, utc_now()))));
-    send_factsheet();
-    state_due_ = true;
-    last_state_ = {};
-    last_look_ = {};
-    last_pictures_ = {};
-}
-
-void Vehicle::link_down() {
-    // It drives on to the end of its base; what it has to say waits for the next link.
-    linked_ = false;
-    outbox_.clear();
-}
-
-std::string Vehicle::offline_frame() {
-    return vda5050::encode_frame(
-        Topic::kConnection, true,
-        vda5050::encode_connection(fleet::ConnectionState::kOffline,
-                                   headers_.next(Topic::kConnection, utc_now())));
-}
-
-void Vehicle::report(const Error& error, const char* topic) {
-    spdlog::warn("{}: refused a message on {}: {} (at {})", vehicle_.id.str(), topic, error.what,
-                 error.field);
-    fleet::VehicleError out;
-    out.type = "validationError";
-    out.description = error.what;
-    out.references = {{"topic", topic}, {"field", error.field}};
-    executor_.report(std::move(out));
-}
-
-void Vehicle::receive(std::string_view text) {
-    const auto frame = vda5050::decode_frame(text);
-    if (!frame) return report(frame.error(), "unknown");
-    const char* topic = to_string(frame->topic);
-    const auto header = vda5050::decode_header(frame->payload);
-    if (!header) return report(header.error(), topic);
-    if (header->manufacturer != vehicle_.manufacturer ||
-        header->serial_number != vehicle_.serial_number) {
-        return report({Errc::kInvalid,
-                       {"wrong_identity", {}},
-                       "the message is for another vehicle",
-                       "/serialNumber"},
-                      topic);
-    }
-    if (frame->topic == Topic::kOrder) {
-        const auto order = vda5050::decode_order(frame->payload);
-        if (!order) {
-            // The order is named, so that the sender sees this as its rejection.
-            fleet::OrderMessage named;
-            const auto& payload = frame->payload;
-            if (payload.contains("orderId") && payload["orderId"].is_string()) {
-                named.order_id = payload["orderId"].get<std::string>();
-            }
-            if (payload.contains("orderUpdateId") && payload["orderUpdateId"].is_number_integer()) {
-                named.order_update_id = payload["orderUpdateId"].get<std::int64_t>();
-            }
-            auto error = simulation::order_error("validationError", order.error().what, named);
-            error.references.emplace_back("field", order.error().field);
-            return executor_.report(std::move(error));
-        }
-        spdlog::info("{}: order {} update {} is here", vehicle_.id.str(), order->order_id,
-                     order->order_update_id);
-        return executor_.handle(*order);
-    }
-    if (frame->topic == Topic::kInstantActions) {
-        const auto actions = vda5050::decode_instant_actions(frame->payload);
-        if (!actions) return report(actions.error(), topic);
-        const geometry::Pose2 before = drive_->believed_pose();
-        executor_.handle(*actions);
-        // Nothing drives in between: a person said where it stands.
-        if (drive_->believed_pose() != before) estimate_.start_at(drive_->believed_pose());
-        return;
-    }
-    report({Errc::kInvalid,
-            {"wrong_topic", {}},
-            "a vehicle hears order and instantActions only",
-            "/topic"},
-           topic);
 }
 
 void Vehicle::write_truth(Steady::time_point now) {

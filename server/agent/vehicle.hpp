@@ -7,18 +7,20 @@
 #include <string>
 #include <string_view>
 
-#include "api/vehicle/header.hpp"
-#include "core/simulation/servo_drive.hpp"
-#include "core/simulation/vehicle_executor.hpp"
-#include "core/simulation/world.hpp"
+#include "api/vda5050/header.hpp"
+#include "core/onboard/executor.hpp"
+#include "core/onboard/going_round.hpp"
+#include "core/onboard/look_out.hpp"
+#include "core/onboard/pose_estimate.hpp"
+#include "core/simulation/machine/equipment.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/scanners.hpp"
+#include "core/simulation/world/world.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/agent/camera_sensing.hpp"
-#include "server/agent/going_round.hpp"
 #include "server/agent/learned_moves.hpp"
-#include "server/agent/look_out.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
-#include "server/agent/pose_estimate.hpp"
 #include "server/agent/truth_log.hpp"
 
 namespace pulseline::agent {
@@ -52,7 +54,7 @@ public:
     /// The message that says goodbye on a clean exit.
     std::string offline_frame();
 
-    // From a hand-held control beside it; as VehicleExecutor says.
+    // From a hand-held control beside it; as onboard::Executor says.
     void take_by_hand() { executor_.take_by_hand(); }
     Status drive_by_hand(const kinematics::Twist& wanted) {
         return executor_.drive_by_hand(wanted);
@@ -66,14 +68,14 @@ public:
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
     /// What its scanners see of the vehicles around it.
-    void see(LookOut::Neighbours neighbours);
+    void see(simulation::SimulatedScanners::Neighbours neighbours);
     /// Puts its body, load included, as it truly stands, to what others' scanners see.
     void show_body(const plant::HallId& hall, geometry::Point2 from,
                    std::vector<geometry::Polygon>& to) const;
     const plant::HallId& hall() const { return hall_; }
 
 private:
-    fleet::StateMessage state();
+    vda5050::StateMessage state();
     void report(const Error& error, const char* topic);
     void send_factsheet();
     /// Leaves out a message that cannot be written, and says so.
@@ -92,15 +94,16 @@ private:
     const plant::VehicleType type_;  // its cameras as they hang under its load
     const plant::HallId hall_;
     VehicleSettings settings_;
-    std::unique_ptr<simulation::Drive> drive_;
+    std::unique_ptr<simulation::SimulatedDrive> drive_;
     CameraSensing sensing_;
     simulation::VehicleEquipment equipment_;
     std::optional<LearnedMoves> learned_;
-    simulation::VehicleExecutor executor_;
+    onboard::Executor executor_;
     BodyStatus body_;
-    std::optional<LookOut> look_out_;
-    std::optional<GoingRound> going_round_;  // with a look-out
-    PoseEstimate estimate_;
+    simulation::SimulatedScanners scanners_;
+    std::optional<onboard::LookOut> look_out_;
+    std::optional<onboard::GoingRound> going_round_;  // with a look-out
+    onboard::PoseEstimate estimate_;
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;

@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "api/access/access_control.hpp"
+#include "server/base/server_clock.hpp"
 #include "server/cli/serve_command.hpp"
 #include "server/cli/storage.hpp"
-#include "server/server_clock.hpp"
 
 namespace pulseline::server::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include <tuple>
 #include <utility>
 
-#include "api/vision/camera_file.hpp"
-#include "api/vision/file_bytes.hpp"
-#include "api/vision/image_bytes.hpp"
+#include "api/localization/camera_file.hpp"
+#include "api/localization/file_bytes.hpp"
+#include "api/localization/image_bytes.hpp"
 #include "core/calibration/camera_calibration.hpp"
 #include "core/printing/sheet_list.hpp"
 #include "core/vision/marker_reader.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "db/plant_store.hpp"
+#include "db/plant/plant_store.hpp"
 #include "server/cli/journal_verify.hpp"
 
 namespace pulseline::server::cli {

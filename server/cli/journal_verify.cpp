@@ -6,8 +6,8 @@
 #include "core/fleet/journal/input.hpp"
 #include "core/fleet/journal/snapshot.hpp"
 #include "core/fleet/state/fields.hpp"
-#include "db/history.hpp"
-#include "db/journal_rows.hpp"
+#include "db/fleet/history.hpp"
+#include "db/journal/journal_rows.hpp"
 
 namespace pulseline::server::cli {
 namespace {

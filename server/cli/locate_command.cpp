@@ -8,8 +8,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "api/vision/camera_file.hpp"
-#include "api/vision/image_bytes.hpp"
+#include "api/localization/camera_file.hpp"
+#include "api/localization/image_bytes.hpp"
 #include "core/vision/marker_reader.hpp"
 
 namespace pulseline::server::cli {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "core/printing/sheet_list.hpp"
-#include "db/plant_store.hpp"
+#include "db/plant/plant_store.hpp"
 #include "server/cli/output_file.hpp"
 #include "server/cli/serve_command.hpp"
 

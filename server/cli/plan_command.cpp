@@ -9,7 +9,7 @@
 
 #include "api/plant/moving_ai_file.hpp"
 #include "api/plant/occupancy_file.hpp"
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 
 namespace pulseline::server::cli {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/plant/validate.hpp"
-#include "db/plant_store.hpp"
+#include "db/plant/plant_store.hpp"
 #include "server/cli/layout_warnings.hpp"
 
 namespace pulseline::server::cli {

@@ -9,10 +9,10 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/plant/validate.hpp"
+#include "server/base/config_file.hpp"
+#include "server/base/descriptors.hpp"
+#include "server/base/log.hpp"
 #include "server/cli/storage.hpp"
-#include "server/config_file.hpp"
-#include "server/descriptors.hpp"
-#include "server/log.hpp"
 #include "server/server.hpp"
 
 namespace pulseline::server::cli {

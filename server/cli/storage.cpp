@@ -1,10 +1,10 @@
 #include "server/cli/storage.hpp"
 
-#include "db/access_store.hpp"
+#include "db/access/access_store.hpp"
 #include "db/database.hpp"
-#include "db/fleet_store.hpp"
-#include "db/history.hpp"
-#include "db/plant_store.hpp"
+#include "db/fleet/fleet_store.hpp"
+#include "db/fleet/history.hpp"
+#include "db/plant/plant_store.hpp"
 
 namespace pulseline::server::cli {
 namespace {

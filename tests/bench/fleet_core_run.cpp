@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <string>
 
-#include "db/fleet_store.hpp"
+#include "db/fleet/fleet_store.hpp"
 #include "tests/bench/lanes.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 

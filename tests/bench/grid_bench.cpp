@@ -6,7 +6,7 @@
 #include <functional>
 #include <limits>
 
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 #include "tests/bench/generated_maps.hpp"
 
 namespace pulseline::bench {

@@ -93,7 +93,7 @@ function orderSender(client) {
 /** Milliseconds from an order's acceptance to its first leg's arrival at the agent; 0 where the agent was faster than the answer. */
 async function waysToTheAgent(client, sent, log) {
   const came = new Map();
-  for (const [, time, leg] of log.matchAll(/^(\S+Z) \S*info\S* \S+: order (\S+) update 0 is here$/gm)) came.set(leg, Date.parse(time));
+  for (const [, time, leg] of log.matchAll(/^(\S+Z) info order\.here vehicle=\S+ order=(\S+) update=0$/gm)) came.set(leg, Date.parse(time));
   const ways = [];
   for (const { order, accepted } of sent) {
     const leg = (await client.get(`/api/v1/job-orders/${order}`)).steps[0].leg;

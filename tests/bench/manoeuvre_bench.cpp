@@ -5,7 +5,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "core/planning/free_manoeuvre.hpp"
+#include "core/planning/manoeuvre/free_manoeuvre.hpp"
 #include "tests/bench/manoeuvre_reference.hpp"
 
 namespace pulseline::bench {

@@ -14,7 +14,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "core/planning/footprint_check.hpp"
+#include "core/planning/room/footprint_check.hpp"
 
 namespace pulseline::bench {
 namespace {

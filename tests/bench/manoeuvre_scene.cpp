@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <random>
 
-#include "core/planning/obstacles.hpp"
+#include "core/planning/room/obstacles.hpp"
 
 namespace pulseline::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 namespace pulseline::bench {
 

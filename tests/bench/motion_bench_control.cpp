@@ -10,8 +10,8 @@
 #include "core/control/dynamic_window.hpp"
 #include "core/control/protective_fields.hpp"
 #include "core/kinematics/primitives.hpp"
-#include "core/simulation/lidar.hpp"
-#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/lidar.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 
 namespace pulseline::bench {

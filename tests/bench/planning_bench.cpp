@@ -12,9 +12,9 @@
 #include <random>
 
 #include "api/plant/plant_file.hpp"
-#include "core/planning/grid_search.hpp"
-#include "core/planning/leg_planner.hpp"
-#include "core/planning/roadmap_index.hpp"
+#include "core/planning/grid/grid_search.hpp"
+#include "core/planning/legs/leg_planner.hpp"
+#include "core/planning/roads/roadmap_index.hpp"
 #include "core/traffic/tiles.hpp"
 #include "tests/bench/grid_bench.hpp"
 #include "tests/bench/road_bench.hpp"

@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <random>
 
-#include "core/planning/road_alternatives.hpp"
-#include "core/planning/road_router.hpp"
+#include "core/planning/roads/road_alternatives.hpp"
+#include "core/planning/roads/road_router.hpp"
 
 namespace pulseline::bench {
 namespace {

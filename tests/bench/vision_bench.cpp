@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/plant/marker_geometry.hpp"
-#include "core/simulation/floor_camera.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 #include "tests/bench/vision_methods.hpp"
 
 namespace {

@@ -18,9 +18,9 @@
 #endif
 
 #include "core/plant/marker_geometry.hpp"
-#include "core/vision/li_landmark.hpp"
 #include "core/vision/marker_reader.hpp"
-#include "core/vision/tang_corners.hpp"
+#include "core/vision/papers/li_landmark.hpp"
+#include "core/vision/papers/tang_corners.hpp"
 
 namespace pulseline::bench {
 namespace {

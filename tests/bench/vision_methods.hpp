@@ -7,7 +7,7 @@
 
 #include "core/plant/plant.hpp"
 #include "core/vision/marker_reader.hpp"
-#include "core/vision/optics.hpp"
+#include "core/vision/optics/optics.hpp"
 
 /// Everything that is compared in bench_vision, behind one shape.
 namespace pulseline::bench {

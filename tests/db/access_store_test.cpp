@@ -1,4 +1,4 @@
-#include "db/access_store.hpp"
+#include "db/access/access_store.hpp"
 
 #include <gtest/gtest.h>
 

@@ -171,7 +171,7 @@ public:
         leg.duration_s = number();
         leg.attempt = 2;
         for (int i = 0; i < 3; ++i) {
-            fleet::OrderNode node;
+            vda5050::OrderNode node;
             node.node_id = "n" + std::to_string(i);
             node.sequence_id = 2 * i;
             node.released = i < 2;
@@ -181,22 +181,22 @@ public:
             node.map_id = "main";
             leg.nodes.push_back(node);
         }
-        fleet::Action action;
+        vda5050::Action action;
         action.type = "measureStop";
         action.id = "a-1";
-        action.blocking = fleet::BlockingType::kSoft;
+        action.blocking = vda5050::BlockingType::kSoft;
         action.params = {{"z", number()}, {"a", std::string("text")}};
-        action.stop_target = fleet::StopTarget{"st02",
-                                               2,
-                                               pose(),
-                                               number(),
-                                               number(),
-                                               number(),
-                                               {{"ST02-F", "qr", 0.06, pose(), number()}}};
-        action.init_position = fleet::InitPosition{pose(), "main", "n0"};
+        action.stop_target = vda5050::StopTarget{"st02",
+                                                 2,
+                                                 pose(),
+                                                 number(),
+                                                 number(),
+                                                 number(),
+                                                 {{"ST02-F", "qr", 0.06, pose(), number()}}};
+        action.init_position = vda5050::InitPosition{pose(), "main", "n0"};
         leg.nodes[2].actions.push_back(action);
         for (int i = 0; i < 2; ++i) {
-            fleet::OrderEdge edge;
+            vda5050::OrderEdge edge;
             edge.edge_id = "e" + std::to_string(i);
             edge.sequence_id = 2 * i + 1;
             edge.released = i == 0;

@@ -1,11 +1,11 @@
-#include "db/fleet_store.hpp"
+#include "db/fleet/fleet_store.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "db/fleet_rows.hpp"
-#include "db/standing_rows.hpp"
+#include "db/fleet/fleet_rows.hpp"
+#include "db/fleet/standing_rows.hpp"
 #include "tests/db/fleet_samples.hpp"
 #include "tests/db/temp_folder.hpp"
 

@@ -1,11 +1,11 @@
-#include "db/history.hpp"
+#include "db/fleet/history.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "db/fleet_rows.hpp"
-#include "db/fleet_store.hpp"
+#include "db/fleet/fleet_rows.hpp"
+#include "db/fleet/fleet_store.hpp"
 #include "tests/db/fleet_samples.hpp"
 #include "tests/db/temp_folder.hpp"
 

@@ -1,9 +1,9 @@
-#include "db/journal_store.hpp"
+#include "db/journal/journal_store.hpp"
 
 #include <gtest/gtest.h>
 
-#include "db/fleet_store.hpp"
-#include "db/journal_rows.hpp"
+#include "db/fleet/fleet_store.hpp"
+#include "db/journal/journal_rows.hpp"
 
 namespace pulseline::db {
 namespace {

@@ -1,4 +1,4 @@
-#include "db/plant_store.hpp"
+#include "db/plant/plant_store.hpp"
 
 #include <gtest/gtest.h>
 

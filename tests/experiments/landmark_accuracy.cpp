@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "api/vision/camera_file.hpp"
+#include "api/localization/camera_file.hpp"
 #include "core/localisation/error_budget.hpp"
 #include "core/plant/marker_geometry.hpp"
-#include "core/simulation/floor_camera.hpp"
-#include "core/vision/li_landmark.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 #include "core/vision/marker_reader.hpp"
+#include "core/vision/papers/li_landmark.hpp"
 #include "tests/experiments/experiments.hpp"
 
 namespace pulseline::experiments {

@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "api/vision/camera_file.hpp"
+#include "api/localization/camera_file.hpp"
 #include "core/control/adjustment.hpp"
 #include "core/plant/marker_geometry.hpp"
-#include "core/simulation/floor_camera.hpp"
-#include "core/simulation/servo_drive.hpp"
-#include "core/simulation/true_camera.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/floor_camera.hpp"
+#include "core/simulation/world/true_camera.hpp"
 #include "core/vision/marker_reader.hpp"
 #include "tests/experiments/experiments.hpp"
 

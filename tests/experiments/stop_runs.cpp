@@ -7,8 +7,8 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/kinematics/motion.hpp"
-#include "core/simulation/servo_drive.hpp"
-#include "core/simulation/vehicle_executor.hpp"
+#include "core/onboard/executor.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
 #include "server/agent/camera_sensing.hpp"
 
 namespace pulseline::experiments {
@@ -25,9 +25,9 @@ constexpr double kReceiverPlace_m = 2e-5;  // after calibration
 
 /// A stand-in until there are iGPS transmitters and receivers: the true places of four receivers at
 /// the corners with noise of Wang's grade, and the rigid fit of all four (his eq. 1 and 2).
-class ReceiverSensing : public simulation::StopSensing {
+class ReceiverSensing : public onboard::StopSensing {
 public:
-    ReceiverSensing(const simulation::Drive& drive, std::uint64_t seed)
+    ReceiverSensing(const simulation::SimulatedDrive& drive, std::uint64_t seed)
         : drive_(drive), random_(seed) {
         const auto box = geometry::bounding_box(drive.type().footprint);
         for (const double x_m : {box.min.x_m, box.max.x_m}) {
@@ -38,14 +38,14 @@ public:
         }
     }
 
-    Result<fleet::StopMeasurement> measure(const fleet::StopTarget&) override {
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget&) override {
         std::vector<Point2> seen;
         for (const Point2& place : actual_) {
             const Point2 at = drive_.true_pose() * place;
             seen.push_back({at.x_m + noise(kReceiver_m), at.y_m + noise(kReceiver_m)});
         }
         const double sigma_m = kReceiver_m / std::sqrt(static_cast<double>(seen.size()));
-        return fleet::StopMeasurement{
+        return vda5050::StopMeasurement{
             fit(seen), sigma_m, sigma_m / norm(calibrated_[0]), "igps", {}};
     }
 
@@ -72,7 +72,7 @@ private:
         return {origin.x_m, origin.y_m, turned.heading_rad};
     }
 
-    const simulation::Drive& drive_;
+    const simulation::SimulatedDrive& drive_;
     std::mt19937_64 random_;
     std::normal_distribution<double> normal_;
     std::vector<Point2> calibrated_;
@@ -80,15 +80,15 @@ private:
 };
 
 /// Counts looks and keeps where the vehicle stood at the first.
-class Watched : public simulation::StopSensing {
+class Watched : public onboard::StopSensing {
 public:
-    Watched(simulation::StopSensing& eyes, const simulation::Drive& drive, double spoil_m)
+    Watched(onboard::StopSensing& eyes, const simulation::SimulatedDrive& drive, double spoil_m)
         : eyes_(eyes), drive_(drive), spoil_m_(spoil_m) {}
     void forget() { looks_ = 0; }
     int looks() const { return looks_; }
     const Pose2& first() const { return first_; }
-    const fleet::StopMeasurement& last() const { return last_; }
-    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override {
+    const vda5050::StopMeasurement& last() const { return last_; }
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override {
         if (looks_++ == 0) first_ = drive_.true_pose();
         auto made = eyes_.measure(target);
         if (!made) return made;
@@ -98,17 +98,17 @@ public:
     }
 
 private:
-    simulation::StopSensing& eyes_;
-    const simulation::Drive& drive_;
+    onboard::StopSensing& eyes_;
+    const simulation::SimulatedDrive& drive_;
     double spoil_m_;
     int looks_ = 0;
     Pose2 first_;
-    fleet::StopMeasurement last_;
+    vda5050::StopMeasurement last_;
 };
 
-fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
-                            double tolerance_m) {
-    fleet::StopTarget target;
+vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
+                              double tolerance_m) {
+    vda5050::StopTarget target;
     target.station_id = station.id.str();
     target.station_number = station.number;
     target.target = station.pose;
@@ -123,13 +123,13 @@ fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& sta
     return target;
 }
 
-fleet::OrderMessage order_to(const std::string& id, const std::string& map,
-                             const std::vector<kinematics::Segment>& segments,
-                             const fleet::StopTarget& target) {
-    fleet::OrderMessage order;
+vda5050::OrderMessage order_to(const std::string& id, const std::string& map,
+                               const std::vector<kinematics::Segment>& segments,
+                               const vda5050::StopTarget& target) {
+    vda5050::OrderMessage order;
     order.order_id = id;
     const auto add_node = [&](const Pose2& pose) {
-        fleet::OrderNode node;
+        vda5050::OrderNode node;
         node.node_id = id + "-" + std::to_string(order.nodes.size());
         node.sequence_id = 2 * static_cast<std::int64_t>(order.nodes.size());
         node.released = true;
@@ -139,7 +139,7 @@ fleet::OrderMessage order_to(const std::string& id, const std::string& map,
     };
     add_node(segments.front().start);
     for (const auto& segment : segments) {
-        fleet::OrderEdge edge;
+        vda5050::OrderEdge edge;
         edge.edge_id = id + "-e" + std::to_string(order.edges.size());
         edge.sequence_id = 2 * static_cast<std::int64_t>(order.edges.size()) + 1;
         edge.released = true;
@@ -148,7 +148,7 @@ fleet::OrderMessage order_to(const std::string& id, const std::string& map,
         add_node(segment.end);
     }
     for (const char* type : {"adjustToMarker", "measureStop"}) {
-        fleet::Action action;
+        vda5050::Action action;
         action.type = type;
         action.id = id + "-" + type;
         action.stop_target = target;
@@ -171,15 +171,15 @@ public:
                  vehicle_.load_kg, world.errors),
           cameras_(world, hall_, drive_, true, seed, plant::is_loaded(vehicle_)),
           receivers_(drive_, seed),
-          eyes_(family.igps ? static_cast<simulation::StopSensing&>(receivers_) : cameras_, drive_,
+          eyes_(family.igps ? static_cast<onboard::StopSensing&>(receivers_) : cameras_, drive_,
                 runs.spoil_m),
           executor_(drive_, eyes_, hall_.str()) {
-        fleet::Action here;
+        vda5050::Action here;
         here.type = "initPosition";
         here.id = "init";
-        here.init_position =
-            fleet::InitPosition{plant::find_station(plant_, vehicle_.home)->pose, hall_.str(), {}};
-        executor_.handle(fleet::InstantActionsMessage{{here}});
+        here.init_position = vda5050::InitPosition{
+            plant::find_station(plant_, vehicle_.home)->pose, hall_.str(), {}};
+        executor_.handle(vda5050::InstantActionsMessage{{here}});
     }
 
     Stop drive_to(int number) {
@@ -211,16 +211,16 @@ public:
 
 private:
     bool done(const std::string& id, Stop& stop) {
-        fleet::StateMessage state;
+        vda5050::StateMessage state;
         executor_.write_state(state);
         for (const auto& error : state.errors) stop.why_not = error.type + ": " + error.description;
         bool finished = false;
         for (const auto& action : state.action_states) {
             if (action.id.rfind(id, 0) != 0) continue;
-            if (action.status == fleet::ActionStatus::kFailed)
+            if (action.status == vda5050::ActionStatus::kFailed)
                 stop.why_not = action.result_description;
             finished |=
-                action.type == "measureStop" && action.status == fleet::ActionStatus::kFinished;
+                action.type == "measureStop" && action.status == vda5050::ActionStatus::kFinished;
         }
         return finished;
     }
@@ -233,7 +233,7 @@ private:
     agent::CameraSensing cameras_;
     ReceiverSensing receivers_;
     Watched eyes_;
-    simulation::VehicleExecutor executor_;
+    onboard::Executor executor_;
     int legs_ = 0;
 };
 

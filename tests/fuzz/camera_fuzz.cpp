@@ -1,7 +1,7 @@
 // Any text as a camera file.
 #include <string_view>
 
-#include "api/vision/camera_file.hpp"
+#include "api/localization/camera_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     (void)pulseline::vision::decode_camera({reinterpret_cast<const char*>(data), size});

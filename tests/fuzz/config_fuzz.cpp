@@ -1,7 +1,7 @@
 // Any text as a configuration file.
 #include <string>
 
-#include "server/config_file.hpp"
+#include "server/base/config_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     pulseline::server::Options options;

@@ -18,10 +18,10 @@
 #include <vector>
 
 #include "core/plant/validate.hpp"
-#include "db/access_store.hpp"
-#include "db/fleet_store.hpp"
-#include "db/history.hpp"
-#include "db/plant_store.hpp"
+#include "db/access/access_store.hpp"
+#include "db/fleet/fleet_store.hpp"
+#include "db/fleet/history.hpp"
+#include "db/plant/plant_store.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 #include "tests/db/fleet_samples.hpp"
 

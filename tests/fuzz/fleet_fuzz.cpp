@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "api/vehicle/frame.hpp"
+#include "api/vda5050/frame.hpp"
 #include "tests/server/message_path.hpp"
 
 namespace {

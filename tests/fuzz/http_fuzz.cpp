@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "api/http/router.hpp"
-#include "server/request_reader.hpp"
+#include "server/sessions/request_reader.hpp"
 
 namespace {
 

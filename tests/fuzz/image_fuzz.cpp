@@ -3,7 +3,7 @@
 #include <opencv2/core/utility.hpp>
 #include <string_view>
 
-#include "api/vision/image_bytes.hpp"
+#include "api/localization/image_bytes.hpp"
 #include "core/vision/marker_reader.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {

@@ -2,10 +2,10 @@
 // reads the server's.
 #include <string_view>
 
-#include "api/vehicle/frame.hpp"
-#include "api/vehicle/instant_actions.hpp"
-#include "api/vehicle/order.hpp"
-#include "server/vehicle_frames.hpp"
+#include "api/vda5050/frame.hpp"
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/order.hpp"
+#include "server/vehicles/vehicle_frames.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace pulseline;

@@ -2,8 +2,16 @@
 // client may send, cursors, pages and the start of an event stream among them.
 #include <string_view>
 
-#include "api/http/requests.hpp"
-#include "api/http/template_body.hpp"
+#include "api/http/orders/order_requests.hpp"
+#include "api/http/orders/schedule_json.hpp"
+#include "api/http/orders/template_body.hpp"
+#include "api/http/plant/sheets_request.hpp"
+#include "api/http/routing/routing_requests.hpp"
+#include "api/http/session/sign_in_request.hpp"
+#include "api/http/stops/stop_requests.hpp"
+#include "api/http/vehicles/vehicle_requests.hpp"
+#include "api/http/wire/body.hpp"
+#include "api/http/wire/query.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace pulseline;

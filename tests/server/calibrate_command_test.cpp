@@ -10,8 +10,8 @@
 #include <opencv2/imgproc.hpp>
 #include <sstream>
 
-#include "api/vision/camera_file.hpp"
-#include "core/simulation/floor_camera.hpp"
+#include "api/localization/camera_file.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 #include "tests/db/temp_folder.hpp"
 
 namespace pulseline::server::cli {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "server/server_clock.hpp"
+#include "server/base/server_clock.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 // The fleet by the server's clock while the machine's is set: half an hour round six o'clock, with

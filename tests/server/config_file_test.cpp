@@ -1,4 +1,4 @@
-#include "server/config_file.hpp"
+#include "server/base/config_file.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

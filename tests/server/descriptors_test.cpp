@@ -9,7 +9,7 @@
 #include <array>
 #include <vector>
 
-#include "server/descriptors.hpp"
+#include "server/base/descriptors.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 

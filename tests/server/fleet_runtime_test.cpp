@@ -1,4 +1,4 @@
-#include "server/fleet_runtime.hpp"
+#include "server/runtime/fleet_runtime.hpp"
 
 #include <gtest/gtest.h>
 

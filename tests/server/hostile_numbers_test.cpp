@@ -6,13 +6,13 @@
 #include <cctype>
 #include <charconv>
 
-#include "api/vehicle/connection.hpp"
-#include "api/vehicle/factsheet.hpp"
-#include "api/vehicle/frame.hpp"
-#include "api/vehicle/instant_actions.hpp"
-#include "api/vehicle/order.hpp"
-#include "api/vehicle/visualization.hpp"
-#include "tests/api/vehicle/samples.hpp"
+#include "api/vda5050/connection.hpp"
+#include "api/vda5050/factsheet.hpp"
+#include "api/vda5050/frame.hpp"
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/order.hpp"
+#include "api/vda5050/visualization.hpp"
+#include "tests/api/vda5050/samples.hpp"
 #include "tests/server/message_path.hpp"
 
 namespace pulseline::server::testing {
@@ -169,8 +169,8 @@ TEST(HostileNumbers, OfAPlacedVehiclesOtherMessages) {
     try_all(path, "visualization",
             vda5050::encode_visualization({{1, 2, 3}, true, 0.4, -0.1}, "h1", header), 6);
     path.reset();
-    try_all(path, "connection", vda5050::encode_connection(fleet::ConnectionState::kOnline, header),
-            1);
+    try_all(path, "connection",
+            vda5050::encode_connection(vda5050::ConnectionState::kOnline, header), 1);
 }
 
 TEST(HostileNumbers, OfAStateAreRefusedByTheNameOfTheirField) {

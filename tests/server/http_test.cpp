@@ -4,8 +4,8 @@
 #include <memory>
 #include <thread>
 
-#include "server/listener.hpp"
-#include "server/log.hpp"
+#include "server/base/log.hpp"
+#include "server/sessions/listener.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 

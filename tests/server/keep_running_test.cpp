@@ -1,4 +1,4 @@
-#include "server/keep_running.hpp"
+#include "server/base/keep_running.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/lane.hpp"
+#include "server/base/lane.hpp"
 
 #include <gtest/gtest.h>
 

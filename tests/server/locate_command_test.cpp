@@ -8,7 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
-#include "api/vision/camera_file.hpp"
+#include "api/localization/camera_file.hpp"
 #include "tests/core/vision/marker_view.hpp"
 
 namespace pulseline::server::cli {

@@ -1,4 +1,4 @@
-#include "server/log_queue.hpp"
+#include "server/base/log_queue.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

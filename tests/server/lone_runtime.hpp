@@ -8,7 +8,7 @@
 #include <mutex>
 #include <thread>
 
-#include "server/fleet_runtime.hpp"
+#include "server/runtime/fleet_runtime.hpp"
 #include "tests/server/memory_stores.hpp"
 #include "tests/server/test_server.hpp"
 
@@ -75,7 +75,7 @@ public:
     void report() {
         runtime->input(kVehicle, [](fleet::Fleet& fleet, Time now) {
             fleet.vehicle_connected(kVehicle, now);
-            fleet::StateMessage state;
+            vda5050::StateMessage state;
             state.header_id = 1;
             state.position_initialized = true;
             state.pose = geometry::Pose2{5, 5, 0};

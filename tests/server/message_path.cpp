@@ -5,13 +5,13 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "api/http/job_order_json.hpp"
-#include "api/http/vehicle_json.hpp"
-#include "api/vehicle/instant_actions.hpp"
-#include "api/vehicle/order.hpp"
-#include "api/vehicle/state.hpp"
-#include "server/vehicle_frames.hpp"
-#include "tests/api/vehicle/samples.hpp"
+#include "api/http/orders/job_order_json.hpp"
+#include "api/http/vehicles/vehicle_json.hpp"
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/order.hpp"
+#include "api/vda5050/state.hpp"
+#include "server/vehicles/vehicle_frames.hpp"
+#include "tests/api/vda5050/samples.hpp"
 
 namespace pulseline::server::testing {
 namespace {
@@ -73,9 +73,9 @@ void check(const plant::Plant& plant, const fleet::Outputs& out, std::string& br
     for (const auto& message : out.messages) check(message, broken);
 }
 
-bool waits_to_measure(const fleet::StateMessage& state) {
+bool waits_to_measure(const vda5050::StateMessage& state) {
     return !state.action_states.empty() && state.node_states.empty() && !state.driving &&
-           state.action_states.back().status == fleet::ActionStatus::kWaiting;
+           state.action_states.back().status == vda5050::ActionStatus::kWaiting;
 }
 
 }  // namespace
@@ -158,11 +158,11 @@ MessagePath::Outcome MessagePath::give(std::string_view frame) {
     }
     outcome.taken = true;
     world_.now += std::chrono::milliseconds(10);
-    if (const auto* state = std::get_if<fleet::StateMessage>(&decoded->message)) {
+    if (const auto* state = std::get_if<vda5050::StateMessage>(&decoded->message)) {
         world_.fleet->vehicle_state(kVehicle, *state, world_.now);
-    } else if (const auto* sheet = std::get_if<fleet::Factsheet>(&decoded->message)) {
+    } else if (const auto* sheet = std::get_if<vda5050::Factsheet>(&decoded->message)) {
         world_.fleet->vehicle_factsheet(kVehicle, *sheet, world_.now);
-    } else if (const auto* seen = std::get_if<fleet::VisualizationMessage>(&decoded->message)) {
+    } else if (const auto* seen = std::get_if<vda5050::VisualizationMessage>(&decoded->message)) {
         check(Json{seen->pose.x_m, seen->pose.y_m, seen->pose.heading_rad, seen->velocity_mps,
                    seen->turn_rate_radps},
               outcome.broken);

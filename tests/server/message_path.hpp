@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/vehicle/header.hpp"
+#include "api/vda5050/header.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 namespace pulseline::server::testing {

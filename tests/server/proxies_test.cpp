@@ -1,4 +1,4 @@
-#include "server/proxies.hpp"
+#include "server/base/proxies.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "server/server_clock.hpp"
+#include "server/base/server_clock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <thread>
 
-#include "server/sign_in_gate.hpp"
+#include "server/sessions/sign_in_gate.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -140,7 +139,6 @@ std::vector<FaultVfs::Plan> plans_for(std::int64_t at, FaultVfs::Call call) {
 
 TEST(StoreFaults, EveryCallOfTwoHundredStepsMayFailAndNothingIsFalselyAcknowledged) {
     FaultVfs::install();
-    spdlog::set_level(spdlog::level::off);
     Begin begin;
     begin.now = kStart;
     std::size_t calls = 0;
@@ -173,7 +171,6 @@ TEST(StoreFaults, EveryCallOfTwoHundredStepsMayFailAndNothingIsFalselyAcknowledg
 
 TEST(StoreFaults, AfterAFailedCommitOrdersGoOnFromWhereTheyWere) {
     FaultVfs::install();
-    spdlog::set_level(spdlog::level::off);
     const db::TempFolder folder;
     const std::string path = folder.file("p.db");
     Ledger ledger;
@@ -204,7 +201,6 @@ TEST(StoreFaults, AfterAFailedCommitOrdersGoOnFromWhereTheyWere) {
 
 TEST(StoreFaults, AChangedRowOfTheJournalIsFoundWithItsNumber) {
     FaultVfs::install();
-    spdlog::set_level(spdlog::level::off);
     const db::TempFolder folder;
     const std::string path = folder.file("p.db");
     Ledger ledger;
@@ -236,7 +232,6 @@ TEST(StoreFaults, AChangedRowOfTheJournalIsFoundWithItsNumber) {
 
 TEST(StoreFaults, AnEventThatTheReplayDoesNotGiveIsFound) {
     FaultVfs::install();
-    spdlog::set_level(spdlog::level::off);
     const db::TempFolder folder;
     const std::string path = folder.file("p.db");
     Ledger ledger;

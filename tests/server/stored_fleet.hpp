@@ -10,8 +10,8 @@
 #include <string>
 
 #include "db/database.hpp"
-#include "db/fleet_store.hpp"
-#include "server/fleet_runtime.hpp"
+#include "db/fleet/fleet_store.hpp"
+#include "server/runtime/fleet_runtime.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 
 namespace pulseline::server::testing {

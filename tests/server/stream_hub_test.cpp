@@ -1,10 +1,10 @@
-#include "server/stream_hub.hpp"
+#include "server/stream/stream_hub.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "server/camera_store.hpp"
+#include "server/base/camera_store.hpp"
 #include "tests/server/test_server.hpp"
 
 namespace pulseline::server::testing {

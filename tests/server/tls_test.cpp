@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-#include "server/net.hpp"
-#include "server/server_clock.hpp"
-#include "server/tls.hpp"
+#include "server/base/net.hpp"
+#include "server/base/server_clock.hpp"
+#include "server/base/tls.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "core/fleet/vehicle/state_filter.hpp"
-#include "server/log.hpp"
+#include "server/base/log.hpp"
 #include "tests/server/tcp_client.hpp"
 #include "tests/server/test_server.hpp"
 #include "tests/server/ws_client.hpp"

@@ -3,7 +3,7 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 
-#include "server/net.hpp"
+#include "server/base/net.hpp"
 
 namespace pulseline::server::testing {
 

@@ -14,7 +14,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/fleet.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 #include "tests/simulation/fleet_judge_vehicle.hpp"
 

@@ -173,7 +173,7 @@ void World::check_given_floor(const plant::VehicleId& id) {
         violate(id.str() + " is silent and is given floor");
 }
 
-void World::note_told(const plant::VehicleId& id, const fleet::StateMessage& state) {
+void World::note_told(const plant::VehicleId& id, const vda5050::StateMessage& state) {
     auto& told = watch_[id].told;
     told.at_s = now_s_;
     watch_[id].unheard_s = 0;

@@ -10,15 +10,15 @@ constexpr double kInView_m = 0.085;  // half of what a camera sees of the floor
 }  // namespace
 
 /// What the cameras find at a stop: the true pose, to a tenth of a millimetre.
-class Vehicle::Cameras : public simulation::StopSensing {
+class Vehicle::Cameras : public onboard::StopSensing {
 public:
     Cameras(const simulation::VehicleMotion& motion, std::mt19937_64& random)
         : motion_(motion), random_(random) {}
-    Result<fleet::StopMeasurement> measure(const fleet::StopTarget& target) override {
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override {
         if (random_() % kUnreadable == 0) {
             return fail(Errc::kNotFound, "no_marker_in_view", "dirt on the code");
         }
-        return fleet::StopMeasurement{
+        return vda5050::StopMeasurement{
             motion_.true_pose(), 1e-4, 1e-4, "dual_camera", {target.markers.front().payload}};
     }
 
@@ -49,8 +49,7 @@ void Vehicle::boot(const Pose2& pose) {
     }
     motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
     cameras_ = std::make_unique<Cameras>(*motion_, random_);
-    executor_ = std::make_unique<simulation::VehicleExecutor>(*motion_, *cameras_,
-                                                              plant_.halls[0].id.str());
+    executor_ = std::make_unique<onboard::Executor>(*motion_, *cameras_, plant_.halls[0].id.str());
 }
 
 void Vehicle::restart() {
@@ -62,11 +61,11 @@ void Vehicle::push(const Pose2& to) {
     const bool known = knows_pose();
     boot(to);
     if (!known) return;
-    fleet::Action action;
+    vda5050::Action action;
     action.type = "initPosition";
     action.id = "pushed";
-    action.init_position = fleet::InitPosition{to, plant_.halls[0].id.str(), {}};
-    executor_->handle(fleet::InstantActionsMessage{{action}});
+    action.init_position = vda5050::InitPosition{to, plant_.halls[0].id.str(), {}};
+    executor_->handle(vda5050::InstantActionsMessage{{action}});
 }
 
 void Vehicle::misread(const Pose2& by, int reports) {
@@ -93,10 +92,10 @@ void Vehicle::step(double dt_s) {
                before.heading_rad == pose().heading_rad);
 }
 
-std::vector<fleet::CameraReading> Vehicle::readings() const {
-    std::vector<fleet::CameraReading> found;
+std::vector<vda5050::CameraReading> Vehicle::readings() const {
+    std::vector<vda5050::CameraReading> found;
     for (const auto& camera : type_.cameras) {
-        fleet::CameraReading reading;
+        vda5050::CameraReading reading;
         reading.camera = camera.name;
         for (const auto& marker : plant_.markers) {
             const auto in_body = geometry::inverse(pose()) * marker.pose;
@@ -113,8 +112,8 @@ std::vector<fleet::CameraReading> Vehicle::readings() const {
     return found;
 }
 
-fleet::StateMessage Vehicle::state() {
-    fleet::StateMessage state;
+vda5050::StateMessage Vehicle::state() {
+    vda5050::StateMessage state;
     executor_->write_state(state);
     state.header_id = ++header_id_;
     if (misread_reports_ > 0 && state.pose) {

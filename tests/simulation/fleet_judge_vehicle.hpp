@@ -4,8 +4,8 @@
 #include <random>
 
 #include "core/fleet/state/ports.hpp"
-#include "core/simulation/vehicle_executor.hpp"
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/onboard/executor.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
 
 /// A vehicle in the judge's hall: the real executor on a simulated platform, with what people and
 /// faults do to it.
@@ -24,7 +24,7 @@ public:
     void restart();
     /// Pushed by people; its own pose follows, as odometry does.
     void push(const Pose2& to);
-    fleet::StateMessage state();
+    vda5050::StateMessage state();
     /// From now on it says that it stands elsewhere, so far from where it is, in so many reports or
     /// until it is told where it stands. It drives where it should all the same.
     void misread(const Pose2& by, int reports);
@@ -39,7 +39,7 @@ public:
     bool standing() const { return motion_->standing(); }
     bool knows_pose() const { return executor_->position_initialized(); }
     bool at_work() const { return !motion_->idle() || executor_->acting(); }
-    const simulation::VehicleExecutor& executor() const { return *executor_; }
+    const onboard::Executor& executor() const { return *executor_; }
 
     bool dead = false;            // without power: silent and standing
     bool manual = false;          // a person has taken it over
@@ -50,7 +50,7 @@ public:
 private:
     class Cameras;
     void boot(const Pose2& pose);
-    std::vector<fleet::CameraReading> readings() const;
+    std::vector<vda5050::CameraReading> readings() const;
 
     const plant::Plant& plant_;
     const plant::Vehicle& vehicle_;
@@ -58,7 +58,7 @@ private:
     std::mt19937_64 random_;
     std::unique_ptr<simulation::VehicleMotion> motion_;
     std::unique_ptr<Cameras> cameras_;
-    std::unique_ptr<simulation::VehicleExecutor> executor_;
+    std::unique_ptr<onboard::Executor> executor_;
     std::int64_t header_id_ = 0;
     Pose2 misread_;
     int misread_reports_ = 0;

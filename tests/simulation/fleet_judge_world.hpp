@@ -55,7 +55,7 @@ private:
         T content;
     };
     struct Line {
-        std::vector<Mail<fleet::StateMessage>> up;
+        std::vector<Mail<vda5050::StateMessage>> up;
         std::vector<Mail<fleet::VehicleMessage>> down;
         bool cut = false;
         bool server_knows = false;  // that it is connected
@@ -141,7 +141,7 @@ private:
 
     // fleet_judge_laws.cpp
     void check_bodies();
-    void note_told(const plant::VehicleId& id, const fleet::StateMessage& state);
+    void note_told(const plant::VehicleId& id, const vda5050::StateMessage& state);
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
     void check_records(const fleet::Records& records);

@@ -4,6 +4,7 @@
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/attention.hpp"
@@ -27,7 +28,7 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     run.claim_left = false;
     run.stated.reset();
     JobOrder* order = fleet.orders.of(run.record.id);
-    drop_leg(fleet, run, now);
+    end_leg(fleet, run, LegEnd::kOffFloor, now);
     leave_floor(fleet, run, now);
     if (order && order->cancel_requested) abort_order(fleet, *order, order->reason, {}, now);
 }
@@ -60,7 +61,7 @@ Result<VehicleView> Fleet::integrate(const plant::VehicleId& id, Integration lev
     run->record.integration = level;
     fleet.store(*run);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, "vehicle.integration", {}, run->record.leg, id, actor,
+    add_event(fleet, now, event::kVehicleIntegration, {}, run->record.leg, id, actor,
               {{"from", to_string(before)}, {"to", to_string(level)}});
     if (level != Integration::kUtilise) {
         interrupt(fleet, *run, actor, now);

@@ -5,11 +5,13 @@
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/orders/orders.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/job_control.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
+#include "core/vda5050/actions.hpp"
 
 // What people and programs ask of job orders.
 namespace pulseline::fleet {
@@ -77,7 +79,7 @@ Status pause(FleetState& fleet, JobOrder& order, const std::string& actor, Time 
     set_order_state(fleet, order, JobState::kInterrupted, {"paused_by_person", {{"actor", actor}}},
                     actor, now);
     VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (run && run->has_leg()) pause_motion(fleet, *run, "startPause", now);
+    if (run && run->has_leg()) pause_motion(fleet, *run, vda5050::kStartPause, now);
     return {};
 }
 
@@ -99,7 +101,7 @@ Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time
     const bool was_paused = std::exchange(order.pause_requested, false);
     set_order_state(fleet, order, JobState::kRunning, {}, actor, now);
     // Also without a leg: the drive may have ended while the pause was on its way.
-    if (was_paused && run) pause_motion(fleet, *run, "stopPause", now);
+    if (was_paused && run) pause_motion(fleet, *run, vda5050::kStopPause, now);
     return {};
 }
 
@@ -110,7 +112,7 @@ Status end(FleetState& fleet, JobOrder& order, bool as_stop, const std::string& 
     order.stop_requested = as_stop;
     order.reason = {as_stop ? "stopped_by_person" : "cancelled_by_person", {{"actor", actor}}};
     fleet.store(order);
-    add_event(fleet, now, as_stop ? "job_order.stop_requested" : "job_order.cancel_requested",
+    add_event(fleet, now, as_stop ? event::kJobOrderStopRequested : event::kJobOrderCancelRequested,
               order.id, {}, order.assigned_vehicle, actor);
     VehicleRun* run = fleet.find(order.assigned_vehicle);
     if (!run || !run->has_leg() || run->leg().order != order.id) {
@@ -118,7 +120,7 @@ Status end(FleetState& fleet, JobOrder& order, bool as_stop, const std::string& 
     } else if (!asked_before) {
         cancel_leg(fleet, *run, now);
         // A pause that waits at the vehicle would outlive the order that asked for it.
-        if (order.pause_requested) pause_motion(fleet, *run, "stopPause", now);
+        if (order.pause_requested) pause_motion(fleet, *run, vda5050::kStopPause, now);
     }
     return {};
 }
@@ -142,7 +144,7 @@ Status remove(FleetState& fleet, JobOrder& order, JobMethod method, const std::s
     if (!is_final(order.state)) {
         abort_order(fleet, order, {"removed_by_person", {{"actor", actor}}}, actor, now);
     }
-    add_event(fleet, now, "job_order.removed", order.id, {}, order.assigned_vehicle, actor,
+    add_event(fleet, now, event::kJobOrderRemoved, order.id, {}, order.assigned_vehicle, actor,
               {{"method", to_string(method)}});
     fleet.store(order);
     return {};

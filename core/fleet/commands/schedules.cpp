@@ -9,8 +9,10 @@
 #include "core/fleet/orders/orders.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/orders/recurrence.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 
 // Orders made by time. The core has no clock: a schedule's time has come when a tick says so.
@@ -53,8 +55,8 @@ Result<Schedule*> find_for_change(FleetState& fleet, ScheduleId id,
 Status check_order(const FleetState& fleet, const NewOrder& order, Time now) {
     if (auto fields = resolve_fields(fleet, order, {}); !fields) return fail(fields.error());
     const auto plan = plan_order(fleet, order, now);
-    if (plan || plan.error().reason.code == "vehicle_gone" ||
-        plan.error().reason.code == "no_vehicle") {
+    if (plan || plan.error().reason.code == reasons::kVehicleGone ||
+        plan.error().reason.code == reasons::kNoVehicle) {
         return {};
     }
     return fail(plan.error());
@@ -74,7 +76,7 @@ void skip(FleetState& fleet, Schedule& schedule, Reason why, Time now) {
     Params params{{"reason", why.code}};
     params.insert(params.end(), why.params.begin(), why.params.end());
     schedule.last_skip = std::move(why);
-    note(fleet, now, "job_order_schedule.skipped", schedule, {}, std::move(params));
+    note(fleet, now, event::kJobOrderScheduleSkipped, schedule, {}, std::move(params));
 }
 
 void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
@@ -99,7 +101,7 @@ void make_order(FleetState& fleet, Schedule& schedule, Time at, Time now) {
     Params params{{"order", "JO-" + std::to_string(created->order.number)}};
     const auto left_out = fleet.standing.skipped_in_a_row.extract(schedule.id);
     if (!left_out.empty()) params.push_back({"skipped_before", left_out.mapped()});
-    note(fleet, now, "job_order_schedule.made", schedule, {}, std::move(params));
+    note(fleet, now, event::kJobOrderScheduleMade, schedule, {}, std::move(params));
 }
 
 }  // namespace
@@ -118,7 +120,7 @@ void require_persons_for_schedules(FleetState& fleet, Time now) {
             const bool wanted = schedule.order.vehicle.empty() || schedule.order.vehicle == name;
             const auto& type = schedule.order.vehicle_type;
             if (wanted && (type.empty() || type == run.type->id)) {
-                require_person(fleet, run, {"server_restarted", {}}, now);
+                require_person(fleet, run, {reasons::kServerRestarted, {}}, now);
             }
         }
     }
@@ -155,7 +157,7 @@ void run_schedules(FleetState& fleet, Time now) {
         }
         if (now - at <= schedule.recurrence.window) make_order(fleet, schedule, at, now);
         schedule.next = next_time(schedule.recurrence, now);
-        if (!schedule.next) note(fleet, now, "job_order_schedule.over", schedule, {});
+        if (!schedule.next) note(fleet, now, event::kJobOrderScheduleOver, schedule, {});
         store(fleet, schedule);
     }
 }
@@ -200,7 +202,7 @@ Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
     made.created = now;
     const Schedule& kept = schedules[made.id] = made;
     fleet.standing.changed_schedules.insert(kept.id);
-    note(fleet, now, "job_order_schedule.created", kept, wanted.actor);
+    note(fleet, now, event::kJobOrderScheduleCreated, kept, wanted.actor);
     return kept;
 }
 
@@ -215,8 +217,8 @@ Result<Schedule> Fleet::pause_schedule(ScheduleId id, bool paused,
     schedule.paused = paused;
     // What fell into the pause is left out, not made up for.
     if (!paused) schedule.next = next_time(schedule.recurrence, now);
-    note(fleet, now, paused ? "job_order_schedule.paused" : "job_order_schedule.resumed", schedule,
-         actor);
+    note(fleet, now, paused ? event::kJobOrderSchedulePaused : event::kJobOrderScheduleResumed,
+         schedule, actor);
     store(fleet, schedule);
     return schedule;
 }
@@ -228,7 +230,7 @@ Status Fleet::delete_schedule(ScheduleId id, std::optional<std::int64_t> if_revi
     if (!found) return fail(found.error());
     Schedule gone = **found;
     gone.deleted = true;
-    note(fleet, now, "job_order_schedule.deleted", gone, actor);
+    note(fleet, now, event::kJobOrderScheduleDeleted, gone, actor);
     fleet.standing.schedules.erase(id);
     fleet.standing.skipped_in_a_row.erase(id);
     fleet.standing.changed_schedules.erase(id);

@@ -1,5 +1,6 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
@@ -30,7 +31,7 @@ Result<OrderTemplate> Fleet::store_template(const OrderTemplate& wanted, Time no
     made.created = now;
     templates[made.name] = made;
     fleet.standing.changed_templates.push_back(made);
-    add_event(fleet, now, "job_order_template.created", {}, {}, {}, wanted.created_by,
+    add_event(fleet, now, event::kJobOrderTemplateCreated, {}, {}, {}, wanted.created_by,
               {{"template", wanted.name}});
     return made;
 }
@@ -47,7 +48,7 @@ Status Fleet::delete_template(const std::string& name, const std::string& actor,
     known->second.deleted = true;
     fleet.standing.changed_templates.push_back(known->second);
     templates.erase(known);
-    add_event(fleet, now, "job_order_template.deleted", {}, {}, {}, actor, {{"template", name}});
+    add_event(fleet, now, event::kJobOrderTemplateDeleted, {}, {}, {}, actor, {{"template", name}});
     return {};
 }
 

@@ -6,12 +6,15 @@
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
+#include "core/vda5050/actions.hpp"
 
 // What people ask of vehicles and of the fleet as a whole.
 namespace pulseline::fleet {
@@ -44,13 +47,12 @@ Status is_heard(const VehicleRun& run, const std::string& field, const std::stri
 
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {
-    static const char* const kCodes[] = {"server_restarted",   "vehicle_lost_order",
-                                         "vehicle_was_lost",   "vehicle_paused",
-                                         "order_not_accepted", "order_rejected",
-                                         "foreign_order",      "identity_conflict",
-                                         "vehicle_withdrawn",  "load_on_withdrawn_vehicle",
-                                         "driven_by_hand",     "pose_jumped",
-                                         "command_expired"};
+    static const char* const kCodes[] = {
+        reasons::kServerRestarted,        reasons::kVehicleLostOrder, reasons::kVehicleWasLost,
+        reasons::kVehiclePaused,          reasons::kOrderNotAccepted, reasons::kOrderRejected,
+        reasons::kForeignOrder,           reasons::kIdentityConflict, reasons::kVehicleWithdrawn,
+        reasons::kLoadOnWithdrawnVehicle, reasons::kDrivenByHand,     reasons::kPoseJumped,
+        reasons::kCommandExpired};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
@@ -62,12 +64,13 @@ void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, bool wi
     run.record.paused = Pause{actor, now, with_fleet};
     fleet.store(run);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, "vehicle.paused", {}, run.record.leg, id, actor);
-    pause_motion(fleet, run, "startPause", now);
+    add_event(fleet, now, event::kVehiclePaused, {}, run.record.leg, id, actor);
+    pause_motion(fleet, run, vda5050::kStartPause, now);
     JobOrder* order = fleet.orders.of(id);
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted,
-                        {"vehicle_paused", {{"vehicle", id.str()}, {"actor", actor}}}, actor, now);
+                        {reasons::kVehiclePaused, {{"vehicle", id.str()}, {"actor", actor}}}, actor,
+                        now);
     }
 }
 
@@ -80,11 +83,11 @@ void resume_leg(FleetState& fleet, VehicleRun& run, const std::string& actor, Ti
     }
     if (is_on_its_way(run)) {
         // It could be begun after it was forgotten here, so the vehicle is asked once more.
-        run.update_sends = 0;
+        run.delivery.sent_anew();
         return send_order_update(fleet, run, 0, now);
     }
     // The vehicle never got it or gave it up; the step starts anew from where it stands.
-    forget_leg(fleet, run, now);
+    end_leg(fleet, run, LegEnd::kLost, now);
 }
 
 void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::string& actor,
@@ -138,12 +141,12 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                     {{"x_m", pose.x_m}, {"y_m", pose.y_m}});
     }
     std::erase_if(run->actions,
-                  [](const PendingAction& p) { return p.action.type == "initPosition"; });
-    Action action;
-    action.type = "initPosition";
-    action.init_position = InitPosition{pose, stated.hall, {}};
+                  [](const PendingAction& p) { return p.action.type == vda5050::kInitPosition; });
+    vda5050::Action action;
+    action.type = vda5050::kInitPosition;
+    action.init_position = vda5050::InitPosition{pose, stated.hall, {}};
     run->stated = VehicleRun::Statement{stated, now, actor};
-    add_event(fleet, now, "vehicle.init_position", {}, {}, id, actor,
+    add_event(fleet, now, event::kVehicleInitPosition, {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
     send_action(fleet, *run, std::move(action), now);
     return view_of(fleet, *run, now);
@@ -151,7 +154,7 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
 
 void Fleet::pause_fleet(const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::pause_fleet>(now, actor);
-    add_event(fleet, now, "fleet.paused", {}, {}, {}, actor);
+    add_event(fleet, now, event::kFleetPaused, {}, {}, {}, actor);
     fleet.out.fleet_changed = true;
     for (auto& [id, run] : fleet.vehicles) pause(fleet, run, actor, true, now);
 }
@@ -188,16 +191,16 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
     }
     for (const auto& id : vehicles) {
         VehicleRun& run = *fleet.find(id);
-        add_event(fleet, now, "vehicle.resumed", {}, run.record.leg, id, actor,
+        add_event(fleet, now, event::kVehicleResumed, {}, run.record.leg, id, actor,
                   {{"cause", run.record.needs_resume ? run.record.needs_resume_reason.code
-                                                     : std::string("vehicle_paused")}});
+                                                     : std::string(reasons::kVehiclePaused)}});
         const bool was_paused = std::exchange(run.record.paused, std::nullopt).has_value();
         run.record.needs_resume = false;
         run.record.needs_resume_reason = {};
         run.connection_refused = false;
         fleet.out.fleet_changed = true;
         fleet.store(run);
-        if (was_paused || run.state.paused) pause_motion(fleet, run, "stopPause", now);
+        if (was_paused || run.state.paused) pause_motion(fleet, run, vda5050::kStopPause, now);
         if (is_in_doubt(run)) end_doubt(fleet, run, now);
 
         resume_leg(fleet, run, actor, now);

@@ -88,7 +88,7 @@ Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
         }
         return busy;
     }
-    if (auto reason = not_ready_for(fleet, order, *run, now)) return *reason;
+    if (auto barred = not_ready_for(fleet, order, *run, now)) return barred->reason;
     if (auto reason = battery_bar(*run)) return *reason;
     return {"no_free_vehicle", {}};
 }
@@ -118,8 +118,8 @@ void assign_waiting(FleetState& fleet, Time now) {
     if (orders.empty()) return;
     std::vector<VehicleRun*> free;
     for (auto& [id, run] : fleet.vehicles) {
-        const auto reason = not_ready(fleet, run, now);
-        const bool ready = !reason || reason->code == "parking_feet_down";
+        const auto barred = not_ready(fleet, run, now);
+        const bool ready = !barred || barred->by == Bar::kFeetDown;
         if (is_free(fleet, run) && ready && !battery_bar(run)) free.push_back(&run);
     }
     const std::size_t looked_at = free.empty() ? 0 : std::min(orders.size(), kMostOrders);

@@ -5,12 +5,14 @@
 
 #include "core/fleet/dispatch/assignment.hpp"
 #include "core/fleet/legs/legs.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
+#include "core/vda5050/actions.hpp"
 
 // Vehicles without an order whose battery is low go to chargers.
 namespace pulseline::fleet {
@@ -27,7 +29,7 @@ bool has(const std::vector<std::string>& actions, const char* type) {
 
 /// Keeps the charger for the vehicle that stands there: it charges, or nobody can send it away.
 bool keeps_charger(const FleetState& fleet, const VehicleRun& run) {
-    return charges_on(run) || is_loaded(run) || cannot_move(fleet, run).has_value();
+    return charges_on(run) || is_loaded(run) || cannot_move(fleet, run);
 }
 
 bool is_taken(const FleetState& fleet, const plant::Station& charger, const VehicleRun& by) {
@@ -43,7 +45,7 @@ bool is_taken(const FleetState& fleet, const plant::Station& charger, const Vehi
 std::optional<Reason> may_not_charge(const VehicleRun& run, Time now) {
     const Params who{{"vehicle", run.record.id.str()}};
     if (is_loaded(run)) return Reason{"charge_loaded", who};
-    if (!run.factsheet || !has(run.factsheet->node_actions, "startCharging")) {
+    if (!run.factsheet || !has(run.factsheet->node_actions, vda5050::kStartCharging)) {
         return Reason{"charge_not_announced", who};
     }
     if (run.charge_retry && now < *run.charge_retry) return Reason{"charge_failed", who};
@@ -90,7 +92,7 @@ std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Sta
     leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);
     if (auto reason = try_leg(fleet, run, std::move(*leg), now)) return reason;
     fleet.store(run);
-    add_event(fleet, now, "vehicle.goes_charging", {}, id, run.record.id, {},
+    add_event(fleet, now, event::kVehicleGoesCharging, {}, id, run.record.id, {},
               {{"station", std::int64_t{charger.number}}, {"percent", run.state.battery_percent}});
     send_leg(fleet, run, now);
     return std::nullopt;
@@ -100,11 +102,11 @@ std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Sta
 
 bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.state.charging || !run.factsheet) return false;
-    if (!has(run.factsheet->actions, "stopCharging")) return false;
-    if (!is_asked(run, "stopCharging") && (!run.charge_retry || now >= *run.charge_retry)) {
+    if (!has(run.factsheet->actions, vda5050::kStopCharging)) return false;
+    if (!is_asked(run, vda5050::kStopCharging) && (!run.charge_retry || now >= *run.charge_retry)) {
         run.charge_retry = now + kAskAgain;
-        Action action;
-        action.type = "stopCharging";
+        vda5050::Action action;
+        action.type = vda5050::kStopCharging;
         send_action(fleet, run, std::move(action), now);
     }
     return true;
@@ -112,7 +114,7 @@ bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
 
 void charge_failed(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {
     run.charge_retry = now + kTryAgain;
-    add_event(fleet, now, "vehicle.charge_failed", {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehicleChargeFailed, {}, run.record.leg, run.record.id, {},
               {{"why", why}});
 }
 

@@ -17,7 +17,7 @@
 namespace pulseline::fleet {
 
 void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
-    if (may_extend_base(run, now)) extend_base(fleet, run, now);
+    if (may_extend_base(fleet, run, now)) extend_base(fleet, run, now);
     JobOrder* order = fleet.orders.of(run.record.id);
     if (run.has_leg() || !order || order->state != JobState::kRunning) return;
     if (order->current_step >= order->steps.size()) return;

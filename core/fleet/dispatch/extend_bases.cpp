@@ -7,30 +7,23 @@
 namespace pulseline::fleet {
 namespace {
 
-// No base is extended on an older pose while the vehicle drives.
-constexpr Duration kPoseTooOld = std::chrono::seconds(2);
-
 /// A leg that has nothing on the floor yet has not been sent either.
 bool is_first_grant(const VehicleRun& run) {
-    return run.leg().released_nodes == 1 && run.leg().nodes.size() > 1 && !run.leg_seen &&
-           !run.update_sent;
+    return run.leg().released_nodes == 1 && run.leg().nodes.size() > 1 && !run.delivery.seen() &&
+           !run.delivery.unconfirmed();
 }
 
 }  // namespace
 
-bool may_extend_base(const VehicleRun& run, Time now) {
-    if (!run.has_leg() || run.update_sent) return false;
-    if (!run.leg_seen && !is_first_grant(run)) return false;
-    if (waits_for_person(run)) return false;
-    if (!run.connected || !run.reconciled || !run.state_at) return false;
-    if (run.state.driving && now - *run.state_at > kPoseTooOld) return false;
-    if (!is_automatic(run)) return false;
-    return run.link == Link::kLive;
+bool may_extend_base(const FleetState& fleet, const VehicleRun& run, Time now) {
+    if (!run.has_leg() || run.delivery.unconfirmed()) return false;
+    if (!run.delivery.seen() && !is_first_grant(run)) return false;
+    return !bars_extension(fleet, run, now);
 }
 
 void extend_bases(FleetState& fleet, Time now) {
     for (auto& [id, run] : fleet.vehicles) {
-        if (may_extend_base(run, now)) extend_base(fleet, run, now);
+        if (may_extend_base(fleet, run, now)) extend_base(fleet, run, now);
     }
 }
 

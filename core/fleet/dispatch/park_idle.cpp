@@ -12,8 +12,10 @@
 #include "core/fleet/floor/grants.hpp"
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/legs/legs.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -130,7 +132,7 @@ void tell_leaving(FleetState& fleet, VehicleRun& run, Time now) {
         // One whose order waits may itself be on its way aside.
         order = other->has_leg() ? other->leg().order : its ? its->id : JobOrderId();
     }
-    add_event(fleet, now, "vehicle.makes_way", order, run.leg().id, run.record.id, {},
+    add_event(fleet, now, event::kVehicleMakesWay, order, run.leg().id, run.record.id, {},
               std::move(params));
     extend_base(fleet, run, now);
 }
@@ -242,7 +244,7 @@ void park_idle(FleetState& fleet, Time now) {
         // An order whose own way is barred does not keep its vehicle from making way meanwhile.
         const JobOrder* order = fleet.orders.of(id);
         const bool waits =
-            !order || tries_in_vain(fleet, run) || order->reason.code == "goes_first";
+            !order || tries_in_vain(fleet, run) || order->reason.code == reasons::kGoesFirst;
         const bool has_way = plan.last() > plan.passed;
         const bool astray = !has_way && !fleet.floor.traffic.is_resting(run.floor.vehicle);
         const bool idle = !run.has_leg() && waits && (has_way || astray);

@@ -2,6 +2,7 @@
 
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/body.hpp"
 
 namespace pulseline::fleet {
@@ -32,7 +33,8 @@ void release_withdrawn(FleetState& fleet, Time now) {
         interrupt(fleet, run, {}, now);  // resumed by a person meanwhile
         JobOrder* order = fleet.orders.of(id);
         if (!order || order->cancel_requested || is_loaded(run)) continue;
-        if (order->reason.code != "vehicle_withdrawn" || is_bound_to(fleet, *order, id)) continue;
+        if (order->reason.code != reasons::kVehicleWithdrawn || is_bound_to(fleet, *order, id))
+            continue;
         give_back(fleet, *order);
     }
 }

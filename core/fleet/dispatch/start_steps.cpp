@@ -11,8 +11,10 @@
 #include "core/fleet/legs/legs.hpp"
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/orders/planning.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
@@ -87,7 +89,8 @@ const JobOrder* elder_of(const FleetState& fleet, const JobOrder& order, const V
 
 /// Gives up a leg that leads no further; the vehicle gets one of its own from where it stands.
 bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
-    if (run.cancelling || !run.leg_seen || run.update_sent) return false;
+    if (run.delivery.cancelling() || !run.delivery.seen() || run.delivery.unconfirmed())
+        return false;
     if (cannot_move(fleet, run) || !is_dead_end(fleet, run)) return false;
     cancel_leg(fleet, run, now);
     return true;
@@ -98,25 +101,20 @@ bool leave_dead_end(FleetState& fleet, VehicleRun& run, Time now) {
 /// and the step begins anew.
 bool drop_unsent(FleetState& fleet, VehicleRun& run, Time now) {
     const Leg& leg = run.leg();
-    if (run.cancelling || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty()) return false;
+    if (run.delivery.cancelling() || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty())
+        return false;
     const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
     if (plan.last() > plan.passed) return false;
     if (!leg.order.empty() && plan.place != traffic::kNoPlace) return false;
-    JobOrder* order = fleet.find(leg.order);
-    drop_leg(fleet, run, now);
-    if (!order) return true;
-    Step& step = order->steps[order->current_step];
-    step.state = StepState::kPending;
-    step.leg = {};
-    fleet.store(*order);
+    end_leg(fleet, run, LegEnd::kUnsent, now);
     return true;
 }
 
 /// A leg that outlived a restart has its base only; the rest of it is planned again.
 void plan_rest(FleetState& fleet, VehicleRun& run, Time now) {
-    if (run.floor.leg_planned || run.cancelling || waits_to_try(run, now)) return;
+    if (run.floor.leg_planned || run.delivery.cancelling() || waits_to_try(run, now)) return;
     if (run.leg().nodes.size() < 2 || cannot_move(fleet, run)) return;
-    if (!run.leg_seen || run.update_sent) return;
+    if (!run.delivery.seen() || run.delivery.unconfirmed()) return;
     const bool had_horizon = run.leg().nodes.size() > run.leg().released_nodes;
     const bool had_stop = !run.leg().nodes.back().actions.empty();
     const auto reason = plan_on_floor(fleet, run, now);
@@ -145,7 +143,7 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     if (waits_to_try(run, now)) return;
     if (const JobOrder* elder = elder_of(fleet, order, run, now)) {
         set_order_reason(fleet, order,
-                         {"goes_first",
+                         {reasons::kGoesFirst,
                           {{"vehicle", elder->assigned_vehicle.str()},
                            {"order", "JO-" + std::to_string(elder->number)}}},
                          now);
@@ -191,8 +189,8 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     fleet.store(order);
     fleet.store(run);
     fleet.changed_stations.insert(station->id);
-    add_event(fleet, now, run.leg().actions_only ? "step.actions" : "step.started", order.id, id,
-              run.record.id, {},
+    add_event(fleet, now, run.leg().actions_only ? event::kStepActions : event::kStepStarted,
+              order.id, id, run.record.id, {},
               {{"step", static_cast<std::int64_t>(order.current_step)},
                {"station", std::int64_t{station->number}},
                {"mode", plant::to_string(run.leg().mode)},
@@ -208,8 +206,8 @@ void start_steps(FleetState& fleet, Time now) {
     for (JobOrder* order : by_urgency(fleet, JobState::kRunning)) {
         VehicleRun* run = fleet.find(order->assigned_vehicle);
         if (!run || run->has_leg() || order->current_step >= order->steps.size()) continue;
-        if (const auto reason = not_ready_for(fleet, *order, *run, now)) {
-            set_order_reason(fleet, *order, *reason, now);
+        if (const auto barred = not_ready_for(fleet, *order, *run, now)) {
+            set_order_reason(fleet, *order, barred->reason, now);
             continue;
         }
         start_step(fleet, *order, *run, now);

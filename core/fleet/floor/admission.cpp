@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/fleet/floor/floor.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -87,8 +88,8 @@ traffic::Sequence sequence_of(const FleetState& fleet, const VehicleRun& run) {
     return sequence;
 }
 
-OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
-    OrderNode node;
+vda5050::OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
+    vda5050::OrderNode node;
     const std::size_t index = leg.nodes.size();
     node.node_id = "p" + std::to_string(index);
     node.sequence_id = static_cast<std::int64_t>(2 * index);
@@ -97,8 +98,8 @@ OrderNode horizon_node(const Leg& leg, const Pose2& pose) {
     return node;
 }
 
-OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment) {
-    OrderEdge edge;
+vda5050::OrderEdge horizon_edge(const Leg& leg, kinematics::Segment segment) {
+    vda5050::OrderEdge edge;
     const std::size_t index = leg.nodes.size();
     edge.edge_id = "e" + std::to_string(index);
     edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
@@ -126,7 +127,7 @@ void append_move(const FloorClass& of_class, Leg& leg, traffic::PlaceIndex place
         segment.end = segments.back().end;
         segment.turn_rad += segments.back().turn_rad;
     }
-    OrderEdge edge = horizon_edge(leg, std::move(segment));
+    vda5050::OrderEdge edge = horizon_edge(leg, std::move(segment));
     if (from) {
         const auto way = of_class.way_between.find({*from, place});
         if (way != of_class.way_between.end()) {
@@ -280,10 +281,11 @@ void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {
 void follow_replans(FleetState& fleet, Time now) {
     for (const auto vehicle : fleet.floor.traffic.take_replanned()) {
         VehicleRun* run = fleet.find(plant::VehicleId(fleet.floor.traffic.name(vehicle)));
-        if (!run || !run->has_leg() || !run->floor.leg_planned || run->cancelling) continue;
+        if (!run || !run->has_leg() || !run->floor.leg_planned || run->delivery.cancelling())
+            continue;
         if (!take_horizon(fleet, *run)) continue;
         Leg& leg = run->leg();
-        add_event(fleet, now, "leg.rerouted", leg.order, leg.id, leg.vehicle, {},
+        add_event(fleet, now, event::kLegRerouted, leg.order, leg.id, leg.vehicle, {},
                   {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
                    {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
         fleet.store(*run);
@@ -294,7 +296,7 @@ void follow_replans(FleetState& fleet, Time now) {
             cancel_leg(fleet, *run, now);
             continue;
         }
-        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->leg_seen) {
+        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->delivery.seen()) {
             ++leg.update_id;
             send_order_update(fleet, *run, leg.released_nodes - 1, now);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fleet/floor/watch.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -140,7 +141,7 @@ Result<Closure> close_floor(FleetState& fleet, const NewClosure& wanted, const s
     tell_planner(fleet);
     fleet.out.records.closures.push_back(closure);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, "floor.closed", {}, {}, {}, actor,
+    add_event(fleet, now, event::kFloorClosed, {}, {}, {}, actor,
               {{"closure", closure.id.str()}, {"name", closure.name}});
     // Who is on the way there looks for another way at once.
     fleet.floor.improved.reset();
@@ -158,7 +159,7 @@ Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, T
     fleet.floor.traffic.reopen(found->in_traffic, now);
     fleet.out.records.reopened.push_back(id);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, "floor.reopened", {}, {}, {}, actor,
+    add_event(fleet, now, event::kFloorReopened, {}, {}, {}, actor,
               {{"closure", id.str()}, {"name", found->closure.name}});
     fleet.closures.erase(found);
     tell_planner(fleet);

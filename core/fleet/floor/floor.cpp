@@ -25,7 +25,7 @@ TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2&
 }
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
-                               const OrderEdge& edge) {
+                               const vda5050::OrderEdge& edge) {
     const bool loaded = is_loaded(run);
     const std::string& hall = run.leg().hall;
     for (const auto& known : run.swept) {
@@ -46,7 +46,7 @@ traffic::TileSet floor_at_node(const FleetState& fleet, const VehicleRun& run, s
     const Leg& leg = run.leg();
     const auto under = floor_under(fleet, run, leg.nodes[i].pose);
     if (i == 0 || i >= leg.edges.size()) return under;
-    const OrderEdge& next = leg.edges[i];
+    const vda5050::OrderEdge& next = leg.edges[i];
     const auto room = room_between(leg.edges[i - 1].segment, leg.edges[i - 1].corridor,
                                    next.segment, next.corridor);
     if (!room) return under;

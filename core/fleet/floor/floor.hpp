@@ -11,7 +11,7 @@ namespace pulseline::fleet {
 traffic::TileSet floor_under(const FleetState& fleet, const VehicleRun& run, const Pose2& pose);
 /// Floor of an edge of the vehicle's leg: what it sweeps there, and the edge's corridor.
 traffic::TileSet floor_of_edge(const FleetState& fleet, const VehicleRun& run,
-                               const OrderEdge& edge);
+                               const vda5050::OrderEdge& edge);
 /// Floor in which the vehicle stands when it stops at node `i` of its leg.
 traffic::TileSet floor_at_node(const FleetState& fleet, const VehicleRun& run, std::size_t i);
 /// Whether it makes way for others where it stands.

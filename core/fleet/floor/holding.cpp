@@ -5,6 +5,7 @@
 
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/watch.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -165,7 +166,7 @@ void hold_what_is_free(FleetState& fleet, VehicleRun& run, const TileSet& stand,
 
 /// At the end of its base the floor under it can be asked for again, as without a leg.
 bool clears_up_on_leg(const VehicleRun& run) {
-    return run.floor.conflict && run.leg_seen && !run.state.driving &&
+    return run.floor.conflict && run.delivery.seen() && !run.state.driving &&
            run.leg().passed_nodes == run.leg().released_nodes;
 }
 
@@ -225,7 +226,7 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
     if (!found) hold_what_is_free(fleet, run, stand, now);
     if (found) {
         if (run.floor.conflict) {
-            add_event(fleet, now, "vehicle.floor_cleared", {}, {}, run.record.id, {});
+            add_event(fleet, now, event::kVehicleFloorCleared, {}, {}, run.record.id, {});
         }
         run.floor.conflict.reset();
         run.floor.pose = run.record.pose;
@@ -241,7 +242,7 @@ void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan) {
         }
         who.insert(who.begin(), {"vehicle", run.record.id.str()});
         run.floor.conflict = Reason{"floor_conflict", who};
-        add_event(fleet, now, "vehicle.floor_conflict", {}, {}, run.record.id, {}, who);
+        add_event(fleet, now, event::kVehicleFloorConflict, {}, {}, run.record.id, {}, who);
     }
     halt_or_resume(fleet, run, now);
 }

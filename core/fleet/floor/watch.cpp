@@ -1,5 +1,6 @@
 #include "core/fleet/floor/watch.hpp"
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
@@ -16,7 +17,7 @@ constexpr Duration kCheckEvery = std::chrono::seconds(1);
 /// Nothing is granted any more.
 void stop_floor(FleetState& fleet, const traffic::Violation& violation, Time now) {
     fleet.floor.stopped = Reason{"traffic_violation", {{"violation", to_string(violation)}}};
-    add_event(fleet, now, "traffic.violation", {}, {}, {}, {}, fleet.floor.stopped->params);
+    add_event(fleet, now, event::kTrafficViolation, {}, {}, {}, {}, fleet.floor.stopped->params);
 }
 
 }  // namespace
@@ -25,7 +26,7 @@ bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t no
     const Leg& leg = run.leg();
     const auto body = plant::outline_with_load(*run.type, is_loaded(run));
     for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
-        const OrderEdge& edge = leg.edges[i - 1];
+        const vda5050::OrderEdge& edge = leg.edges[i - 1];
         const auto under = traffic::tiles_under(hall_index(fleet, leg.hall),
                                                 floor_along(body, edge.segment, edge.corridor), 0);
         const auto outside = fleet.floor.monitor.check_footprint(run.floor.vehicle, under);

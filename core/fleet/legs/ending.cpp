@@ -7,27 +7,64 @@
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/body.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
+namespace {
 
-void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
+/// The vehicle has no leg any more. `arrived`: nor anything left of its plan.
+void drop(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
     run.record.has_leg = false;
     run.record.leg = LegId{};
     run.record.leg_data = Leg{};
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
-    run.order_sent.reset();
-    run.gave_up = false;
-    run.cancelling = false;
+    run.delivery.begin();
     // Repeated, it would hit the next leg.
-    std::erase_if(run.actions, [](const auto& p) { return p.action.type == "cancelOrder"; });
-    run.leg_started.reset();
+    std::erase_if(run.actions,
+                  [](const auto& p) { return p.action.type == vda5050::kCancelOrder; });
     run.floor.leg_planned = false;
     run.floor.idle_since.reset();
     settle(fleet, run, now, !arrived);
     fleet.store(run);
+}
+
+bool begins_anew(LegEnd end) {
+    return end == LegEnd::kCancelled || end == LegEnd::kLost || end == LegEnd::kUnsent;
+}
+
+/// The order's present step as if nothing had been sent for it.
+void begin_step_anew(FleetState& fleet, const VehicleRun& run, JobOrder& order, LegEnd end,
+                     Time now) {
+    const bool has_step = order.current_step < order.steps.size();
+    if (!has_step && end == LegEnd::kLost) return;
+    if (has_step) {
+        Step& step = order.steps[order.current_step];
+        step.state = StepState::kPending;
+        if (end != LegEnd::kLost) step.leg = {};  // people look for what became of a lost one
+    }
+    // Who has to look at the vehicle first decides about its order, too.
+    const bool asks = end == LegEnd::kLost && run.record.needs_resume;
+    const bool gives_up = order.cancel_requested && end != LegEnd::kUnsent && !asks;
+    if (!gives_up || end == LegEnd::kLost) fleet.store(order);
+    if (gives_up) abort_order(fleet, order, order.reason, {}, now);
+}
+
+}  // namespace
+
+void end_leg(FleetState& fleet, VehicleRun& run, LegEnd end, Time now) {
+    if (end == LegEnd::kLost) {
+        run.delivery.give_up();
+        if (!run.record.pose_known) return;
+    }
+    const Leg& leg = run.leg();
+    const bool arrived = end == LegEnd::kDone ||
+                         (end == LegEnd::kAnotherApproach && leg.passed_nodes == leg.nodes.size());
+    // One that makes way is cancelled for the sake of the vehicle's own order.
+    JobOrder* order =
+        end == LegEnd::kUnsent ? fleet.find(leg.order) : fleet.orders.of(run.record.id);
+    drop(fleet, run, now, arrived);
+    if (order && begins_anew(end)) begin_step_anew(fleet, run, *order, end, now);
 }
 
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
@@ -40,42 +77,13 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
     if (VehicleRun* run = fleet.find(order.assigned_vehicle)) give_up_task(fleet, *run, now);
 }
 
-void forget_leg(FleetState& fleet, VehicleRun& run, Time now) {
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.gave_up = true;
-    if (!run.record.pose_known) return;
-    drop_leg(fleet, run, now);
-    JobOrder* order = fleet.orders.of(run.record.id);
-    if (!order || order->current_step >= order->steps.size()) return;
-    order->steps[order->current_step].state = StepState::kPending;
-    fleet.store(*order);
-    if (order->cancel_requested && !run.record.needs_resume) {
-        abort_order(fleet, *order, order->reason, {}, now);
-    }
-}
-
 void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now) {
     JobOrder* order = fleet.orders.of(run.record.id);
     if (!order || order->state != JobState::kRunning) return;
-    const char* code = is_loaded(run) ? "load_on_withdrawn_vehicle" : "vehicle_withdrawn";
+    const char* code =
+        is_loaded(run) ? reasons::kLoadOnWithdrawnVehicle : reasons::kVehicleWithdrawn;
     set_order_state(fleet, *order, JobState::kInterrupted,
                     {code, {{"vehicle", run.record.id.str()}}}, actor, now);
-}
-
-void finish_cancel(FleetState& fleet, VehicleRun& run, Time now) {
-    JobOrder* order = fleet.orders.of(run.record.id);
-    drop_leg(fleet, run, now);
-    if (!order) return;
-    if (order->current_step < order->steps.size()) {
-        order->steps[order->current_step].state = StepState::kPending;
-        order->steps[order->current_step].leg = {};
-    }
-    if (order->cancel_requested) {
-        abort_order(fleet, *order, order->reason, {}, now);
-    } else {
-        fleet.store(*order);
-    }
 }
 
 }  // namespace pulseline::fleet

@@ -4,20 +4,29 @@
 
 #include "core/fleet/state/fleet_state.hpp"
 
-/// The ways in which a leg ends that was not driven to its end, and what becomes of its order.
+/// How legs end, and what becomes of their orders.
 namespace pulseline::fleet {
 
-/// Forgets the leg; the vehicle keeps the floor it stands on. `arrived`: and the rest of its plan.
-void drop_leg(FleetState& fleet, VehicleRun& run, Time now, bool arrived = false);
-/// The vehicle does not have its leg any more. Until it knows its pose it may stand anywhere on the
-/// base, which only the leg remembers over a restart: so long the leg is kept.
-void forget_leg(FleetState& fleet, VehicleRun& run, Time now);
+/// Each way in which a leg is over.
+enum class LegEnd {
+    kDone,             // the vehicle has done all of it
+    kAnotherApproach,  // it stands and was not measured good enough; the caller says what follows
+    kCancelled,        // it has given the leg up and stands: the step begins anew
+    kLost,             // it does not have the leg any more: the step begins anew
+    kRejected,         // it did not take the leg: a person decides
+    kUnsent,           // nothing of it was sent, and its plan leads nowhere: the step begins anew
+    kOffFloor,         // it is taken out of the hall: a person decides
+};
+
+/// Forgets the leg; the vehicle keeps the floor it stands on, and once it is done with it none of
+/// the rest. A lost leg is kept until the vehicle knows its pose: it may stand anywhere on the
+/// base, which only the leg remembers over a restart. An order that was asked to be cancelled is
+/// given up.
+void end_leg(FleetState& fleet, VehicleRun& run, LegEnd end, Time now);
 /// Ends an order whose vehicle has nothing to do for it any more: Ended after a Stop, else Aborted.
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
                  Time now);
 /// The running order of a vehicle that is taken out waits for a person.
 void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now);
-/// The vehicle has given up its leg and stands.
-void finish_cancel(FleetState& fleet, VehicleRun& run, Time now);
 
 }  // namespace pulseline::fleet

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/fleet/state/leg_plan.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 /// The other side of leg_plans.hpp: what the fleet has asked for is planned here, on another
 /// thread.

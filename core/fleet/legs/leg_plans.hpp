@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/fleet/state/fleet_state.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 /// Legs that take longer to plan than others may wait for the fleet: free manoeuvres, some tens of
 /// milliseconds each and half a second where there is hardly room. The fleet asks for such a plan

@@ -6,6 +6,7 @@
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/grants.hpp"
 #include "core/fleet/legs/expected_end.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
@@ -42,12 +43,7 @@ void take_leg(VehicleRun& run, Leg leg) {
     run.record.has_leg = true;
     run.record.leg = leg.id;
     run.record.leg_data = std::move(leg);
-    run.leg_seen = false;
-    run.update_sent.reset();
-    run.update_sends = 0;
-    run.order_sent.reset();
-    run.gave_up = false;
-    run.leg_started.reset();
+    run.delivery.begin();
     run.floor.idle_since.reset();
 }
 
@@ -75,7 +71,7 @@ void send_leg(FleetState& fleet, VehicleRun& run, Time now) {
 void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     follow_replans(fleet, now);  // what is released has to be what the plan has now
     Leg& leg = run.leg();
-    if (run.cancelling) return;
+    if (run.delivery.cancelling()) return;
     if (leg.released_nodes >= leg.nodes.size()) {
         // With the stop in its base it waits for nobody.
         if (leg.nodes.back().actions.empty()) tell_wait(fleet, run, now);
@@ -106,12 +102,12 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
     JobOrder* order = fleet.find(leg.order);
     if (order && order->state == JobState::kRunning) {
         set_order_reason(fleet, *order, {}, now);
-        if (!order->expected && run.leg_seen) expect_end(fleet, run, *order, now);
+        if (!order->expected && run.delivery.seen()) expect_end(fleet, run, *order, now);
     }
-    const bool is_new = before == 1 && !run.update_sent && !run.leg_seen;
+    const bool is_new = before == 1 && !run.delivery.unconfirmed() && !run.delivery.seen();
     if (!is_new) ++leg.update_id;
     send_order_update(fleet, run, is_new ? 0 : before - 1, now);
-    add_event(fleet, now, "leg.released", leg.order, leg.id, leg.vehicle, {},
+    add_event(fleet, now, event::kLegReleased, leg.order, leg.id, leg.vehicle, {},
               {{"nodes", static_cast<std::int64_t>(leg.released_nodes)},
                {"of", static_cast<std::int64_t>(leg.nodes.size())},
                {"update", leg.update_id}});

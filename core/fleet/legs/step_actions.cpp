@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -57,7 +58,7 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, co
     leg.actions_only = true;
     // The drive still to come counts for the expected end.
     if (step.phase == StepPhase::kBefore) leg.duration_s = step.planned_s;
-    OrderNode node;
+    vda5050::OrderNode node;
     node.node_id = step.phase == StepPhase::kAfter ? step.station.str() : "start";
     node.released = true;
     node.pose = run.record.pose;
@@ -66,10 +67,10 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, co
     node.map_id = leg.hall;
     const auto& wanted = actions_of_phase(step);
     for (std::size_t i = step.actions_done; i < wanted.size(); ++i) {
-        Action action;
+        vda5050::Action action;
         action.type = wanted[i].type;
         action.id = action_id(id, i);
-        action.blocking = BlockingType::kHard;
+        action.blocking = vda5050::BlockingType::kHard;
         action.params = wanted[i].params;
         node.actions.push_back(std::move(action));
     }
@@ -87,29 +88,31 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
     while (step.actions_done < wanted.size()) {
         const std::string id = action_id(leg.id, step.actions_done);
         const auto& states = run.state.action_states;
-        const auto found = std::find_if(states.begin(), states.end(),
-                                        [&](const ActionState& state) { return state.id == id; });
+        const auto found =
+            std::find_if(states.begin(), states.end(),
+                         [&](const vda5050::ActionState& state) { return state.id == id; });
         if (found == states.end()) break;
         const std::string& type = wanted[step.actions_done].type;
-        if (found->status == ActionStatus::kFailed) {
-            drop_leg(fleet, run, now, true);
+        if (found->status == vda5050::ActionStatus::kFailed) {
+            end_leg(fleet, run, LegEnd::kDone, now);
             if (step.phase == StepPhase::kBefore) step.state = StepState::kPending;
             const Params params{{"action", type},
                                 {"phase", to_string(step.phase)},
                                 {"why", found->result_description}};
-            add_event(fleet, now, "step.action_failed", order->id, leg.id, leg.vehicle, {}, params);
+            add_event(fleet, now, event::kStepActionFailed, order->id, leg.id, leg.vehicle, {},
+                      params);
             set_order_state(fleet, *order, JobState::kInterrupted, {"action_failed", params}, {},
                             now);
             return;
         }
-        if (found->status != ActionStatus::kFinished) break;
+        if (found->status != vda5050::ActionStatus::kFinished) break;
         ++step.actions_done;
-        add_event(fleet, now, "step.action_done", order->id, leg.id, leg.vehicle, {},
+        add_event(fleet, now, event::kStepActionDone, order->id, leg.id, leg.vehicle, {},
                   {{"action", type}, {"phase", to_string(step.phase)}});
     }
     if (step.actions_done != before) fleet.store(*order);
     if (step.actions_done < wanted.size() || run.state.driving) return;
-    drop_leg(fleet, run, now, true);
+    end_leg(fleet, run, LegEnd::kDone, now);
     step.leg = {};
     if (step.phase == StepPhase::kAfter) {
         finish_step(fleet, *order, static_cast<std::size_t>(leg.step), now);

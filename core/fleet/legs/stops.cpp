@@ -5,6 +5,7 @@
 #include "core/fleet/floor/grants.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/legs/step_actions.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -52,7 +53,7 @@ kinematics::ExpectedDeviation expected_of_drive(const VehicleRun& run) {
     std::vector<kinematics::Segment> segments;
     double length_m = 0;
     bool drives = false;  // else it only measures again where it stands
-    for (const OrderEdge& edge : run.leg().edges) {
+    for (const vda5050::OrderEdge& edge : run.leg().edges) {
         segments.push_back(edge.segment);
         length_m += std::abs(edge.segment.length_m);
         drives = drives || edge.segment.length_m != 0 || edge.segment.turn_rad != 0;
@@ -69,7 +70,7 @@ Arrival arrival_of(const VehicleRun& run, const plant::Station& station, const P
 }
 
 StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
-                       const StopMeasurement& found, Time now) {
+                       const vda5050::StopMeasurement& found, Time now) {
     const Leg& leg = run.leg();
     StopRecord stop;
     stop.id = StopRecordId(fleet.ids.next(now));
@@ -106,7 +107,7 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
     JobOrder* order = fleet.find(run.leg().order);
     const int attempt = run.leg().attempt;
     const int step = run.leg().step;
-    drop_leg(fleet, run, now, run.leg().passed_nodes == run.leg().nodes.size());
+    end_leg(fleet, run, LegEnd::kAnotherApproach, now);
     if (!order) return;
     auto& current = order->steps[static_cast<std::size_t>(step)];
     current.state = StepState::kPending;
@@ -120,13 +121,14 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
 
 }  // namespace
 
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasurement& told, Time now) {
+void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopMeasurement& told,
+                        Time now) {
     const plant::Station* station = plant::find_station(fleet.plant, run.leg().station);
     if (!station) return;
     if (const char* fault = fault_of(fleet, run, *station, told.pose)) {
         return take_failed_stop(fleet, run, fault, now);
     }
-    StopMeasurement found = told;
+    vda5050::StopMeasurement found = told;
     found.pose.heading_rad = wrap(told.pose.heading_rad);
     if (found.arrived && fault_of(fleet, run, *station, *found.arrived)) found.arrived.reset();
     const StopRecord stop = stop_record(fleet, run, *station, found, now);
@@ -140,7 +142,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
     run.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
     fleet.changed_stations.insert(station->id);
     fleet.store(run);
-    add_event(fleet, now, "stop.measured", stop.order, stop.leg, stop.vehicle, {},
+    add_event(fleet, now, event::kStopMeasured, stop.order, stop.leg, stop.vehicle, {},
               {{"stop", stop.id.str()},
                {"station", static_cast<std::int64_t>(stop.station_number)},
                {"dx_m", stop.dx_m},
@@ -165,7 +167,7 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const StopMeasuremen
         return;
     }
     pass_stop(fleet, run, now);
-    drop_leg(fleet, run, now, true);
+    end_leg(fleet, run, LegEnd::kDone, now);
     if (!order) return;
     take_good_stop(fleet, *order, static_cast<std::size_t>(stop.step), now);
 }
@@ -174,7 +176,7 @@ void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why
     const Leg& leg = run.leg();
     const plant::Station* station = plant::find_station(fleet.plant, leg.station);
     const std::int64_t number = station ? station->number : 0;
-    add_event(fleet, now, "stop.not_measured", leg.order, leg.id, run.record.id, {},
+    add_event(fleet, now, event::kStopNotMeasured, leg.order, leg.id, run.record.id, {},
               {{"station", number}, {"why", why}, {"attempt", std::int64_t{leg.attempt}}});
     try_again(fleet, run, {"stop_not_measured", {{"station", number}, {"why", why}}}, now);
 }

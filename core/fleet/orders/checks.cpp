@@ -5,6 +5,7 @@
 
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -12,9 +13,11 @@ namespace {
 constexpr std::size_t kMaxDependencies = 100;
 
 // The server sends these itself; as a step's action they would defeat its own bookkeeping.
-constexpr std::array kOwnActions = {
-    "measureStop", "adjustToMarker", "observeMarkers", "cancelOrder",      "startPause",
-    "stopPause",   "initPosition",   "stateRequest",   "factsheetRequest", "logReport"};
+constexpr std::array kOwnActions = {vda5050::kMeasureStop,      vda5050::kAdjustToMarker,
+                                    vda5050::kObserveMarkers,   vda5050::kCancelOrder,
+                                    vda5050::kStartPause,       vda5050::kStopPause,
+                                    vda5050::kInitPosition,     vda5050::kStateRequest,
+                                    vda5050::kFactsheetRequest, vda5050::kLogReport};
 
 /// One action of a request and where it stands.
 struct PlacedAction {

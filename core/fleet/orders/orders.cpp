@@ -3,6 +3,7 @@
 #include "core/fleet/orders/checks.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
@@ -107,8 +108,8 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     Params params{{"number", stored.number},
                   {"steps", static_cast<std::int64_t>(stored.steps.size())}};
     if (!request.start) params.push_back({"state", to_string(stored.state)});
-    add_event(fleet, now, "job_order.created", stored.id, {}, stored.wanted_vehicle, request.actor,
-              std::move(params));
+    add_event(fleet, now, event::kJobOrderCreated, stored.id, {}, stored.wanted_vehicle,
+              request.actor, std::move(params));
     keep_answer(fleet, {request.idempotency_client, request.idempotency_key, request.body_sha256,
                         stored.id, now});
     return Created{stored, false};
@@ -131,7 +132,7 @@ Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
     changed.sequence = order.sequence;
     order = std::move(changed);
     fleet.orders.set_sequence(order, request.sequence);
-    add_event(fleet, now, "job_order.updated", order.id, {}, order.wanted_vehicle, actor,
+    add_event(fleet, now, event::kJobOrderUpdated, order.id, {}, order.wanted_vehicle, actor,
               {{"steps", static_cast<std::int64_t>(order.steps.size())}});
     fleet.store(order);
     return {};

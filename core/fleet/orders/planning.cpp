@@ -7,6 +7,7 @@
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/orders/checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 
@@ -177,7 +178,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     if (!order.vehicle.empty()) {
         const VehicleRun* run = fleet.find(order.vehicle);
         if (is_gone(fleet, *run, now)) {
-            return fail(Errc::kConflict, "vehicle_gone",
+            return fail(Errc::kConflict, reasons::kVehicleGone,
                         "Vehicle " + order.vehicle.str() +
                             " has been silent for more than 60 s. Bring it back or choose another.",
                         "/vehicle",
@@ -215,7 +216,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     }
     if (best) return std::move(*best);
     if (why_not) return fail(*why_not);
-    return fail(Errc::kConflict, "no_vehicle",
+    return fail(Errc::kConflict, reasons::kNoVehicle,
                 "No vehicle that this order may have has been heard in the last 60 s. Connect one, "
                 "then repeat.",
                 "/vehicle");

@@ -3,18 +3,20 @@
 #include <algorithm>
 
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 
-bool is_final(ActionStatus status) {
-    return status == ActionStatus::kFinished || status == ActionStatus::kFailed;
+bool is_final(vda5050::ActionStatus status) {
+    return status == vda5050::ActionStatus::kFinished || status == vda5050::ActionStatus::kFailed;
 }
 
-const ActionState* find_action(const StateMessage& state, const std::string& id) {
+const vda5050::ActionState* find_action(const vda5050::StateMessage& state, const std::string& id) {
     for (const auto& action : state.action_states) {
         if (action.id == id) return &action;
     }
@@ -25,28 +27,29 @@ void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
     bool cancelled = false;
     bool again = false;
     std::erase_if(run.actions, [&](const PendingAction& pending) {
-        const ActionState* found = find_action(run.state, pending.action.id);
+        const vda5050::ActionState* found = find_action(run.state, pending.action.id);
         if (!found || !is_final(found->status)) return false;
         // A cancel is done when the vehicle says so AND stands; floor is freed only then.
-        if (pending.action.type == "cancelOrder") {
+        if (pending.action.type == vda5050::kCancelOrder) {
             if (run.state.driving || (run.has_leg() && !run.record.pose_known)) return false;
             // It knew of no order to cancel: that may still be on its way, or have come since.
-            const bool failed = found->status == ActionStatus::kFailed;
+            const bool failed = found->status == vda5050::ActionStatus::kFailed;
             if (failed && run.has_leg() && is_on_its_way(run)) return false;
             again = failed && run.has_leg() && run.state.order_id == run.leg().id.str() &&
                     !has_nothing_left(run.state);
             cancelled = !again;
         }
-        add_event(fleet, now, "vehicle.action", {}, {}, run.record.id, {},
-                  {{"action", pending.action.type},
-                   {"action_id", pending.action.id},
-                   {"status", found->status == ActionStatus::kFinished ? "finished" : "failed"},
-                   {"result", found->result_description}});
+        add_event(
+            fleet, now, event::kVehicleAction, {}, {}, run.record.id, {},
+            {{"action", pending.action.type},
+             {"action_id", pending.action.id},
+             {"status", found->status == vda5050::ActionStatus::kFinished ? "finished" : "failed"},
+             {"result", found->result_description}});
         return true;
     });
-    if (cancelled) finish_cancel(fleet, run, now);
+    if (cancelled) end_leg(fleet, run, LegEnd::kCancelled, now);
     if (!again) return;
-    run.cancelling = false;
+    run.delivery.cancel_failed();
     cancel_leg(fleet, run, now);
 }
 

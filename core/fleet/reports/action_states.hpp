@@ -7,9 +7,9 @@
 /// What a vehicle reports of its instant actions.
 namespace pulseline::fleet {
 
-bool is_final(ActionStatus status);
+bool is_final(vda5050::ActionStatus status);
 /// What the vehicle says of an action; null: nothing.
-const ActionState* find_action(const StateMessage& state, const std::string& id);
+const vda5050::ActionState* find_action(const vda5050::StateMessage& state, const std::string& id);
 /// Ends the instant actions that the vehicle reports final, and what waited for them.
 void take_action_states(FleetState& fleet, VehicleRun& run, Time now);
 

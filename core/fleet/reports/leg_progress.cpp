@@ -9,15 +9,19 @@
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/legs/stops.hpp"
 #include "core/fleet/reports/action_states.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
-const VehicleError* rejection_of(const StateMessage& state, const std::string& order_id) {
+const vda5050::VehicleError* rejection_of(const vda5050::StateMessage& state,
+                                          const std::string& order_id) {
     for (const auto& error : state.errors) {
         for (const auto& [key, value] : error.references) {
             if (key == "orderId" && value == order_id) return &error;
@@ -28,102 +32,127 @@ const VehicleError* rejection_of(const StateMessage& state, const std::string& o
 
 /// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
 void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
-    require_person(fleet, run, {"vehicle_lost_order", {}}, now);
-    forget_leg(fleet, run, now);
+    require_person(fleet, run, {reasons::kVehicleLostOrder, {}}, now);
+    end_leg(fleet, run, LegEnd::kLost, now);
+}
+
+/// It shows another order than its leg, or none.
+void take_other_order(FleetState& fleet, VehicleRun& run, Time now) {
+    // Without pose it has restarted: an order sent before must not set it in motion.
+    if (run.delivery.seen() || (!run.record.pose_known && !run.delivery.lost())) {
+        return lose_order(fleet, run, now);
+    }
+    if (run.delivery.lost()) return end_leg(fleet, run, LegEnd::kLost, now);
+    const auto* error = rejection_of(run.state, run.leg().id.str());
+    if (!error) return;
+    require_person(fleet, run,
+                   {reasons::kOrderRejected, {{"type", error->type}, {"text", error->description}}},
+                   now);
+    end_leg(fleet, run, LegEnd::kRejected, now);
+}
+
+/// It shows its leg: what it has of it, and which nodes are behind it.
+void take_shown_leg(FleetState& fleet, VehicleRun& run, Time now) {
+    const vda5050::StateMessage& state = run.state;
+    Leg& leg = run.leg();
+    if (run.delivery.shown(now)) {
+        add_event(fleet, now, event::kLegAccepted, leg.order, leg.id, leg.vehicle, {});
+        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
+    }
+    if (state.order_update_id >= leg.update_id) run.delivery.confirmed();
+    if (state.last_node_id.empty()) return;
+    const auto passed = static_cast<std::size_t>(std::clamp<std::int64_t>(
+        state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
+    if (passed <= leg.passed_nodes) return;
+    leg.passed_nodes = passed;
+    pass_nodes(fleet, run, now);
+    // After a restart it would hold floor again that others were granted since.
+    fleet.store(run);
+}
+
+/// The step of a stop that has begun says so.
+void show_measuring(FleetState& fleet, const Leg& leg) {
+    JobOrder* order = fleet.find(leg.order);
+    if (!order || leg.step >= static_cast<int>(order->steps.size())) return;
+    Step& step = order->steps[static_cast<std::size_t>(leg.step)];
+    if (step.state != StepState::kDriving) return;
+    step.state = StepState::kMeasuring;
+    fleet.store(*order);
+}
+
+enum class Stop { kNone, kOpen, kOver };  // the leg has no stop to measure, has it ahead, had it
+
+/// The stop at the end of the leg, if it has one.
+Stop take_stop(FleetState& fleet, VehicleRun& run, Time now) {
+    const vda5050::StateMessage& state = run.state;
+    const Leg& leg = run.leg();
+    Stop stop = Stop::kNone;
+    for (const auto& action : leg.nodes.back().actions) {
+        if (action.type != vda5050::kMeasureStop) continue;
+        stop = Stop::kOpen;
+        const vda5050::ActionState* found = find_action(state, action.id);
+        if (!found) continue;
+        if (found->status == vda5050::ActionStatus::kFinished && found->measurement) {
+            take_measured_stop(fleet, run, *found->measurement, now);
+            return Stop::kOver;
+        }
+        if (is_final(found->status)) {
+            // A cancelOrder of before a restart fails the stop before the vehicle stands.
+            if (!has_nothing_left(state)) return Stop::kOver;
+            take_failed_stop(fleet, run, found->result_description, now);
+            return Stop::kOver;
+        }
+        if (found->status == vda5050::ActionStatus::kRunning) show_measuring(fleet, leg);
+    }
+    return stop;
+}
+
+/// A drive without an order, for others' sake or to a charger, whose vehicle has driven it.
+void end_own_drive(FleetState& fleet, VehicleRun& run, Time now) {
+    const Leg& leg = run.leg();
+    for (const auto& action : leg.nodes.back().actions) {
+        const vda5050::ActionState* found = find_action(run.state, action.id);
+        if (found && !is_final(found->status)) return;
+        if (found && found->status == vda5050::ActionStatus::kFailed &&
+            action.type == vda5050::kStartCharging) {
+            charge_failed(fleet, run, found->result_description, now);
+        }
+    }
+    add_event(fleet, now, event::kLegEnded, {}, leg.id, leg.vehicle, {});
+    end_leg(fleet, run, LegEnd::kDone, now);
+}
+
+/// A vehicle without measureStop: its own pose at the last node is the measurement.
+void take_own_pose(FleetState& fleet, VehicleRun& run, Time now) {
+    vda5050::StopMeasurement found;
+    found.pose = *run.state.pose;
+    found.sigma_xy_m = run.state.deviation_range_m;
+    found.method = "vehicle_pose";
+    take_measured_stop(fleet, run, found, now);
 }
 
 }  // namespace
 
 void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     Leg& leg = run.leg();
-    if (state.order_id != leg.id.str()) {
-        // Without pose it has restarted: an order sent before must not set it in motion.
-        if (run.leg_seen || (!run.record.pose_known && !run.gave_up)) {
-            lose_order(fleet, run, now);
-        } else if (run.gave_up) {
-            forget_leg(fleet, run, now);
-        } else if (const auto* error = rejection_of(state, leg.id.str())) {
-            require_person(
-                fleet, run,
-                {"order_rejected", {{"type", error->type}, {"text", error->description}}}, now);
-            drop_leg(fleet, run, now);
-        }
-        return;
-    }
-    if (!run.leg_seen) {
-        run.leg_seen = true;
-        if (!run.leg_started) run.leg_started = now;
-        add_event(fleet, now, "leg.accepted", leg.order, leg.id, leg.vehicle, {});
-        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
-    }
-    if (state.order_update_id >= leg.update_id) {
-        run.update_sent.reset();
-        run.update_sends = 0;
-    }
-    if (!state.last_node_id.empty()) {
-        const auto passed = static_cast<std::size_t>(std::clamp<std::int64_t>(
-            state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
-        if (passed > leg.passed_nodes) {
-            leg.passed_nodes = passed;
-            pass_nodes(fleet, run, now);
-            // After a restart it would hold floor again that others were granted since.
-            fleet.store(run);
-        }
-    }
-    if (run.cancelling) return;
+    if (state.order_id != leg.id.str()) return take_other_order(fleet, run, now);
+    take_shown_leg(fleet, run, now);
+    // What it still reports of a drive that it is to give up decides nothing.
+    if (run.delivery.cancelling()) return;
     if (leg.actions_only) return take_actions_leg(fleet, run, now);
-
-    bool measures = false;
-    for (const auto& action : leg.nodes.back().actions) {
-        if (action.type != "measureStop") continue;
-        measures = true;
-        const ActionState* found = find_action(state, action.id);
-        if (!found) continue;
-        if (found->status == ActionStatus::kFinished && found->measurement) {
-            take_measured_stop(fleet, run, *found->measurement, now);
-            return;
-        }
-        if (is_final(found->status)) {
-            // A cancelOrder of before a restart fails the stop before the vehicle stands.
-            if (!has_nothing_left(state)) return;
-            take_failed_stop(fleet, run, found->result_description, now);
-            return;
-        }
-        JobOrder* order = fleet.find(leg.order);
-        if (found->status == ActionStatus::kRunning && order &&
-            leg.step < static_cast<int>(order->steps.size()) &&
-            order->steps[static_cast<std::size_t>(leg.step)].state == StepState::kDriving) {
-            order->steps[static_cast<std::size_t>(leg.step)].state = StepState::kMeasuring;
-            fleet.store(*order);
-        }
-    }
-    const bool makes_way = leg.order.empty();
-    const bool idle = has_nothing_left(state);
+    const Stop stop = take_stop(fleet, run, now);
+    if (stop == Stop::kOver || !has_nothing_left(state)) return;
     // Who takes it by hand takes the rest away, too, that it waited for at the end of its base.
     const std::size_t owed = is_automatic(run) ? leg.released_nodes : leg.nodes.size();
-    if (idle && leg.passed_nodes < owed && state.order_update_id == leg.update_id) {
+    if (leg.passed_nodes < owed && state.order_update_id == leg.update_id) {
         return lose_order(fleet, run, now);
     }
-    if (makes_way && idle && leg.passed_nodes == leg.nodes.size()) {
-        for (const auto& action : leg.nodes.back().actions) {
-            const ActionState* found = find_action(state, action.id);
-            if (found && !is_final(found->status)) return;
-            if (found && found->status == ActionStatus::kFailed && action.type == "startCharging") {
-                charge_failed(fleet, run, found->result_description, now);
-            }
-        }
-        add_event(fleet, now, "leg.ended", {}, leg.id, leg.vehicle, {});
-        drop_leg(fleet, run, now, true);
-        return;
+    if (leg.order.empty() && leg.passed_nodes == leg.nodes.size()) {
+        return end_own_drive(fleet, run, now);
     }
-    if (!measures && idle && stands_at_stop(fleet, run) && state.pose) {
-        // A vehicle without measureStop: its own pose at the last node is the measurement.
-        StopMeasurement found;
-        found.pose = *state.pose;
-        found.sigma_xy_m = state.deviation_range_m;
-        found.method = "vehicle_pose";
-        take_measured_stop(fleet, run, found, now);
+    if (stop == Stop::kNone && stands_at_stop(fleet, run) && state.pose) {
+        take_own_pose(fleet, run, now);
     }
 }
 

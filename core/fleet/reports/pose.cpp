@@ -4,14 +4,17 @@
 #include <cmath>
 
 #include "core/fleet/floor/holding.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/code_pose.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/vda5050/actions.hpp"
 
 // Where a vehicle says that it stands, and what becomes of it when that cannot be true.
 namespace pulseline::fleet {
@@ -39,13 +42,13 @@ bool is_near(const Pose2& a, const Pose2& b, double room_m = 0) {
            (room_m > 0 || std::abs(wrap(a.heading_rad - b.heading_rad)) <= kPush_rad);
 }
 
-bool is_near(const OrderNode& node, const Pose2& pose) {
+bool is_near(const vda5050::OrderNode& node, const Pose2& pose) {
     // Through a wide node it may go round something, in any direction.
     const double room_m = node.allowed_deviation_xy_m > kPush_m ? node.allowed_deviation_xy_m : 0.0;
     return is_near(node.pose, pose, room_m);
 }
 
-bool is_near(const OrderEdge& edge, const Pose2& pose) {
+bool is_near(const vda5050::OrderEdge& edge, const Pose2& pose) {
     const auto& way = edge.segment;
     const double room_m =
         edge.corridor ? std::max(edge.corridor->left_m, edge.corridor->right_m) : 0;
@@ -77,7 +80,7 @@ bool is_on_leg(const VehicleRun& run, const Pose2& pose) {
 }
 
 /// Nobody but those who push it moves a vehicle that says that it stands, in nobody's hands.
-bool moves(const StateMessage& state) {
+bool moves(const vda5050::StateMessage& state) {
     return state.driving || std::abs(state.velocity_mps) > kStill_mps ||
            state.operating_mode != "AUTOMATIC";
 }
@@ -150,7 +153,7 @@ void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time n
     }
     if (was_known) return;
     add_event(
-        fleet, now, "vehicle.pose_confirmed", {}, {}, run.record.id, {},
+        fleet, now, event::kVehiclePoseConfirmed, {}, {}, run.record.id, {},
         {{"x_m", told.pose.x_m}, {"y_m", told.pose.y_m}, {"heading_rad", told.pose.heading_rad}});
     fleet.store(run);
 }
@@ -158,7 +161,7 @@ void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time n
 void lose_pose(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.record.pose_known) return;
     run.record.pose_known = false;
-    add_event(fleet, now, "vehicle.pose_lost", {}, {}, run.record.id, {});
+    add_event(fleet, now, event::kVehiclePoseLost, {}, {}, run.record.id, {});
     fleet.store(run);
 }
 
@@ -178,14 +181,14 @@ void doubt(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now
         params.push_back({"known_y_m", known.y_m});
         params.push_back({"known_heading_rad", known.heading_rad});
     }
-    add_event(fleet, now, "vehicle.pose_jumped", {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehiclePoseJumped, {}, run.record.leg, run.record.id, {},
               std::move(params));
     run.record.claim = told;
     run.claim_told = now;
     run.claim_left = false;
     run.record.pose_known = false;
     run.stated.reset();
-    const Reason jumped{"pose_jumped", {{"vehicle", name}, {"distance_m", distance_m}}};
+    const Reason jumped{reasons::kPoseJumped, {{"vehicle", name}, {"distance_m", distance_m}}};
     require_person(fleet, run, jumped, now);
     run.record.needs_resume_reason = jumped;  // whatever was asked before, this comes first
     fleet.store(run);
@@ -223,7 +226,7 @@ bool is_as_stated(const VehicleRun& run, const Whereabouts& told, Time now) {
 }
 
 Whereabouts told_by(const FleetState& fleet, const VehicleRun& run) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     return {*state.pose, state.map_id.empty() ? hall_of(fleet, run) : state.map_id};
 }
 
@@ -257,11 +260,11 @@ void end_doubt(FleetState& fleet, VehicleRun& run, Time now) {
 
 void keep_doubt(FleetState& fleet, VehicleRun& run, Time now) {
     hold_both_floors(fleet, run, now);
-    if (run.has_leg() && !run.gave_up) cancel_leg(fleet, run, now);
+    if (run.has_leg() && !run.delivery.lost()) cancel_leg(fleet, run, now);
 }
 
-void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, Time now) {
-    StateMessage& state = run.state;
+void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& before, Time now) {
+    vda5050::StateMessage& state = run.state;
     const bool finite = state.pose && std::isfinite(state.pose->x_m) &&
                         std::isfinite(state.pose->y_m) && std::isfinite(state.pose->heading_rad);
     if (!finite) state.pose.reset();
@@ -298,16 +301,16 @@ void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, T
 }
 
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     if (state.position_initialized || state.driving || is_in_doubt(run)) return;
     if (run.record.integration < Integration::kRespect) return;
-    if (is_asked(run, "initPosition")) return;
+    if (is_asked(run, vda5050::kInitPosition)) return;
     const auto pose = pose_from_codes(fleet, run, state.cameras);
     if (!pose) return;
-    Action action;
-    action.type = "initPosition";
-    action.blocking = BlockingType::kHard;
-    action.init_position = InitPosition{*pose, hall_of(fleet, run), {}};
+    vda5050::Action action;
+    action.type = vda5050::kInitPosition;
+    action.blocking = vda5050::BlockingType::kHard;
+    action.init_position = vda5050::InitPosition{*pose, hall_of(fleet, run), {}};
     send_action(fleet, run, std::move(action), now);
 }
 

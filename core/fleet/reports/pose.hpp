@@ -7,7 +7,7 @@ namespace pulseline::fleet {
 
 /// Takes what `run.state` says of the pose, if it can be true after what was known (`before`).
 /// Else, from then on and until a person has said where it stands, it counts as not known.
-void take_pose(FleetState& fleet, VehicleRun& run, const StateMessage& before, Time now);
+void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& before, Time now);
 /// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
 /// it.
 void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now);

@@ -8,12 +8,15 @@
 #include "core/fleet/reports/action_states.hpp"
 #include "core/fleet/reports/leg_progress.hpp"
 #include "core/fleet/reports/pose.hpp"
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -22,7 +25,7 @@ constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just 
 
 /// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids
 /// are 32 bit and begin anew.
-bool is_overtaken(const VehicleRun& run, const StateMessage& state) {
+bool is_overtaken(const VehicleRun& run, const vda5050::StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
     if (state.header_id == 0 || run.newest_header == 0) return false;
     const std::int64_t ahead = state.header_id - run.newest_header;
@@ -37,22 +40,23 @@ void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
         return;
     }
     if (!run.foreign_since) run.foreign_since = now;
-    if (now - *run.foreign_since < kForeignAfter || is_asked(run, "cancelOrder")) return;
+    if (now - *run.foreign_since < kForeignAfter || is_asked(run, vda5050::kCancelOrder)) return;
     if (run.record.integration != Integration::kUtilise) return;
     require_person(
         fleet, run,
-        {"foreign_order", {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}}, now);
+        {reasons::kForeignOrder, {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}},
+        now);
 }
 
 /// An error is its type and what it refers to; its text may count up or tell the time.
-void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleError>& before,
-                 Time now) {
+void note_errors(FleetState& fleet, VehicleRun& run,
+                 const std::vector<vda5050::VehicleError>& before, Time now) {
     for (const auto& error : run.state.errors) {
         const bool known = std::any_of(before.begin(), before.end(), [&](const auto& old) {
             return old.type == error.type && old.references == error.references;
         });
         if (known || !may_tell_error(fleet, run, now)) continue;
-        add_event(fleet, now, "vehicle.error", {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleError, {}, run.record.leg, run.record.id, {},
                   {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
     }
 }
@@ -62,20 +66,20 @@ void note_errors(FleetState& fleet, VehicleRun& run, const std::vector<VehicleEr
 void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, Time now) {
     const std::string& mode = run.state.operating_mode;
     if (mode != before) {
-        add_event(fleet, now, "vehicle.operating_mode", {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleOperatingMode, {}, run.record.leg, run.record.id, {},
                   {{"from", before}, {"to", mode}});
     }
     if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
-    require_person(fleet, run, {"driven_by_hand", {{"operating_mode", mode}}}, now);
+    require_person(fleet, run, {reasons::kDrivenByHand, {{"operating_mode", mode}}}, now);
 }
 
 }  // namespace
 
-void take_state(FleetState& fleet, VehicleRun& run, const StateMessage& state, Time now) {
+void take_state(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& state, Time now) {
     hear(fleet, run, now);
     if (is_overtaken(run, state)) return;
     run.newest_header = state.header_id;
-    const StateMessage before = std::exchange(run.state, state);
+    const vda5050::StateMessage before = std::exchange(run.state, state);
     run.state_at = now;
     run.reconciled = true;
     fleet.changed_vehicles.insert(run.record.id);

@@ -1,5 +1,6 @@
 #include "core/fleet/state/events.hpp"
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
 namespace pulseline::fleet {
@@ -40,7 +41,7 @@ void set_order_state(FleetState& fleet, JobOrder& order, JobState to, Reason rea
     Params params{{"from", to_string(from)}, {"to", to_string(to)}};
     if (!order.reason.code.empty()) params.push_back({"reason", order.reason.code});
     for (const auto& param : order.reason.params) params.push_back(param);
-    add_event(fleet, now, "job_order.state", order.id, {}, order.assigned_vehicle, actor,
+    add_event(fleet, now, event::kJobOrderState, order.id, {}, order.assigned_vehicle, actor,
               std::move(params));
     fleet.store(order);
 }
@@ -52,7 +53,7 @@ void set_order_reason(FleetState& fleet, JobOrder& order, Reason reason, Time no
         order.expected.reset();  // until it goes on
         Params params{{"reason", order.reason.code}};
         for (const auto& param : order.reason.params) params.push_back(param);
-        add_event(fleet, now, "job_order.waits", order.id, {}, order.assigned_vehicle, {},
+        add_event(fleet, now, event::kJobOrderWaits, order.id, {}, order.assigned_vehicle, {},
                   std::move(params));
     }
     fleet.store(order);

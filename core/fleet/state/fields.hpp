@@ -30,8 +30,8 @@ PULSELINE_FIELDS(Reason, code, params)
 PULSELINE_LAST(plant::MotionMode, kFree)
 PULSELINE_LAST(plant::Tolerance::Shape, kEllipse)
 PULSELINE_LAST(kinematics::Segment::Kind, kCombined)
-PULSELINE_LAST(fleet::BlockingType, kHard)
-PULSELINE_LAST(fleet::ActionStatus, kFailed)
+PULSELINE_LAST(vda5050::BlockingType, kHard)
+PULSELINE_LAST(vda5050::ActionStatus, kFailed)
 PULSELINE_LAST(fleet::JobState, kAborted)
 PULSELINE_LAST(fleet::Integration, kUtilise)
 PULSELINE_LAST(fleet::StepState, kSkipped)
@@ -75,9 +75,7 @@ PULSELINE_FIELDS(Corridor, left_m, right_m)
 PULSELINE_FIELDS(Tolerance, shape, dx_m, dy_m, dheading_rad)
 }  // namespace plant
 
-namespace fleet {
-
-// --- vehicle_messages.hpp
+namespace vda5050 {
 PULSELINE_FIELDS(StopTarget::SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
 PULSELINE_FIELDS(StopTarget, station_id, station_number, target, tolerance_x_m, tolerance_y_m,
                  tolerance_heading_rad, markers)
@@ -104,6 +102,9 @@ PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, 
                  brackets, wheels, cameras, parking_feet, load_kg)
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
                  actions, node_actions, json)
+}  // namespace vda5050
+
+namespace fleet {
 
 // --- job_order.hpp
 PULSELINE_FIELDS(StepAction, type, params)

@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "core/fleet/state/floor_state.hpp"
+#include "core/fleet/state/leg_delivery.hpp"
 #include "core/fleet/state/leg_plan.hpp"
 #include "core/fleet/state/order_book.hpp"
 #include "core/fleet/state/ports.hpp"
 #include "core/fleet/state/standing_orders.hpp"
 #include "core/fleet/state/views.hpp"
 #include "core/fleet/tables/plant_tables.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 /// The fleet's own state: structs only, what is done with them is in the other rooms. Not for use
 /// outside core/fleet.
@@ -23,7 +24,7 @@ namespace pulseline::fleet {
 
 /// An instant action on its way: sent again until the vehicle reports it final.
 struct PendingAction {
-    Action action;
+    vda5050::Action action;
     Time first_sent;
     std::optional<Time> last_sent;
     int sends = 0;
@@ -58,19 +59,12 @@ struct VehicleRun {
     bool connection_refused = false;
     Link link = Link::kNever;
     std::optional<Time> last_heard;
-    StateMessage state;
+    vda5050::StateMessage state;
     std::optional<Time> state_at;
     std::int64_t newest_header = 0;  // of the states on this connection; 0: none yet
-    std::optional<Factsheet> factsheet;
+    std::optional<vda5050::Factsheet> factsheet;
 
-    // The order message under way.
-    bool leg_seen = false;            // the vehicle has shown this leg's id
-    std::size_t update_from = 0;      // first node of the last update
-    std::optional<Time> update_sent;  // until the vehicle shows its update id
-    int update_sends = 0;
-    std::optional<Time> order_sent;  // newest message of this leg on this connection
-    bool gave_up = false;            // the vehicle does not have this leg; see forget_leg
-    bool cancelling = false;         // cancelOrder is not final: nothing but instant actions
+    LegDelivery delivery;
     FloorStand floor;
     /// Where it was believed to be, newest and at least a second before: see take_pose.
     struct Seen {
@@ -86,10 +80,9 @@ struct VehicleRun {
         Time at;
         std::string actor;
     };
-    std::optional<Statement> stated;  // by a person; none once the vehicle has said the same
-    std::optional<Time> claim_told;   // newest report that can follow the claim of its record
-    bool claim_left = false;          // the newest report cannot
-    std::optional<Time> leg_started;
+    std::optional<Statement> stated;    // by a person; none once the vehicle has said the same
+    std::optional<Time> claim_told;     // newest report that can follow the claim of its record
+    bool claim_left = false;            // the newest report cannot
     std::optional<Time> foreign_since;  // it has shown an order that is not this server's
     std::vector<PendingAction> actions;
     Time errors_from;                   // of the minute in which its errors are counted

@@ -8,10 +8,12 @@
 #include "core/base/error.hpp"
 #include "core/base/id.hpp"
 #include "core/base/time.hpp"
-#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
+#include "core/vda5050/messages.hpp"
 
 namespace pulseline::fleet {
+
+using geometry::Pose2;
 
 using JobOrderId = Id<struct JobOrderTag>;
 
@@ -167,8 +169,8 @@ struct Leg {
     plant::MotionMode mode = plant::MotionMode::kLinear;
     std::string hall;
     std::int64_t update_id = 0;
-    std::vector<OrderNode> nodes;
-    std::vector<OrderEdge> edges;
+    std::vector<vda5050::OrderNode> nodes;
+    std::vector<vda5050::OrderEdge> edges;
     std::size_t released_nodes = 1;  // nodes[0..released_nodes) are the base
     std::size_t passed_nodes = 1;    // reported by the vehicle
     double duration_s = 0;

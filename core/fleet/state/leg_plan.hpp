@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/time.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/plant.hpp"
 
 /// Legs that take longer to plan than others may wait for the fleet: free manoeuvres, some tens of

@@ -150,8 +150,8 @@ public:
 /// A message for a vehicle; sent only after the records of the same step are committed.
 struct VehicleMessage {
     plant::VehicleId vehicle;
-    std::optional<OrderMessage> order;
-    std::optional<InstantActionsMessage> instant_actions;
+    std::optional<vda5050::OrderMessage> order;
+    std::optional<vda5050::InstantActionsMessage> instant_actions;
 };
 
 /// All that a step of the fleet put out. Records first: nothing else leaves the server before they

@@ -6,7 +6,7 @@
 
 #include "core/fleet/state/closure.hpp"
 #include "core/fleet/state/job_order.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 /// What the fleet shows of itself: plain copies, safe to hand to another thread.
 namespace pulseline::fleet {
@@ -82,7 +82,7 @@ struct VehicleView {
     Reason needs_resume_reason;
     std::vector<Time> made_way;                 // newest last; see VehicleRun
     std::optional<BracketShare> worst_bracket;  // there while it carries a load
-    StateMessage state;                         // as last reported; all defaults before the first
+    vda5050::StateMessage state;                // as last reported; all defaults before the first
 };
 
 struct StationView {

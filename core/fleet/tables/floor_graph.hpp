@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/planning/lane_lines.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
+#include "core/planning/roads/lane_lines.hpp"
 #include "core/traffic/move_graph.hpp"
 
 /// The floor of a plant as each class of its vehicles can use it.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fleet/tables/floor_graph.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/plant.hpp"
 #include "core/traffic/traffic.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
@@ -19,7 +20,7 @@ bool may_tell_error(FleetState& fleet, VehicleRun& run, Time now) {
     }
     if (run.errors_told > kErrorsPerMinute) return false;
     if (++run.errors_told <= kErrorsPerMinute) return true;
-    add_event(fleet, now, "vehicle.errors_withheld", {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehicleErrorsWithheld, {}, run.record.leg, run.record.id, {},
               {{"errors_per_minute", std::int64_t{kErrorsPerMinute}}});
     return false;
 }
@@ -30,7 +31,7 @@ void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now)
         run.record.needs_resume_reason = reason;
         Params params{{"reason", reason.code}};
         for (const auto& param : reason.params) params.push_back(param);
-        add_event(fleet, now, "vehicle.needs_resume", {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleNeedsResume, {}, run.record.leg, run.record.id, {},
                   std::move(params));
         fleet.store(run);
     }

@@ -20,7 +20,7 @@ bool is_in_hall(const FleetState& fleet, const VehicleRun& run, const Pose2& pos
 }  // namespace
 
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
-                                     const std::vector<CameraReading>& readings) {
+                                     const std::vector<vda5050::CameraReading>& readings) {
     std::vector<localisation::CodeObservation> observations;
     std::vector<localisation::SurveyedCode> survey;
     for (const auto& reading : readings) {

@@ -9,6 +9,6 @@
 namespace pulseline::fleet {
 
 std::optional<Pose2> pose_from_codes(const FleetState& fleet, const VehicleRun& run,
-                                     const std::vector<CameraReading>& readings);
+                                     const std::vector<vda5050::CameraReading>& readings);
 
 }  // namespace pulseline::fleet

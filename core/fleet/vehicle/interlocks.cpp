@@ -11,6 +11,8 @@
 namespace pulseline::fleet {
 namespace {
 
+using Kind = Interlock::Kind;
+
 constexpr double kGravity_mps2 = 9.80665;
 constexpr double kEmpty = 0.01;  // of the largest load: bracket forces below it are noise
 
@@ -44,7 +46,7 @@ bool inside_wheel_base(const VehicleRun& run, geometry::Point2 centre) {
 
 /// A platform that was measured at a coded station leaves it only when both its cameras still see
 /// the codes. Where it only made way to, nothing was measured and nothing has to be seen.
-std::optional<Reason> unseen_codes(const FleetState& fleet, const VehicleRun& run) {
+std::optional<Interlock> unseen_codes(const FleetState& fleet, const VehicleRun& run) {
     const plant::StationId& at = run.record.at_station;
     if (run.type->brackets.empty() || at.empty() || at != run.record.last_stop_station) {
         return std::nullopt;
@@ -55,7 +57,8 @@ std::optional<Reason> unseen_codes(const FleetState& fleet, const VehicleRun& ru
                                      [](const auto& camera) { return camera.found; });
     const auto cameras = static_cast<std::int64_t>(run.type->cameras.size());
     if (found >= cameras) return std::nullopt;
-    return Reason{"codes_not_seen", {{"found", std::int64_t{found}}, {"cameras", cameras}}};
+    return Interlock{Kind::kCodes,
+                     {"codes_not_seen", {{"found", std::int64_t{found}}, {"cameras", cameras}}}};
 }
 
 }  // namespace
@@ -98,33 +101,37 @@ std::optional<BracketShare> worst_bracket(const VehicleRun& run) {
     return worst;
 }
 
-std::optional<Reason> interlock(const FleetState& fleet, const VehicleRun& run) {
+std::optional<Interlock> interlock(const FleetState& fleet, const VehicleRun& run) {
     double furthest_m = 0;
     for (const auto& foot : run.state.parking_feet) {
         furthest_m = std::max(furthest_m, foot.extension_m);
     }
     if (furthest_m > kFootLowered_m) {
-        return Reason{"parking_feet_down", {{"furthest_m", furthest_m}}};
+        return Interlock{Kind::kFeetDown, {"parking_feet_down", {{"furthest_m", furthest_m}}}};
     }
     const Load load = load_of(run);
     if (load.force_n > run.type->max_load_kg * kGravity_mps2) {
-        return Reason{
-            "load_too_heavy",
-            {{"load_kg", load.force_n / kGravity_mps2}, {"max_load_kg", run.type->max_load_kg}}};
+        return Interlock{
+            Kind::kLoad,
+            {"load_too_heavy",
+             {{"load_kg", load.force_n / kGravity_mps2}, {"max_load_kg", run.type->max_load_kg}}}};
     }
     if (const auto worst = worst_bracket(run); worst && std::abs(worst->share) > kBracketBalance) {
-        return Reason{"load_unbalanced",
-                      {{"bracket", worst->bracket},
-                       {"unbalance", std::abs(worst->share)},
-                       {"limit", kBracketBalance}}};
+        return Interlock{Kind::kLoad,
+                         {"load_unbalanced",
+                          {{"bracket", worst->bracket},
+                           {"unbalance", std::abs(worst->share)},
+                           {"limit", kBracketBalance}}}};
     }
     if (load.present && !inside_wheel_base(run, load.centre)) {
-        return Reason{"load_outside_wheel_base",
-                      {{"x_m", load.centre.x_m}, {"y_m", load.centre.y_m}}};
+        return Interlock{
+            Kind::kLoad,
+            {"load_outside_wheel_base", {{"x_m", load.centre.x_m}, {"y_m", load.centre.y_m}}}};
     }
     for (const auto& wheel : run.state.wheels) {
         if (!wheel.fault.empty()) {
-            return Reason{"wheel_fault", {{"wheel", wheel.name}, {"fault", wheel.fault}}};
+            return Interlock{Kind::kWheelFault,
+                             {"wheel_fault", {{"wheel", wheel.name}, {"fault", wheel.fault}}}};
         }
     }
     return unseen_codes(fleet, run);

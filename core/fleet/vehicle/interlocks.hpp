@@ -12,9 +12,18 @@ constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on t
 
 std::optional<BracketShare> worst_bracket(const VehicleRun& run);
 
-/// The first one that bars the drive: parking_feet_down {furthest_m}, load_too_heavy {load_kg,
-/// max_load_kg}, load_unbalanced {bracket, unbalance, limit}, load_outside_wheel_base {x_m, y_m},
-/// wheel_fault {wheel, fault}, codes_not_seen {found, cameras}. Nothing: it may drive.
-std::optional<Reason> interlock(const FleetState& fleet, const VehicleRun& run);
+struct Interlock {
+    enum class Kind {
+        kFeetDown,    // parking_feet_down {furthest_m}
+        kLoad,        // load_too_heavy {load_kg, max_load_kg}, load_unbalanced {bracket, unbalance,
+                      // limit}, load_outside_wheel_base {x_m, y_m}
+        kWheelFault,  // wheel_fault {wheel, fault}
+        kCodes,       // codes_not_seen {found, cameras}
+    };
+    Kind kind = Kind::kFeetDown;
+    Reason reason;
+};
+/// The first one that bars the drive. Nothing: it may drive.
+std::optional<Interlock> interlock(const FleetState& fleet, const VehicleRun& run);
 
 }  // namespace pulseline::fleet

@@ -10,6 +10,7 @@
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/kinematics/primitives.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -31,14 +32,14 @@ std::vector<Segment> split(const plant::VehicleType& type, const Segment& segmen
     return parts;
 }
 
-StopTarget stop_target(const plant::Plant& plant, const plant::Station& station) {
-    StopTarget target{.station_id = station.id.str(),
-                      .station_number = station.number,
-                      .target = station.pose,
-                      .tolerance_x_m = station.tolerance.dx_m,
-                      .tolerance_y_m = station.tolerance.dy_m,
-                      .tolerance_heading_rad = station.tolerance.dheading_rad,
-                      .markers = {}};
+vda5050::StopTarget stop_target(const plant::Plant& plant, const plant::Station& station) {
+    vda5050::StopTarget target{.station_id = station.id.str(),
+                               .station_number = station.number,
+                               .target = station.pose,
+                               .tolerance_x_m = station.tolerance.dx_m,
+                               .tolerance_y_m = station.tolerance.dy_m,
+                               .tolerance_heading_rad = station.tolerance.dheading_rad,
+                               .markers = {}};
     for (const auto& id : station.markers) {
         if (const auto* marker = plant::find_marker(plant, id)) {
             target.markers.push_back({marker->payload, plant::to_string(marker->kind),
@@ -55,9 +56,9 @@ bool announces(const VehicleRun& run, const std::string& action) {
     return std::find(actions.begin(), actions.end(), action) != actions.end();
 }
 
-OrderNode node_at(const std::string& name, std::size_t index, const Pose2& pose,
-                  const std::string& map_id) {
-    OrderNode node;
+vda5050::OrderNode node_at(const std::string& name, std::size_t index, const Pose2& pose,
+                           const std::string& map_id) {
+    vda5050::OrderNode node;
     node.node_id = name;
     node.sequence_id = static_cast<std::int64_t>(2 * index);
     node.pose = pose;
@@ -69,22 +70,22 @@ OrderNode node_at(const std::string& name, std::size_t index, const Pose2& pose,
 
 void widen_nodes(Leg& leg) {
     for (std::size_t i = std::max<std::size_t>(1, leg.released_nodes); i < leg.edges.size(); ++i) {
-        const OrderEdge& edge = leg.edges[i - 1];
-        const OrderEdge& next = leg.edges[i];
+        const vda5050::OrderEdge& edge = leg.edges[i - 1];
+        const vda5050::OrderEdge& next = leg.edges[i];
         const auto room = room_between(edge.segment, edge.corridor, next.segment, next.corridor);
         leg.nodes[i].allowed_deviation_xy_m = room && leg.nodes[i].actions.empty()
                                                   ? std::max(room->left_m, room->right_m)
-                                                  : OrderNode{}.allowed_deviation_xy_m;
+                                                  : vda5050::OrderNode{}.allowed_deviation_xy_m;
     }
 }
 
-std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
-                                 const plant::Station& station, const LegId& leg) {
-    std::vector<Action> actions;
+std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
+                                          const plant::Station& station, const LegId& leg) {
+    std::vector<vda5050::Action> actions;
     if (station.markers.empty()) return actions;
-    for (const char* type : {"adjustToMarker", "measureStop"}) {
+    for (const char* type : {vda5050::kAdjustToMarker, vda5050::kMeasureStop}) {
         if (!announces(run, type)) continue;
-        Action action;
+        vda5050::Action action;
         action.type = type;
         action.id = leg.str() + "-" + type;
         action.stop_target = stop_target(fleet.plant, station);
@@ -93,14 +94,16 @@ std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
     return actions;
 }
 
-std::vector<Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
-                                 const plant::Station& station, const Leg& leg) {
-    std::vector<Action> actions = stop_actions(fleet, run, station, leg.id);
+std::vector<vda5050::Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
+                                          const plant::Station& station, const Leg& leg) {
+    std::vector<vda5050::Action> actions = stop_actions(fleet, run, station, leg.id);
     // It is no stop to keep.
-    std::erase_if(actions, [](const Action& action) { return action.type == "measureStop"; });
+    std::erase_if(actions, [](const vda5050::Action& action) {
+        return action.type == vda5050::kMeasureStop;
+    });
     if (leg.charges) {
-        Action action;
-        action.type = "startCharging";
+        vda5050::Action action;
+        action.type = vda5050::kStartCharging;
         action.id = leg.id.str() + "-startCharging";
         actions.push_back(std::move(action));
     }
@@ -120,8 +123,8 @@ planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run,
     return request;
 }
 
-OrderNode start_node(const Pose2& pose, const std::string& hall) {
-    OrderNode node = node_at("start", 0, pose, hall);
+vda5050::OrderNode start_node(const Pose2& pose, const std::string& hall) {
+    vda5050::OrderNode node = node_at("start", 0, pose, hall);
     node.released = true;
     node.allowed_deviation_xy_m = 0.3;
     node.allowed_deviation_theta_rad = 0.1;
@@ -141,7 +144,7 @@ Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::Le
     for (std::size_t i = 0; i < plan.segments.size(); ++i) {
         for (const auto& piece : split(*run.type, plan.segments[i])) {
             const std::size_t index = leg.nodes.size();
-            OrderEdge edge;
+            vda5050::OrderEdge edge;
             edge.edge_id = "e" + std::to_string(index);
             edge.sequence_id = static_cast<std::int64_t>(2 * index - 1);
             edge.segment = piece;

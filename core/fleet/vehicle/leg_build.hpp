@@ -17,16 +17,16 @@ planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run,
 Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::LegPlan& plan,
               const plant::Station& station, const Pose2& start, LegId id);
 /// Where a leg starts: the vehicle stands there, within what a measured stop may be off.
-OrderNode start_node(const Pose2& pose, const std::string& hall);
+vda5050::OrderNode start_node(const Pose2& pose, const std::string& hall);
 /// A leg that only measures and corrects where the vehicle stands (second approach).
 Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
                      const Pose2& pose, LegId id);
 /// What the vehicle does at the station node: correct the stop, then measure it.
-std::vector<Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
-                                 const plant::Station& station, const LegId& leg);
+std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
+                                          const plant::Station& station, const LegId& leg);
 /// What it does where it only rests: it takes away what odometry has gathered, and charges if the
 /// leg is for that.
-std::vector<Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
-                                 const plant::Station& station, const Leg& leg);
+std::vector<vda5050::Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
+                                          const plant::Station& station, const Leg& leg);
 
 }  // namespace pulseline::fleet

@@ -1,7 +1,9 @@
 #include "core/fleet/vehicle/link.hpp"
 
+#include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 
 // The link to a vehicle: how long it has been silent, and what is sent until the vehicle confirms
@@ -18,7 +20,7 @@ Link link_after(Duration silent) {
 
 void set_link(FleetState& fleet, VehicleRun& run, Link to, Time now) {
     if (run.link == to) return;
-    add_event(fleet, now, "vehicle.link", {}, {}, run.record.id, {},
+    add_event(fleet, now, event::kVehicleLink, {}, {}, run.record.id, {},
               {{"from", to_string(run.link)}, {"to", to_string(to)}});
     run.link = to;
     fleet.changed_vehicles.insert(run.record.id);
@@ -35,18 +37,18 @@ void connect(FleetState& fleet, VehicleRun& run, Time now) {
     run.connected = true;
     run.reconciled = false;
     run.newest_header = 0;
-    run.order_sent.reset();  // what was under way on the old connection is lost
-    add_event(fleet, now, "vehicle.connected", {}, {}, run.record.id, {});
+    run.delivery.reconnected();
+    add_event(fleet, now, event::kVehicleConnected, {}, {}, run.record.id, {});
     hear(fleet, run, now);
     // Without order and pose, nothing tells a cut line from a vehicle that was switched off and on.
-    if (run.gave_up) require_person(fleet, run, {"vehicle_lost_order", {}}, now);
+    if (run.delivery.lost()) require_person(fleet, run, {reasons::kVehicleLostOrder, {}}, now);
 }
 
 void disconnect(FleetState& fleet, VehicleRun& run, Time now) {
     if (!run.connected) return;
     run.connected = false;
     run.reconciled = false;
-    add_event(fleet, now, "vehicle.disconnected", {}, {}, run.record.id, {});
+    add_event(fleet, now, event::kVehicleDisconnected, {}, {}, run.record.id, {});
     fleet.changed_vehicles.insert(run.record.id);
 }
 
@@ -57,7 +59,7 @@ void update_links(FleetState& fleet, Time now) {
         if (to == run.link) continue;
         set_link(fleet, run, to, now);
         if (to == Link::kLost && run.has_leg()) {
-            require_person(fleet, run, {"vehicle_was_lost", {}}, now);
+            require_person(fleet, run, {reasons::kVehicleWasLost, {}}, now);
         }
     }
 }

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -22,11 +24,163 @@ bool raises_feet_first(const JobOrder& order) {
     if (step.phase != StepPhase::kBefore) return false;
     const auto todo = step.before.begin() +
                       static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
-    return std::any_of(todo, step.before.end(),
-                       [](const StepAction& action) { return action.type == "raiseParking"; });
+    return std::any_of(todo, step.before.end(), [](const StepAction& action) {
+        return action.type == vda5050::kRaiseParking;
+    });
 }
 
 constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
+
+// No base is extended on an older pose while the vehicle drives.
+constexpr Duration kPoseTooOld = std::chrono::seconds(2);
+
+/// One list for all that a vehicle may be asked to do: to start a move, to obey a release of floor
+/// some day, to take a longer base now. Interlocks come behind it.
+struct Condition {
+    Bar bar;
+    bool bars_start;
+    bool bars_release;
+    bool bars_extension;
+};
+constexpr Condition kConditions[] = {
+    // clang-format off
+    //                     start  release  extension
+    {Bar::kNotIntegrated,  true,  true,  false},
+    {Bar::kLost,           false, true,  false},
+    {Bar::kSilent,         true,  false, true},
+    {Bar::kNotReported,    true,  true,  true},
+    {Bar::kNeedsPerson,    true,  true,  true},
+    {Bar::kPaused,         true,  true,  true},
+    {Bar::kOrderPaused,    false, true,  false},
+    {Bar::kPoseUnknown,    true,  true,  false},
+    {Bar::kPoseOld,        false, false, true},
+    {Bar::kNotAutomatic,   true,  true,  true},
+    {Bar::kSafetyStop,     true,  true,  false},
+    // Somebody stands before it: it goes on by itself when they have gone.
+    {Bar::kFieldViolation, true,  false, false},
+    {Bar::kFatalError,     true,  true,  false},
+    {Bar::kPausesItself,   true,  true,  false},
+    {Bar::kForeignOrder,   true,  false, false},
+    {Bar::kBusy,           true,  false, false},
+    // clang-format on
+};
+
+const vda5050::VehicleError* fatal_error(const VehicleRun& run) {
+    const auto& errors = run.state.errors;
+    const auto found = std::find_if(errors.begin(), errors.end(),
+                                    [](const vda5050::VehicleError& error) { return error.fatal; });
+    return found == errors.end() ? nullptr : &*found;
+}
+
+bool order_is_paused(const FleetState& fleet, const VehicleRun& run) {
+    const JobOrder* order = fleet.orders.of(run.record.id);
+    return order && order->pause_requested;
+}
+
+bool bars(Bar bar, const FleetState& fleet, const VehicleRun& run, Time now) {
+    switch (bar) {
+        case Bar::kNotIntegrated:
+            return run.record.integration != Integration::kUtilise;
+        case Bar::kLost:
+            return run.link == Link::kNever || run.link == Link::kLost || run.link == Link::kGone;
+        case Bar::kSilent:
+            return !run.connected || run.link != Link::kLive;
+        case Bar::kNotReported:
+            return !run.reconciled;
+        case Bar::kNeedsPerson:
+            return run.record.needs_resume;
+        case Bar::kPaused:
+            return run.record.paused.has_value();
+        case Bar::kOrderPaused:
+            return order_is_paused(fleet, run);
+        case Bar::kPoseUnknown:
+            return !run.record.pose_known;
+        case Bar::kPoseOld:
+            return !run.state_at || (run.state.driving && now - *run.state_at > kPoseTooOld);
+        case Bar::kNotAutomatic:
+            return !is_automatic(run);
+        case Bar::kSafetyStop:
+            return run.state.e_stop != "NONE" && !run.state.e_stop.empty();
+        case Bar::kFieldViolation:
+            return run.state.field_violation;
+        case Bar::kFatalError:
+            return fatal_error(run) != nullptr;
+        case Bar::kPausesItself:
+            return run.state.paused;
+        case Bar::kForeignOrder:
+            return has_foreign_order(run);
+        case Bar::kBusy:
+            return run.delivery.cancelling() || run.state.driving;
+        case Bar::kFeetDown:
+        case Bar::kLoad:
+        case Bar::kWheelFault:
+        case Bar::kCodesNotSeen:
+            break;  // interlocks, which are asked together
+    }
+    return false;
+}
+
+/// What people are told of what bars a start.
+Reason reason_of(Bar bar, const FleetState& fleet, const VehicleRun& run, Time now) {
+    const auto because = [&](const char* code, Params more = {}) {
+        Reason reason{code, {{"vehicle", run.record.id.str()}}};
+        reason.params.insert(reason.params.end(), more.begin(), more.end());
+        return reason;
+    };
+    switch (bar) {
+        case Bar::kNotIntegrated:
+            return because("not_integrated", {{"level", to_string(run.record.integration)}});
+        case Bar::kSilent:
+            return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}});
+        case Bar::kNotReported:
+            return because("vehicle_not_reported");
+        case Bar::kNeedsPerson:
+            return because("needs_person", {{"cause", run.record.needs_resume_reason.code}});
+        case Bar::kPaused:
+            if (run.record.paused->actor.empty()) return because(reasons::kVehiclePaused);
+            return because(reasons::kVehiclePaused, {{"actor", run.record.paused->actor}});
+        case Bar::kPoseUnknown:
+            return because("pose_unknown");
+        case Bar::kNotAutomatic:
+            return because("not_automatic", {{"operating_mode", run.state.operating_mode}});
+        case Bar::kSafetyStop:
+            return because("vehicle_safety_stop", {{"e_stop", run.state.e_stop}});
+        case Bar::kFieldViolation:
+            return because("field_violation");
+        case Bar::kFatalError:
+            return because("vehicle_error", {{"type", fatal_error(run)->type}});
+        case Bar::kPausesItself:
+            return because(reasons::kVehiclePaused);
+        case Bar::kForeignOrder:
+            return because(reasons::kForeignOrder, {{"order", run.state.order_id}});
+        case Bar::kBusy:
+            return because("vehicle_busy");
+        case Bar::kLost:
+        case Bar::kOrderPaused:
+        case Bar::kPoseOld:
+            break;  // these bar no start
+        case Bar::kFeetDown:
+        case Bar::kLoad:
+        case Bar::kWheelFault:
+        case Bar::kCodesNotSeen:
+            break;  // an interlock says itself what it found
+    }
+    return {};
+}
+
+Bar bar_of(Interlock::Kind kind) {
+    switch (kind) {
+        case Interlock::Kind::kFeetDown:
+            return Bar::kFeetDown;
+        case Interlock::Kind::kLoad:
+            return Bar::kLoad;
+        case Interlock::Kind::kWheelFault:
+            return Bar::kWheelFault;
+        case Interlock::Kind::kCodes:
+            return Bar::kCodesNotSeen;
+    }
+    return Bar::kLoad;
+}
 
 }  // namespace
 
@@ -50,103 +204,64 @@ std::optional<Reason> battery_bar(const VehicleRun& run) {
     return std::nullopt;
 }
 
-std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const Params who{{"vehicle", run.record.id.str()}};
-    const auto because = [&](std::string code, Params more = {}) {
-        Params params = who;
-        params.insert(params.end(), more.begin(), more.end());
-        return Reason{std::move(code), std::move(params)};
-    };
-    if (run.record.integration != Integration::kUtilise) {
-        return because("not_integrated", {{"level", to_string(run.record.integration)}});
+std::optional<Barred> not_ready(const FleetState& fleet, const VehicleRun& run, Time now) {
+    for (const Condition& condition : kConditions) {
+        if (!condition.bars_start || !bars(condition.bar, fleet, run, now)) continue;
+        return Barred{condition.bar, reason_of(condition.bar, fleet, run, now)};
     }
-    if (!run.connected || run.link != Link::kLive) {
-        return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}});
-    }
-    if (!run.reconciled) return because("vehicle_not_reported");
-    if (run.record.needs_resume) {
-        return because("needs_person", {{"cause", run.record.needs_resume_reason.code}});
-    }
-    if (const auto& pause = run.record.paused) {
-        if (pause->actor.empty()) return because("vehicle_paused");
-        return because("vehicle_paused", {{"actor", pause->actor}});
-    }
-    if (!run.record.pose_known) return because("pose_unknown");
-    if (!is_automatic(run)) {
-        return because("not_automatic", {{"operating_mode", run.state.operating_mode}});
-    }
-    if (run.state.e_stop != "NONE" && !run.state.e_stop.empty()) {
-        return because("vehicle_safety_stop", {{"e_stop", run.state.e_stop}});
-    }
-    if (run.state.field_violation) return because("field_violation");
-    for (const auto& error : run.state.errors) {
-        if (error.fatal) return because("vehicle_error", {{"type", error.type}});
-    }
-    if (run.state.paused) return because("vehicle_paused");
-    if (has_foreign_order(run)) return because("foreign_order", {{"order", run.state.order_id}});
-    if (run.cancelling || run.state.driving) return because("vehicle_busy");
-    if (const auto bar = interlock(fleet, run)) return because(bar->code, bar->params);
-    return std::nullopt;
+    const auto lock = interlock(fleet, run);
+    if (!lock) return std::nullopt;
+    Reason reason{lock->reason.code, {{"vehicle", run.record.id.str()}}};
+    const Params& more = lock->reason.params;
+    reason.params.insert(reason.params.end(), more.begin(), more.end());
+    return Barred{bar_of(lock->kind), std::move(reason)};
 }
 
-std::optional<Reason> not_ready_for(const FleetState& fleet, const JobOrder& order,
+std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
                                     const VehicleRun& run, Time now) {
-    auto reason = not_ready(fleet, run, now);
-    if (reason && reason->code == "parking_feet_down" && raises_feet_first(order)) {
-        return std::nullopt;
-    }
-    return reason;
+    auto barred = not_ready(fleet, run, now);
+    if (barred && barred->by == Bar::kFeetDown && raises_feet_first(order)) return std::nullopt;
+    return barred;
 }
 
-std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run) {
-    const auto because = [&](const char* code) {
-        return Reason{code, {{"vehicle", run.record.id.str()}}};
-    };
-    if (run.record.integration != Integration::kUtilise) return because("not_integrated");
-    const bool silent =
-        run.link == Link::kNever || run.link == Link::kLost || run.link == Link::kGone;
-    if (silent) return because("vehicle_silent");
-    if (run.record.needs_resume) return because("needs_person");
-    if (run.record.paused || run.state.paused) return because("vehicle_paused");
-    const JobOrder* order = fleet.orders.of(run.record.id);
-    if (order && order->pause_requested) return because("paused_by_person");
-    if (!run.reconciled) return because("vehicle_not_reported");
-    if (!run.record.pose_known) return because("pose_unknown");
-    if (!is_automatic(run)) return because("not_automatic");
-    const bool stopped = run.state.e_stop != "NONE" && !run.state.e_stop.empty();
-    if (stopped) return because("vehicle_safety_stop");
-    for (const auto& error : run.state.errors) {
-        if (error.fatal) return because("vehicle_error");
+bool cannot_move(const FleetState& fleet, const VehicleRun& run) {
+    for (const Condition& condition : kConditions) {
+        if (condition.bars_release && bars(condition.bar, fleet, run, {})) return true;
     }
     // On its way a platform loses sight of the codes, and forces shift: what bars a start does not
     // stop a drive, but for a broken wheel.
-    if (const auto bar = interlock(fleet, run);
-        bar && (!run.has_leg() || bar->code == "wheel_fault")) {
-        return because(bar->code.c_str());
-    }
-    return std::nullopt;
+    const auto lock = interlock(fleet, run);
+    return lock && (!run.has_leg() || lock->kind == Interlock::Kind::kWheelFault);
+}
+
+bool bars_extension(const FleetState& fleet, const VehicleRun& run, Time now) {
+    return std::any_of(std::begin(kConditions), std::end(kConditions), [&](const Condition& one) {
+        return one.bars_extension && bars(one.bar, fleet, run, now);
+    });
 }
 
 // One whose drive failed while it corrected its stop says that it does not drive, but not that the
 // correction is over.
-bool has_nothing_left(const StateMessage& state) {
+bool has_nothing_left(const vda5050::StateMessage& state) {
     return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
-           std::none_of(state.action_states.begin(), state.action_states.end(),
-                        [](const auto& action) { return action.status == ActionStatus::kRunning; });
+           std::none_of(
+               state.action_states.begin(), state.action_states.end(),
+               [](const auto& action) { return action.status == vda5050::ActionStatus::kRunning; });
 }
 
 bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }
 
 bool has_foreign_order(const VehicleRun& run) {
-    const StateMessage& state = run.state;
+    const vda5050::StateMessage& state = run.state;
     return !run.has_leg() && run.reconciled && !state.order_id.empty() &&
            !(state.node_states.empty() && state.edge_states.empty());
 }
 
 bool is_on_its_way(const VehicleRun& run) {
-    if (run.leg_seen || !run.order_sent) return false;
+    const auto sent = run.delivery.on_this_connection();
+    if (run.delivery.seen() || !sent) return false;
     // One that fell silent may have got it, and have driven all of its base since.
-    return !run.state_at || *run.state_at - *run.order_sent < kLongestWay;
+    return !run.state_at || *run.state_at - *sent < kLongestWay;
 }
 
 bool waits_for_person(const VehicleRun& run) {

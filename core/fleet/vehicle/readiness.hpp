@@ -16,18 +16,49 @@ bool is_on_its_way(const VehicleRun& run);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
 bool is_automatic(const VehicleRun& run);
 /// It has given up its order, or done all of it.
-bool has_nothing_left(const StateMessage& state);
+bool has_nothing_left(const vda5050::StateMessage& state);
 /// It carries out an order that this server has not given, or has forgotten.
 bool has_foreign_order(const VehicleRun& run);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
 bool is_asked(const VehicleRun& run, const char* action_type);
+
+/// What may bar a vehicle; readiness.cpp has the table of which bars what, in the order in which
+/// people are told.
+enum class Bar {
+    kNotIntegrated,
+    kLost,    // for so long that others are planned around it
+    kSilent,  // late, or without a line
+    kNotReported,
+    kNeedsPerson,
+    kPaused,
+    kOrderPaused,
+    kPoseUnknown,
+    kPoseOld,
+    kNotAutomatic,
+    kSafetyStop,
+    kFieldViolation,
+    kFatalError,
+    kPausesItself,
+    kForeignOrder,
+    kBusy,
+    kFeetDown,
+    kLoad,
+    kWheelFault,
+    kCodesNotSeen,
+};
+struct Barred {
+    Bar by = Bar::kNotIntegrated;
+    Reason reason;
+};
 /// Why this vehicle may not start a move now; nullopt: it may.
-std::optional<Reason> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+std::optional<Barred> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
 /// The same for an order's next step: feet that are down do not bar what raises them.
-std::optional<Reason> not_ready_for(const FleetState& fleet, const JobOrder& order,
+std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
                                     const VehicleRun& run, Time now);
-/// Why it would not obey a release of floor, whatever its order; others are planned around it.
-std::optional<Reason> cannot_move(const FleetState& fleet, const VehicleRun& run);
+/// It would not obey a release of floor, whatever its order; others are planned around it.
+bool cannot_move(const FleetState& fleet, const VehicleRun& run);
+/// It gets no longer base now, whatever of its leg it has.
+bool bars_extension(const FleetState& fleet, const VehicleRun& run, Time now);
 
 /// Whether it stays on its charger, whoever waits.
 bool charges_on(const VehicleRun& run);

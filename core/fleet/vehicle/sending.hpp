@@ -14,7 +14,7 @@ void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
 void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
 /// After a person's act; the vehicle is not ready until that order is gone.
 void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now);
-void send_action(FleetState& fleet, VehicleRun& run, Action action, Time now);
+void send_action(FleetState& fleet, VehicleRun& run, vda5050::Action action, Time now);
 void resend(FleetState& fleet, Time now);
 
 }  // namespace pulseline::fleet

@@ -30,7 +30,7 @@ bool same_pose(const Pose2& a, const Pose2& b) {
 }
 
 /// Makes equal what is the same but for noise, so that the rest can be compared as it is.
-void quiet(const StateMessage& known, StateMessage& next) {
+void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
     next.header_id = known.header_id;
     next.timestamp = known.timestamp;
     next.velocity_mps = known.velocity_mps;
@@ -51,32 +51,37 @@ void quiet(const StateMessage& known, StateMessage& next) {
             make_equal(from[i], to[i]);
         }
     };
-    pairs(known.brackets, next.brackets, [](const BracketLoad& from, BracketLoad& to) {
-        if (same_force(from.force_a_n, to.force_a_n)) to.force_a_n = from.force_a_n;
-        if (same_force(from.force_b_n, to.force_b_n)) to.force_b_n = from.force_b_n;
-    });
-    pairs(known.wheels, next.wheels, [](const WheelStatus& from, WheelStatus& to) {
-        to.steering_rad = from.steering_rad;
-        to.speed_mps = from.speed_mps;
-        to.temperature_c = from.temperature_c;
-    });
-    pairs(known.parking_feet, next.parking_feet, [](const ParkingFoot& from, ParkingFoot& to) {
-        if (near(from.extension_m, to.extension_m, kFoot_m)) to.extension_m = from.extension_m;
-    });
+    pairs(known.brackets, next.brackets,
+          [](const vda5050::BracketLoad& from, vda5050::BracketLoad& to) {
+              if (same_force(from.force_a_n, to.force_a_n)) to.force_a_n = from.force_a_n;
+              if (same_force(from.force_b_n, to.force_b_n)) to.force_b_n = from.force_b_n;
+          });
+    pairs(known.wheels, next.wheels,
+          [](const vda5050::WheelStatus& from, vda5050::WheelStatus& to) {
+              to.steering_rad = from.steering_rad;
+              to.speed_mps = from.speed_mps;
+              to.temperature_c = from.temperature_c;
+          });
+    pairs(known.parking_feet, next.parking_feet,
+          [](const vda5050::ParkingFoot& from, vda5050::ParkingFoot& to) {
+              if (near(from.extension_m, to.extension_m, kFoot_m))
+                  to.extension_m = from.extension_m;
+          });
     // A vehicle that has lost its pose is told it from what its cameras see.
     if (!next.position_initialized) return;
-    pairs(known.cameras, next.cameras, [](const CameraReading& from, CameraReading& to) {
-        to.code = from.code;
-        to.angle_rad = from.angle_rad;
-        to.sigma_m = from.sigma_m;
-        to.rms_px = from.rms_px;
-        to.why_not = from.why_not;
-    });
+    pairs(known.cameras, next.cameras,
+          [](const vda5050::CameraReading& from, vda5050::CameraReading& to) {
+              to.code = from.code;
+              to.angle_rad = from.angle_rad;
+              to.sigma_m = from.sigma_m;
+              to.rms_px = from.rms_px;
+              to.why_not = from.why_not;
+          });
 }
 
 }  // namespace
 
-Duration seen_every(const StateMessage& state) {
+Duration seen_every(const vda5050::StateMessage& state) {
     return state.driving ? kDrivingEvery : kStandingEvery;
 }
 
@@ -86,8 +91,8 @@ Duration to_next_beat(Duration now, Duration every, std::size_t number) {
     return every - (now + own) % every;
 }
 
-bool may_change_decision(const StateMessage& known, const StateMessage& next) {
-    StateMessage quieted = next;
+bool may_change_decision(const vda5050::StateMessage& known, const vda5050::StateMessage& next) {
+    vda5050::StateMessage quieted = next;
     quiet(known, quieted);
     journal::Writer a;
     journal::Writer b;

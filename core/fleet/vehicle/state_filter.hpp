@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "core/base/time.hpp"
-#include "core/fleet/state/vehicle_messages.hpp"
+#include "core/vda5050/messages.hpp"
 
 /// Which of a vehicle's reports the fleet has to see. The others tell nothing it decides by and
 /// would only fill the journal; poses and speeds are shown from a table of newest values.
@@ -16,7 +16,7 @@ constexpr Duration kDrivingEvery = std::chrono::milliseconds(500);
 constexpr Duration kStandingEvery = std::chrono::seconds(2);
 
 /// How often the fleet sees the reports of a vehicle that says this.
-Duration seen_every(const StateMessage& state);
+Duration seen_every(const vda5050::StateMessage& state);
 
 /// From `now`, of any clock, to the next beat of one of many that all do something `every` so
 /// often: at most `every`. Each has its own moment, by `number`: a thousand vehicles that connected
@@ -26,6 +26,6 @@ Duration to_next_beat(Duration now, Duration every, std::size_t number);
 /// Whether `next` may lead to another decision than `known`, which the fleet saw last.
 /// Anything counts but what is left out here by name: time stamps, poses of a driving vehicle,
 /// speeds and temperatures, and noise of poses, forces, feet, cameras and battery.
-bool may_change_decision(const StateMessage& known, const StateMessage& next);
+bool may_change_decision(const vda5050::StateMessage& known, const vda5050::StateMessage& next);
 
 }  // namespace pulseline::fleet

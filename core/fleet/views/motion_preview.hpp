@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/fleet/tables/plant_tables.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/plant.hpp"
 
 /// What a vehicle would do to get somewhere, in every motion mode.

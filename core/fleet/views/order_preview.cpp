@@ -38,7 +38,7 @@ VehicleRun known_of(const VehicleRun& run) {
     copy.state = run.state;
     copy.state_at = run.state_at;
     copy.factsheet = run.factsheet;
-    copy.cancelling = run.cancelling;
+    copy.delivery = run.delivery;
     return copy;
 }
 

@@ -143,13 +143,13 @@ Check safety_check(const VehicleRun& run) {
 }
 
 Check mode_check(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const auto reason = not_ready(fleet, run, now);
+    const auto barred = not_ready(fleet, run, now);
     Params params{{"operating_mode", run.state.operating_mode}};
-    if (reason) {
-        params.push_back({"reason", reason->code});
-        for (const auto& param : reason->params) params.push_back(param);
+    if (barred) {
+        params.push_back({"reason", barred->reason.code});
+        for (const auto& param : barred->reason.params) params.push_back(param);
     }
-    return check("mode", reason ? Check::Result::kNote : Check::Result::kPass, std::move(params));
+    return check("mode", barred ? Check::Result::kNote : Check::Result::kPass, std::move(params));
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/motion.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -76,10 +77,10 @@ LegView leg_view(const VehicleRun& run, Time now) {
     }
     if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
     view.progress = total_s > 0 ? passed_s / total_s : 1.0;
-    view.started = run.leg_started;
-    if (run.leg_started) {
+    view.started = run.delivery.started();
+    if (view.started) {
         const Time left = now + from_seconds((total_s - passed_s) / speed_share(run));
-        view.expected = std::max(*run.leg_started + from_seconds(view.duration_s), left);
+        view.expected = std::max(*view.started + from_seconds(view.duration_s), left);
     }
     return view;
 }
@@ -87,14 +88,14 @@ LegView leg_view(const VehicleRun& run, Time now) {
 /// A report of before the pause, or of one that is still braking, does not count.
 bool stands_paused(const VehicleRun& run) {
     return run.record.paused && run.state.paused && !run.state.driving &&
-           !is_asked(run, "startPause");
+           !is_asked(run, vda5050::kStartPause);
 }
 
 /// Beside its line it says why.
 std::optional<Reason> detour(const VehicleRun& run) {
     const bool goes_round =
         std::any_of(run.state.errors.begin(), run.state.errors.end(),
-                    [](const VehicleError& error) { return error.type == "going_round"; });
+                    [](const vda5050::VehicleError& error) { return error.type == "going_round"; });
     return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
 }
 
@@ -106,6 +107,25 @@ void show_standing(StationView& view, const VehicleRun& run) {
     if (measured_here) view.last_stop = run.record.last_stop;
 }
 
+Activity activity_of(Bar bar) {
+    switch (bar) {
+        case Bar::kFatalError:
+        case Bar::kWheelFault:
+        case Bar::kSafetyStop:
+        case Bar::kNotAutomatic:
+        case Bar::kFieldViolation:
+            return Activity::kBlocked;
+        case Bar::kPaused:
+        case Bar::kPausesItself:
+            return Activity::kPaused;
+        case Bar::kPoseUnknown:
+        case Bar::kSilent:
+            return Activity::kUnknown;
+        default:
+            return Activity::kWaiting;
+    }
+}
+
 struct Doing {
     Activity activity = Activity::kUnknown;
     std::optional<Reason> reason;
@@ -114,7 +134,8 @@ struct Doing {
 Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     const JobOrder* order = fleet.orders.of(run.record.id);
     if (run.record.integration == Integration::kIgnore) {
-        return {Activity::kUnknown, not_ready(fleet, run, now)};
+        const auto barred = not_ready(fleet, run, now);
+        return {Activity::kUnknown, barred ? std::optional(barred->reason) : std::nullopt};
     }
     if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
     if (run.link == Link::kLost || run.link == Link::kGone) {
@@ -123,23 +144,16 @@ Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
     }
     const bool moving = run.has_leg() && run.state.driving;
     if (moving && run.link == Link::kLive) return {Activity::kMoving, detour(run)};
-    if (const auto reason = not_ready(fleet, run, now); reason && reason->code != "vehicle_busy") {
-        const std::string& code = reason->code;
-        const bool blocked = code == "vehicle_error" || code == "wheel_fault" ||
-                             code == "vehicle_safety_stop" || code == "not_automatic" ||
-                             code == "field_violation";
-        Activity activity = blocked ? Activity::kBlocked : Activity::kWaiting;
-        if (code == "vehicle_paused") activity = Activity::kPaused;
-        if (code == "pose_unknown" || code == "vehicle_silent") activity = Activity::kUnknown;
-        return {activity, reason};
+    if (const auto barred = not_ready(fleet, run, now); barred && barred->by != Bar::kBusy) {
+        return {activity_of(barred->by), barred->reason};
     }
     if (run.has_leg()) {
         const bool measuring = order && order->current_step < order->steps.size() &&
                                order->steps[order->current_step].state == StepState::kMeasuring;
         if (measuring) return {Activity::kMeasuring, std::nullopt};
-        if (run.cancelling) return {Activity::kWaiting, Reason{"cancelling", {}}};
+        if (run.delivery.cancelling()) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
-        if (!run.leg_seen) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        if (!run.delivery.seen()) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
         if (run.leg().order.empty()) {
             if (auto wait = floor_wait(fleet, run); wait && !moving) {
                 return {Activity::kWaiting, std::move(wait)};

@@ -86,7 +86,7 @@ TEST(Frames, AFullyEquippedVehicleFitsTheDocument) {
     view.state.brackets = {{"front left", 1.0, 2.0}};
     view.state.wheels = {{"FL", 0.1, 0.2, 40, "overheated"}};
     view.state.parking_feet = {{"front", 0.1}};
-    fleet::CameraReading reading;
+    vda5050::CameraReading reading;
     reading.camera = "front";
     reading.found = true;
     reading.payload = "ST01-F";

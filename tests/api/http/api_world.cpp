@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/http/problem.hpp"
+#include "api/http/wire/problem.hpp"
 
 namespace pulseline::api::testing {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "api/access/access_control.hpp"
-#include "api/http/documents.hpp"
+#include "api/http/plant/documents.hpp"
 #include "api/http/router.hpp"
 #include "core/fleet/views/motion_preview.hpp"
 #include "core/fleet/views/order_preview.hpp"

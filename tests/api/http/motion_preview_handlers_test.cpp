@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "api/http/common_json.hpp"
+#include "api/http/wire/common_json.hpp"
 #include "tests/api/http/api_world.hpp"
 
 namespace pulseline::api {

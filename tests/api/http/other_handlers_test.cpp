@@ -2,9 +2,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
-#include "api/http/common_json.hpp"
-#include "api/http/grid_png.hpp"
-#include "api/http/problem.hpp"
+#include "api/http/plant/grid_png.hpp"
+#include "api/http/wire/common_json.hpp"
+#include "api/http/wire/problem.hpp"
 #include "tests/api/http/api_world.hpp"
 
 namespace pulseline::api {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "api/http/common_json.hpp"
+#include "api/http/wire/common_json.hpp"
 #include "tests/api/http/api_world.hpp"
 
 namespace pulseline::api {

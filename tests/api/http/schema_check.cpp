@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "api/http/documents.hpp"
+#include "api/http/plant/documents.hpp"
 
 namespace pulseline::api::testing {
 namespace {

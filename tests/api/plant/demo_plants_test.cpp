@@ -6,7 +6,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/validate.hpp"
 
 // The shipped plants: without a fault, and their vehicles can do what the demos ask of them.

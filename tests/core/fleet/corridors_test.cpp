@@ -22,7 +22,7 @@ plant::Plant lane_with_a_neighbour(std::optional<plant::Corridor> corridor) {
     return plant;
 }
 
-const OrderMessage& order_at(const World& world, const std::string& vehicle) {
+const vda5050::OrderMessage& order_at(const World& world, const std::string& vehicle) {
     return world.vehicles.at(plant::VehicleId(vehicle)).order();
 }
 
@@ -37,7 +37,7 @@ TEST(Corridors, AreToldWithTheEdgesAndGiveTheNodesBetweenThemRoom) {
     ASSERT_TRUE(world.order("V1", {2}));
     world.run(1);
 
-    const OrderMessage& order = order_at(world, "V1");
+    const vda5050::OrderMessage& order = order_at(world, "V1");
     ASSERT_GT(order.edges.size(), 10u);
     for (const auto& edge : order.edges) EXPECT_EQ(edge.corridor, kRoom) << edge.edge_id;
     for (std::size_t i = 1; i + 1 < order.nodes.size(); ++i) {

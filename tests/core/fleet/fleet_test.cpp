@@ -398,7 +398,7 @@ TEST(Fleet, AnUnseenOrderIsSentAgainUntilTheVehicleShowsIt) {
     world.connect_all();
     auto& vehicle = world.vehicle("V1");
     vehicle.sees_codes = true;
-    const StateMessage before = vehicle.state;
+    const vda5050::StateMessage before = vehicle.state;
     ASSERT_TRUE(world.order("V1", {2}));
     const int first = vehicle.orders_received;
 

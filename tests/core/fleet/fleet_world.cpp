@@ -139,7 +139,7 @@ void FakeVehicle::see_codes() {
     state.cameras.clear();
     const auto* vehicle = plant::find_vehicle(plant_, id_);
     for (const auto& camera : plant::find_vehicle_type(plant_, vehicle->type)->cameras) {
-        CameraReading reading;
+        vda5050::CameraReading reading;
         reading.camera = camera.name;
         for (const auto& marker : plant_.markers) {
             const auto in_body = geometry::inverse(*state.pose) * marker.pose;
@@ -163,7 +163,7 @@ void FakeVehicle::receive(const VehicleMessage& message) {
                                            [&](const auto& a) { return a.id == action.id; });
             if (known) continue;  // a doubled message
             state.action_states.push_back(
-                {action.id, action.type, ActionStatus::kFinished, {}, {}});
+                {action.id, action.type, vda5050::ActionStatus::kFinished, {}, {}});
             if (action.type == "startPause") state.paused = true;
             if (action.type == "stopPause") state.paused = false;
             if (action.type == "stopCharging") state.charging = false;
@@ -181,7 +181,7 @@ void FakeVehicle::receive(const VehicleMessage& message) {
     }
     if (!message.order) return;
     ++orders_received;
-    const OrderMessage& order = *message.order;
+    const vda5050::OrderMessage& order = *message.order;
     if (state.order_id == order.order_id && order.order_update_id <= state.order_update_id) return;
     if (order_ && state.order_id == order.order_id) {
         const auto& stitch = order.nodes.front();
@@ -207,7 +207,8 @@ void FakeVehicle::receive(const VehicleMessage& message) {
         const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
                                        [&](const auto& a) { return a.id == action.id; });
         if (!known)
-            state.action_states.push_back({action.id, action.type, ActionStatus::kWaiting, {}, {}});
+            state.action_states.push_back(
+                {action.id, action.type, vda5050::ActionStatus::kWaiting, {}, {}});
     }
 }
 
@@ -247,23 +248,23 @@ bool FakeVehicle::step() {
     }
     state.driving = false;
     for (auto& action : state.action_states) {
-        if (action.status != ActionStatus::kWaiting) continue;
+        if (action.status != vda5050::ActionStatus::kWaiting) continue;
         if (action.type == "measureStop" && measure_fails) {
-            action.status = ActionStatus::kFailed;
+            action.status = vda5050::ActionStatus::kFailed;
             action.result_description = *measure_fails;
             return true;
         }
         if (action.type == action_fails) {
-            action.status = ActionStatus::kFailed;
+            action.status = vda5050::ActionStatus::kFailed;
             action.result_description = "it jammed";
             return true;
         }
-        action.status = ActionStatus::kFinished;
+        action.status = vda5050::ActionStatus::kFinished;
         actions_done.push_back(action.type);
         if (action.type == "startCharging") state.charging = true;
         if (action.type == "measureStop") {
             const Pose2 station = order_->nodes.back().actions.back().stop_target->target;
-            action.measurement = StopMeasurement{};
+            action.measurement = vda5050::StopMeasurement{};
             action.measurement->pose = {station.x_m + stop_error.x_m, station.y_m + stop_error.y_m,
                                         station.heading_rad + stop_error.heading_rad};
             action.measurement->method = "dual_camera";
@@ -310,7 +311,7 @@ void World::connect_all() {
 
 void World::announce(std::vector<std::string> actions) {
     for (const auto& [id, vehicle] : vehicles) {
-        Factsheet factsheet;
+        vda5050::Factsheet factsheet;
         factsheet.actions = factsheet.node_actions = actions;
         factsheet.actions.insert(factsheet.actions.end(), {"measureStop", "adjustToMarker"});
         fleet->vehicle_factsheet(id, factsheet, now);

@@ -44,9 +44,9 @@ public:
     /// Power cycle: forgets order and pose.
     void restart();
     /// What it was told. REQUIRES: it has an order.
-    const OrderMessage& order() const { return *order_; }
+    const vda5050::OrderMessage& order() const { return *order_; }
 
-    StateMessage state;
+    vda5050::StateMessage state;
     Pose2 stop_error;                    // added to the next measured stops
     std::optional<Pose2> arrival_error;  // with it it tells where its drive had ended
     bool pose_follows_stop = true;       // else its own pose stays what it was
@@ -64,7 +64,7 @@ private:
 
     const plant::Plant& plant_;
     plant::VehicleId id_;
-    std::optional<OrderMessage> order_;
+    std::optional<vda5050::OrderMessage> order_;
     std::size_t at_ = 0;
 };
 

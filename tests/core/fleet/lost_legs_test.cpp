@@ -35,15 +35,15 @@ std::string lose_action(World& world) {
 }
 
 void give_up_order(FakeVehicle& vehicle) {
-    Action cancel;
+    vda5050::Action cancel;
     cancel.type = "cancelOrder";
     cancel.id = "by hand";
-    vehicle.receive({kV1, std::nullopt, InstantActionsMessage{{cancel}}});
+    vehicle.receive({kV1, std::nullopt, vda5050::InstantActionsMessage{{cancel}}});
 }
 
-void report_action(FakeVehicle& vehicle, const std::string& id, ActionStatus status) {
+void report_action(FakeVehicle& vehicle, const std::string& id, vda5050::ActionStatus status) {
     auto& states = vehicle.state.action_states;
-    std::erase_if(states, [&](const ActionState& action) { return action.id == id; });
+    std::erase_if(states, [&](const vda5050::ActionState& action) { return action.id == id; });
     states.push_back({id, "", status, "", {}});
 }
 
@@ -59,7 +59,7 @@ TEST(LostLegs, AFailedCancelOfOneThatTheVehicleStillHasIsAskedForAgain) {
     ASSERT_FALSE(cancel.empty());
     hear_only(world, 12);  // it got nothing of it, and no order is on its way any more
 
-    report_action(world.vehicle("V1"), cancel, ActionStatus::kFailed);
+    report_action(world.vehicle("V1"), cancel, vda5050::ActionStatus::kFailed);
     hear_only(world, 0.5);
 
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "it may drive on";
@@ -75,7 +75,7 @@ TEST(LostLegs, AStopThatFailedWhileTheVehicleDrivesIsNotTakenYet) {
     const LegId leg = world.store.vehicles.at(kV1).leg;
 
     world.vehicle("V1").state.driving = true;
-    report_action(world.vehicle("V1"), leg.str() + "-measureStop", ActionStatus::kFailed);
+    report_action(world.vehicle("V1"), leg.str() + "-measureStop", vda5050::ActionStatus::kFailed);
     hear_only(world, 0.5);
 
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg);
@@ -171,13 +171,13 @@ TEST(LostLegs, OneWhoseStopIsStillBeingCorrectedIsNotOver) {
     world.vehicles_move = false;
     const LegId leg = record.leg;
     // Cancelled where its drive failed: the measurement has failed, the correction goes on.
-    report_action(vehicle, leg.str() + "-measureStop", ActionStatus::kFailed);
-    report_action(vehicle, leg.str() + "-adjustToMarker", ActionStatus::kRunning);
+    report_action(vehicle, leg.str() + "-measureStop", vda5050::ActionStatus::kFailed);
+    report_action(vehicle, leg.str() + "-adjustToMarker", vda5050::ActionStatus::kRunning);
     vehicle.state.driving = false;
     world.run(2);
     EXPECT_EQ(record.leg, leg);
 
-    report_action(vehicle, leg.str() + "-adjustToMarker", ActionStatus::kFailed);
+    report_action(vehicle, leg.str() + "-adjustToMarker", vda5050::ActionStatus::kFailed);
     world.run(1);
     EXPECT_NE(record.leg, leg);
 }
@@ -186,7 +186,7 @@ TEST(LostLegs, AnOrderThatIsNotOfThisServerIsCancelledByAPersonsAct) {
     World world;
     world.connect_all();
     FakeVehicle& vehicle = world.vehicle("V1");
-    OrderMessage other;
+    vda5050::OrderMessage other;
     other.order_id = "of another master";
     other.nodes.resize(2);
     other.edges.resize(1);
@@ -267,7 +267,7 @@ TEST(LostLegs, ACancelThatOvertookItsOrderIsNotTheEndOfIt) {
     ASSERT_FALSE(cancel.empty());
 
     world.vehicle("V1").state.action_states.push_back(
-        {cancel, "cancelOrder", ActionStatus::kFailed, "noOrderToCancel", {}});
+        {cancel, "cancelOrder", vda5050::ActionStatus::kFailed, "noOrderToCancel", {}});
     hear_only(world, 2);
     EXPECT_NE(world.only_order().state, JobState::kAborted) << "the order may still arrive";
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg);

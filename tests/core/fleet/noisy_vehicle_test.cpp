@@ -25,7 +25,7 @@ TEST(NoisyVehicle, AnErrorIsItsTypeAndWhatItRefersToNotItsText) {
     world.run(1);
 
     report(world, 60, [](int i) {
-        return std::vector<VehicleError>{
+        return std::vector<vda5050::VehicleError>{
             {"batteryHot", false, "cell at " + std::to_string(i), {{"cell", "3"}}}};
     });
 
@@ -37,7 +37,7 @@ TEST(NoisyVehicle, TheSameErrorOfAnotherPartIsAnotherError) {
     world.run(1);
 
     report(world, 1, [](int i) {
-        return std::vector<VehicleError>{
+        return std::vector<vda5050::VehicleError>{
             {"batteryHot", false, "hot", {{"cell", i < 5 ? "3" : "4"}}}};
     });
 
@@ -48,7 +48,7 @@ TEST(NoisyVehicle, TellsOfTenErrorsAMinuteAndThenThatThereAreMore) {
     World world;
     world.run(1);
     const auto many = [](int i) {
-        std::vector<VehicleError> errors;
+        std::vector<vda5050::VehicleError> errors;
         for (int n = 0; n < 50; ++n) {
             errors.push_back({"e" + std::to_string(50 * i + n), false, "x", {}});
         }
@@ -69,7 +69,8 @@ TEST(NoisyVehicle, RefusedMessagesCountAsErrors) {
     world.run(1);
 
     for (int i = 0; i < 100; ++i) {
-        const VehicleError refused{"messageRefused", false, std::to_string(i), {{"field", "/x"}}};
+        const vda5050::VehicleError refused{
+            "messageRefused", false, std::to_string(i), {{"field", "/x"}}};
         world.fleet->vehicle_message_refused(plant::VehicleId("V1"), refused, world.now);
     }
     world.settle();

@@ -9,16 +9,16 @@
 namespace pulseline::fleet {
 namespace {
 
-StateMessage standing() {
-    StateMessage state;
+vda5050::StateMessage standing() {
+    vda5050::StateMessage state;
     state.header_id = 7;
     state.timestamp = "2026-01-01T00:00:00Z";
-    state.pose = Pose2{1, 2, 0.5};
+    state.pose = geometry::Pose2{1, 2, 0.5};
     state.position_initialized = true;
     state.map_id = "hall";
     state.node_states = {{"s2", 2, true}};
     state.edge_states = {{"e1", 1, true}};
-    state.action_states = {{"a", "measureStop", ActionStatus::kRunning, "", {}}};
+    state.action_states = {{"a", "measureStop", vda5050::ActionStatus::kRunning, "", {}}};
     state.brackets = {{"front left", 5000, 5000}};
     state.wheels = {{"w1", 0, 0, 30, ""}};
     state.cameras = {{"front", true, "P1", {1, 0}, 0.1, 1e-4, 0.1, ""}};
@@ -26,22 +26,22 @@ StateMessage standing() {
     return state;
 }
 
-StateMessage driving() {
-    StateMessage state = standing();
+vda5050::StateMessage driving() {
+    vda5050::StateMessage state = standing();
     state.driving = true;
     return state;
 }
 
-using Change = std::function<void(StateMessage&)>;
+using Change = std::function<void(vda5050::StateMessage&)>;
 
-bool passes(const StateMessage& known, const Change& change) {
-    StateMessage next = known;
+bool passes(const vda5050::StateMessage& known, const Change& change) {
+    vda5050::StateMessage next = known;
     change(next);
     return may_change_decision(known, next);
 }
 
 TEST(StateFilter, TheSameReportAgainTellsNothing) {
-    EXPECT_FALSE(passes(standing(), [](StateMessage& s) {
+    EXPECT_FALSE(passes(standing(), [](vda5050::StateMessage& s) {
         s.header_id = 8;
         s.timestamp = "2026-01-01T00:00:01Z";
     }));
@@ -65,8 +65,8 @@ TEST(StateFilter, WhatTheFleetDecidesByPassesAtOnce) {
         [](auto& s) { s.charging = true; },
         [](auto& s) { s.e_stop = "MANUAL"; },
         [](auto& s) { s.field_violation = true; },
-        [](auto& s) { s.action_states[0].status = ActionStatus::kFinished; },
-        [](auto& s) { s.action_states[0].measurement = StopMeasurement{}; },
+        [](auto& s) { s.action_states[0].status = vda5050::ActionStatus::kFinished; },
+        [](auto& s) { s.action_states[0].measurement = vda5050::StopMeasurement{}; },
         [](auto& s) {
             s.errors.push_back({"motor", true, "", {}});
         },
@@ -85,7 +85,7 @@ TEST(StateFilter, WhatTheFleetDecidesByPassesAtOnce) {
 }
 
 TEST(StateFilter, NoiseOfSensorsDoesNot) {
-    EXPECT_FALSE(passes(standing(), [](StateMessage& s) {
+    EXPECT_FALSE(passes(standing(), [](vda5050::StateMessage& s) {
         s.pose->x_m += 0.001;
         s.pose->heading_rad += 0.0002;
         s.velocity_mps = 0.01;
@@ -101,7 +101,7 @@ TEST(StateFilter, NoiseOfSensorsDoesNot) {
 }
 
 TEST(StateFilter, AStandingVehicleThatWasMovedIsSeenAtOnceADrivingOneTwiceASecond) {
-    const Change moved = [](StateMessage& s) {
+    const Change moved = [](vda5050::StateMessage& s) {
         s.pose->x_m += 0.4;
         s.distance_since_last_node_m += 0.4;
     };
@@ -113,8 +113,8 @@ TEST(StateFilter, AStandingVehicleThatWasMovedIsSeenAtOnceADrivingOneTwiceASecon
 }
 
 TEST(StateFilter, SmallStepsAddUpBecauseTheLastOnePassedIsComparedWith) {
-    const StateMessage known = standing();
-    StateMessage next = known;
+    const vda5050::StateMessage known = standing();
+    vda5050::StateMessage next = known;
     int steps = 0;
     while (!may_change_decision(known, next)) {
         next.pose->x_m += 0.0005;
@@ -124,10 +124,10 @@ TEST(StateFilter, SmallStepsAddUpBecauseTheLastOnePassedIsComparedWith) {
 }
 
 TEST(StateFilter, ALostVehiclesCamerasCountToTheLastDigit) {
-    StateMessage lost = standing();
+    vda5050::StateMessage lost = standing();
     lost.position_initialized = false;
 
-    EXPECT_TRUE(passes(lost, [](StateMessage& s) { s.cameras[0].code.x_m += 1e-6; }));
+    EXPECT_TRUE(passes(lost, [](vda5050::StateMessage& s) { s.cameras[0].code.x_m += 1e-6; }));
 }
 
 TEST(StateFilter, NothingIsKeptBackForLongAndWhatConnectedTogetherIsNotSeenTogether) {

@@ -117,7 +117,7 @@ TEST_F(StepActions, AreSentAsBlockingNodeActionsWithTheirParameters) {
     ASSERT_EQ(leg.nodes.size(), 1u);
     ASSERT_EQ(leg.nodes[0].actions.size(), 2u);
     EXPECT_EQ(leg.nodes[0].actions[1].type, "setBracketHeight");
-    EXPECT_EQ(leg.nodes[0].actions[1].blocking, BlockingType::kHard);
+    EXPECT_EQ(leg.nodes[0].actions[1].blocking, vda5050::BlockingType::kHard);
     EXPECT_EQ(leg.nodes[0].actions[1].params, (Params{{"height_m", 0.4}}));
 }
 

@@ -214,10 +214,10 @@ TEST(TrafficScenarios, AStateThatWasOvertakenChangesNothing) {
     ASSERT_TRUE(world.order("V1", {3}));
     world.run(1);
     const auto id = VehicleId("V1");
-    StateMessage older = world.vehicle("V1").state;
+    vda5050::StateMessage older = world.vehicle("V1").state;
     older.header_id = 7;
     world.run(1);
-    StateMessage newer = world.vehicle("V1").state;
+    vda5050::StateMessage newer = world.vehicle("V1").state;
     newer.header_id = 8;
     world.fleet->vehicle_state(id, newer, world.now);
     const auto before = world.fleet->vehicle(id, world.now);

@@ -1,4 +1,4 @@
-#include "core/planning/detour.hpp"
+#include "core/planning/detour/detour.hpp"
 
 #include <gtest/gtest.h>
 

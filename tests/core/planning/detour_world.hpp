@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/planning/detour.hpp"
+#include "core/planning/detour/detour.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 
 /// A straight stretch of lanes with corridors and things on it, for tests of detours. Things and

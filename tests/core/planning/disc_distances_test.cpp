@@ -1,4 +1,4 @@
-#include "core/planning/disc_distances.hpp"
+#include "core/planning/room/disc_distances.hpp"
 
 #include <gtest/gtest.h>
 

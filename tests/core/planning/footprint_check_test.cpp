@@ -1,10 +1,10 @@
-#include "core/planning/footprint_check.hpp"
+#include "core/planning/room/footprint_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/planning/obstacles.hpp"
+#include "core/planning/room/obstacles.hpp"
 
 namespace pulseline::planning {
 namespace {

@@ -1,11 +1,11 @@
-#include "core/planning/free_manoeuvre.hpp"
+#include "core/planning/manoeuvre/free_manoeuvre.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "core/planning/manoeuvre_sampling.hpp"
+#include "core/planning/manoeuvre/manoeuvre_sampling.hpp"
 
 namespace pulseline::planning {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/planning/grid_blocking.hpp"
+#include "core/planning/grid/grid_blocking.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <random>
 
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 #include "tests/core/planning/grid_judge.hpp"
 
 namespace pulseline::planning {

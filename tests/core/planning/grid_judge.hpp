@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 
 /// What grid searches are held against: nothing clever, no code shared with them.
 namespace pulseline::planning {

@@ -1,4 +1,4 @@
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/planning/lane_lines.hpp"
+#include "core/planning/roads/lane_lines.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 #include "tests/core/planning/leg_world.hpp"
 
 namespace pulseline::planning {

@@ -1,4 +1,4 @@
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/planning/leg_planner.hpp"
+#include "core/planning/legs/leg_planner.hpp"
 
 namespace pulseline::planning {
 

@@ -1,4 +1,4 @@
-#include "core/planning/obstacles.hpp"
+#include "core/planning/room/obstacles.hpp"
 
 #include <gtest/gtest.h>
 

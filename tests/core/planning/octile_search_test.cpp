@@ -1,4 +1,4 @@
-#include "core/planning/octile_search.hpp"
+#include "core/planning/grid/octile_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/planning/reeds_shepp.hpp"
+#include "core/planning/manoeuvre/reeds_shepp.hpp"
 
 #include <gtest/gtest.h>
 #include <ompl/base/ScopedState.h>

@@ -1,4 +1,4 @@
-#include "core/planning/road_router.hpp"
+#include "core/planning/roads/road_router.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <random>
 #include <thread>
 
-#include "core/planning/road_alternatives.hpp"
-#include "core/planning/road_explain.hpp"
+#include "core/planning/roads/road_alternatives.hpp"
+#include "core/planning/roads/road_explain.hpp"
 #include "tests/core/planning/counted_new.hpp"
 
 namespace pulseline::planning {

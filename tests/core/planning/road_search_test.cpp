@@ -1,4 +1,4 @@
-#include "core/planning/road_search.hpp"
+#include "core/planning/roads/road_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <queue>
 #include <random>
 
-#include "core/planning/road_router.hpp"
+#include "core/planning/roads/road_router.hpp"
 
 namespace pulseline::planning {
 namespace {

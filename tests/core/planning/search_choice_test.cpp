@@ -1,10 +1,10 @@
-#include "core/planning/search_choice.hpp"
+#include "core/planning/grid/search_choice.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/planning/grid_search.hpp"
+#include "core/planning/grid/grid_search.hpp"
 
 namespace pulseline::planning {
 namespace {

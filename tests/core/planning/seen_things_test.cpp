@@ -1,4 +1,4 @@
-#include "core/planning/seen_things.hpp"
+#include "core/planning/detour/seen_things.hpp"
 
 #include <gtest/gtest.h>
 

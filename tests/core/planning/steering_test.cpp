@@ -1,11 +1,11 @@
-#include "core/planning/steering.hpp"
+#include "core/planning/manoeuvre/steering.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
-#include "core/planning/manoeuvre_path.hpp"
+#include "core/planning/manoeuvre/manoeuvre_path.hpp"
 
 namespace pulseline::planning {
 namespace {

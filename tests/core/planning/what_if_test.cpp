@@ -1,4 +1,4 @@
-#include "core/planning/what_if.hpp"
+#include "core/planning/roads/what_if.hpp"
 
 #include <gtest/gtest.h>
 

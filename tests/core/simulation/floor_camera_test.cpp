@@ -1,4 +1,4 @@
-#include "core/simulation/floor_camera.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 
 #include <gtest/gtest.h>
 

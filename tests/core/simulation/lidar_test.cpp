@@ -1,4 +1,4 @@
-#include "core/simulation/lidar.hpp"
+#include "core/simulation/world/lidar.hpp"
 
 #include <gtest/gtest.h>
 

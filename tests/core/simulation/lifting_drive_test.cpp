@@ -1,4 +1,4 @@
-#include "core/simulation/lifting_drive.hpp"
+#include "core/simulation/machine/lifting_drive.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulation/path_reference.hpp"
+#include "core/simulation/machine/path_reference.hpp"
 
 #include <gtest/gtest.h>
 

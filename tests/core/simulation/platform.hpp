@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
 
 /// Builders for tests of the simulated vehicle.
 namespace pulseline::simulation::testing {

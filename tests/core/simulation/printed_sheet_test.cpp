@@ -1,4 +1,4 @@
-#include "core/simulation/printed_sheet.hpp"
+#include "core/simulation/world/printed_sheet.hpp"
 
 #include <gtest/gtest.h>
 

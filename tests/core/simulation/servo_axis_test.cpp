@@ -1,4 +1,4 @@
-#include "core/simulation/servo_axis.hpp"
+#include "core/simulation/machine/servo_axis.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
 
 #include <gtest/gtest.h>
 

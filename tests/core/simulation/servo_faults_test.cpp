@@ -3,7 +3,7 @@
 #include <cmath>
 #include <variant>
 
-#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 

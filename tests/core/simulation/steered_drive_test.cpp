@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "core/simulation/servo_drive.hpp"
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
@@ -19,17 +19,19 @@ using pulseline::testing::platform;
 
 constexpr double kTick_s = 0.02;
 
-std::unique_ptr<Drive> make_drive(bool by_wheels, const plant::VehicleType& type,
-                                  double time_factor = 1) {
+std::unique_ptr<SimulatedDrive> make_drive(bool by_wheels, const plant::VehicleType& type,
+                                           double time_factor = 1) {
     if (by_wheels) return std::make_unique<ServoDrive>(type, Pose2{}, 4, time_factor);
     return std::make_unique<VehicleMotion>(type, Pose2{}, 4, time_factor);
 }
 
-void run(Drive& drive, double time_s) {
+void run(SimulatedDrive& drive, double time_s) {
     for (double t = 0; t < time_s; t += kTick_s) drive.step(kTick_s);
 }
 
-Pose2 lost(const Drive& drive) { return inverse(drive.believed_pose()) * drive.true_pose(); }
+Pose2 lost(const SimulatedDrive& drive) {
+    return inverse(drive.believed_pose()) * drive.true_pose();
+}
 
 TEST(SteeredDrive, DrivesAsAskedUntilItIsToldToStop) {
     for (const auto& type : {platform(), mecanum(), differential()}) {

@@ -1,4 +1,4 @@
-#include "core/simulation/stop_sensor.hpp"
+#include "core/simulation/world/stop_sensor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/localisation/dual_camera.hpp"
 #include "core/plant/marker_geometry.hpp"
-#include "core/vision/camera_picture.hpp"
+#include "core/vision/optics/camera_picture.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -199,7 +199,7 @@ TEST(CameraPicture, FitsTheFrameAndKeepsHalfTheSize) {
 TEST(CameraPicture, DrawsTheOffsetDotOverTheCode) {
     const auto cameras = platform_cameras();
     const cv::Mat grey(cameras[0].height_px, cameras[0].width_px, CV_8U, cv::Scalar(128));
-    fleet::CameraReading reading;
+    vda5050::CameraReading reading;
     reading.found = true;
     reading.code = {5.346 + 0.020, -0.010};
     reading.angle_rad = kPi / 2;

@@ -1,4 +1,4 @@
-#include "core/simulation/twist_reference.hpp"
+#include "core/simulation/machine/twist_reference.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/simulation/world.hpp"
+#include "core/simulation/world/world.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/plant/marker_geometry.hpp"
-#include "core/simulation/floor_camera.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 #include "core/vision/marker_reader.hpp"
 
 namespace pulseline::vision {

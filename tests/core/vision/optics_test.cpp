@@ -1,10 +1,10 @@
-#include "core/vision/optics.hpp"
+#include "core/vision/optics/optics.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/vision/qr_reader.hpp"
+#include "core/vision/qr/qr_reader.hpp"
 
 namespace pulseline::vision {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/vision/qr_reader.hpp"
+#include "core/vision/qr/qr_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "core/simulation/floor_camera.hpp"
+#include "core/simulation/world/floor_camera.hpp"
 
 namespace pulseline::vision {
 namespace {

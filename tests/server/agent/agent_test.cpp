@@ -5,11 +5,11 @@
 #include <fstream>
 
 #include "api/json/parse.hpp"
-#include "api/vehicle/factsheet.hpp"
-#include "api/vehicle/frame.hpp"
-#include "api/vehicle/instant_actions.hpp"
-#include "api/vehicle/order.hpp"
-#include "api/vehicle/state.hpp"
+#include "api/vda5050/factsheet.hpp"
+#include "api/vda5050/frame.hpp"
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/order.hpp"
+#include "api/vda5050/state.hpp"
 #include "server/agent/hand_held.hpp"
 #include "server/agent/vehicle.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
@@ -44,8 +44,8 @@ protected:
     void send(vda5050::Topic topic, const std::string& payload) {
         vehicle.receive(vda5050::encode_frame(topic, false, payload));
     }
-    void instant(const std::string& type, std::optional<fleet::InitPosition> init = {}) {
-        fleet::Action action;
+    void instant(const std::string& type, std::optional<vda5050::InitPosition> init = {}) {
+        vda5050::Action action;
         action.type = type;
         action.id = "id-" + type;
         action.init_position = init;
@@ -63,7 +63,7 @@ protected:
     vda5050::HeaderSource headers{"Tang", "TP-01"};
     Vehicle::Steady::time_point now = Vehicle::Steady::time_point(1h);
     std::map<vda5050::Topic, int> sent;
-    fleet::StateMessage state;
+    vda5050::StateMessage state;
 };
 
 TEST_F(VehicleTest, SaysWhoItIsAndReportsCodesButNoPoseAtFirst) {
@@ -84,7 +84,7 @@ TEST_F(VehicleTest, SaysWhoItIsAndReportsCodesButNoPoseAtFirst) {
 
 TEST_F(VehicleTest, AfterInitPositionItShowsItsPoseTenTimesASecond) {
     vehicle.link_up();
-    instant("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+    instant("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
     run(200ms);
     sent.clear();
     run(3000ms);
@@ -109,8 +109,8 @@ TEST_F(VehicleTest, AMalformedOrderIsRejectedByNameAndMovesNothing) {
 
 TEST_F(VehicleTest, DrivesOnWithoutALinkToTheEndOfItsBaseAndTellsItAfterwards) {
     vehicle.link_up();
-    instant("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
-    fleet::OrderMessage order;
+    instant("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
+    vda5050::OrderMessage order;
     order.order_id = "a";
     order.nodes.resize(2);
     order.edges.resize(1);
@@ -138,8 +138,8 @@ TEST_F(VehicleTest, DrivesOnWithoutALinkToTheEndOfItsBaseAndTellsItAfterwards) {
     EXPECT_NEAR(state.pose->x_m, 23, 1e-4);
 }
 
-fleet::OrderMessage straight_order(const geometry::Pose2& from, double length_m) {
-    fleet::OrderMessage order;
+vda5050::OrderMessage straight_order(const geometry::Pose2& from, double length_m) {
+    vda5050::OrderMessage order;
     order.order_id = "a";
     order.nodes.resize(2);
     order.edges.resize(1);
@@ -170,20 +170,20 @@ protected:
         type.slip_sensor = wheels.slip_sensor;
         world.plant.vehicles[0].load_kg = 18000;
     }
-    void start(std::vector<Fault> faults, std::vector<fleet::Action> actions = {}) {
+    void start(std::vector<Fault> faults, std::vector<vda5050::Action> actions = {}) {
         VehicleSettings settings{1, 10, false, {}, 1, std::move(faults), true};
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
                       nullptr);
         servo->link_up();
-        tell("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
+        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
         auto order = straight_order({20, 10, 0}, 12);
         order.nodes[1].actions = std::move(actions);
         servo->receive(vda5050::encode_frame(
             vda5050::Topic::kOrder, false,
             vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
     }
-    void tell(const std::string& type, std::optional<fleet::InitPosition> init = {}) {
-        fleet::Action action;
+    void tell(const std::string& type, std::optional<vda5050::InitPosition> init = {}) {
+        vda5050::Action action;
         action.type = type;
         action.id = "id-" + type;
         action.init_position = init;
@@ -271,7 +271,7 @@ TEST_F(ServoVehicleTest, GoesRoundABoxInTheCorridorOfItsEdgesAndTellsSo) {
 
 TEST_F(ServoVehicleTest, SetsItsBracketsAtANodeAndReportsTheirLoads) {
     const auto set = [](const std::string& id, const std::string& bracket, double height_m) {
-        fleet::Action action;
+        vda5050::Action action;
         action.type = "setBracketHeight";
         action.id = id;
         action.params = {{"bracket", bracket}, {"height_m", height_m}};
@@ -280,10 +280,10 @@ TEST_F(ServoVehicleTest, SetsItsBracketsAtANodeAndReportsTheirLoads) {
     start({}, {set("up", "all", 0.05), set("one", "front left", 0.25)});
     drive(15000ms);
     ASSERT_EQ(state.brackets.size(), 4u);
-    std::map<std::string, fleet::ActionState> actions;
+    std::map<std::string, vda5050::ActionState> actions;
     for (const auto& action : state.action_states) actions[action.id] = action;
-    EXPECT_EQ(actions["up"].status, fleet::ActionStatus::kFinished);
-    EXPECT_EQ(actions["one"].status, fleet::ActionStatus::kFailed);
+    EXPECT_EQ(actions["up"].status, vda5050::ActionStatus::kFinished);
+    EXPECT_EQ(actions["one"].status, vda5050::ActionStatus::kFailed);
     EXPECT_EQ(actions["one"].result_description.rfind("bracket_force_out_of_range", 0), 0u);
     double force_n = 0;
     for (const auto& bracket : state.brackets) force_n += bracket.force_a_n + bracket.force_b_n;
@@ -299,8 +299,8 @@ TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20.04, 9.985, 0.003},
                       settings, nullptr);
         servo->link_up();
-        tell("initPosition", fleet::InitPosition{{20, 10, 0}, "hall", ""});
-        fleet::Action adjust;
+        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
+        vda5050::Action adjust;
         adjust.type = "adjustToMarker";
         adjust.id = "adjust";
         adjust.stop_target = target_of(world.plant);
@@ -313,7 +313,7 @@ TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
             vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
         drive(20000ms);
         ASSERT_EQ(state.action_states.size(), 2u);  // the other one is initPosition
-        EXPECT_EQ(state.action_states[0].status, fleet::ActionStatus::kFinished)
+        EXPECT_EQ(state.action_states[0].status, vda5050::ActionStatus::kFinished)
             << state.action_states[0].result_description;
         const auto kept = LearnedMoves(folder.path(), "TP-01").load();
         ASSERT_TRUE(kept);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "core/simulation/servo_drive.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
 
@@ -21,10 +21,10 @@ double hottest_c(BodyStatus& body, simulation::ServoDrive& drive, double seconds
         drive.step(kStep_s);
         body.step(kStep_s);
     }
-    fleet::StateMessage state;
+    vda5050::StateMessage state;
     body.write_state(state);
     EXPECT_FALSE(drive.stop_cause()) << drive.stop_cause()->code;
-    return std::ranges::max(state.wheels, {}, &fleet::WheelStatus::temperature_c).temperature_c;
+    return std::ranges::max(state.wheels, {}, &vda5050::WheelStatus::temperature_c).temperature_c;
 }
 
 TEST(BodyStatus, WheelsGetWarmFromDrivingAndHotFromABearingThatGrinds) {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/simulation/vehicle_motion.hpp"
-#include "core/simulation/world.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
+#include "core/simulation/world/world.hpp"
 #include "tests/server/agent/small_hall.hpp"
 
 namespace pulseline::agent {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "api/plant/plant_file.hpp"
-#include "core/simulation/vehicle_motion.hpp"
+#include "core/simulation/machine/vehicle_motion.hpp"
 #include "server/agent/camera_sensing.hpp"
 
 // Whether a vehicle's stated uncertainty is true. Machines and floors are drawn term by term from
@@ -30,8 +30,8 @@ struct Case {
 };
 void PrintTo(const Case& one, std::ostream* out) { *out << one.vehicle; }
 
-fleet::StopTarget target_at(const plant::Plant& plant, const plant::Station& station) {
-    fleet::StopTarget target;
+vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& station) {
+    vda5050::StopTarget target;
     target.station_id = station.id.str();
     target.target = station.pose;
     for (const auto& id : station.markers) {

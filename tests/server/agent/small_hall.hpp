@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/fleet/state/vehicle_messages.hpp"
 #include "core/plant/plant.hpp"
+#include "core/vda5050/messages.hpp"
 #include "tests/core/simulation/platform.hpp"
 
 /// A hall with one station, its two codes, and the platform TP-01 that is at home there.
@@ -39,8 +39,8 @@ inline plant::Plant small_plant() {
     return plant;
 }
 
-inline fleet::StopTarget target_of(const plant::Plant& plant) {
-    fleet::StopTarget target{"st01", 1, plant.stations[0].pose, 0.025, 0.025, 0.0035, {}};
+inline vda5050::StopTarget target_of(const plant::Plant& plant) {
+    vda5050::StopTarget target{"st01", 1, plant.stations[0].pose, 0.025, 0.025, 0.0035, {}};
     for (const auto& marker : plant.markers) {
         target.markers.push_back({marker.payload, "qr", marker.size_m, marker.pose, 1e-4, 5e-4});
     }

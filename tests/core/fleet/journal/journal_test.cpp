@@ -25,7 +25,7 @@ std::string every_call(Recorder& recorder) {
     world.fleet->journal_into(&recorder);
     Fleet& fleet = *world.fleet;
     const plant::VehicleId v1("V1");
-    StateMessage state;
+    vda5050::StateMessage state;
     state.header_id = 3;
     state.pose = Pose2{1.25, -2, 0.5};
     state.errors = {{"motor", true, "hot", {{"orderId", "x"}}}};
@@ -97,7 +97,7 @@ TEST(Journal, EveryCallComesBackAsItWas) {
 TEST(Journal, EveryKindOfMotionComesBack) {
     using Kind = kinematics::Segment::Kind;
     for (const Kind kind : {Kind::kRotate, Kind::kStraight, Kind::kArc, Kind::kCombined}) {
-        OrderEdge edge;
+        vda5050::OrderEdge edge;
         edge.edge_id = "e1";
         edge.segment.kind = kind;
         edge.segment.length_m = 2.5;
@@ -106,7 +106,7 @@ TEST(Journal, EveryKindOfMotionComesBack) {
         writer.put(edge);
         const std::string bytes = writer.take();
         Reader reader(bytes);
-        OrderEdge read;
+        vda5050::OrderEdge read;
         reader.get(read);
         EXPECT_TRUE(reader.ok() && reader.at_end()) << reader.why();
         EXPECT_EQ(read.segment, edge.segment);

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "api/http/wire/contexts.hpp"
+#include "api/http/wire/message.hpp"
+
+namespace pulseline::api {
+
+Response print_markers(const HistoryContext& context, const Request& request);
+
+}  // namespace pulseline::api

@@ -1,0 +1,151 @@
+#include "api/http/vehicles/vehicle_handlers.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "api/http/vehicles/vehicle_json.hpp"
+#include "api/http/vehicles/vehicle_requests.hpp"
+#include "api/http/wire/etag.hpp"
+#include "api/http/wire/page.hpp"
+#include "api/http/wire/problem.hpp"
+
+namespace pulseline::api {
+namespace {
+
+constexpr std::int64_t kMaxStation = 1'000'000'000;
+
+Error unknown(const char* code, const std::string& id, const char* what) {
+    return {Errc::kNotFound, {code, {{"id", id.substr(0, 64)}}}, what, {}};
+}
+
+Error unknown_vehicle(const std::string& id) {
+    return unknown("unknown_vehicle", id,
+                   "There is no vehicle of that id; GET /api/v1/vehicles lists them.");
+}
+
+Response fleet_response(int status, const FleetContext& context) {
+    return json_response(status, fleet_json(context.plant, context.fleet.view(context.now)));
+}
+
+FleetAnswer vehicle_answer(const FleetContext& context, const Request& request,
+                           const Result<fleet::VehicleView>& changed) {
+    if (!changed) return {problem(changed.error(), request)};
+    return {json_response(202, vehicle_json(context.plant, context.images, *changed))};
+}
+
+/// "Sat, 21 Nov 2026 03:50:36 GMT" (RFC 9110).
+std::string http_date(Time time) {
+    constexpr const char* kDays[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+    constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                       "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    const std::chrono::sys_time<std::chrono::nanoseconds> at{time.time_since_epoch()};
+    const auto day = std::chrono::floor<std::chrono::days>(at);
+    const std::chrono::year_month_day date{day};
+    const std::chrono::hh_mm_ss clock{std::chrono::floor<std::chrono::seconds>(at - day)};
+    return fmt::format(
+        "{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", kDays[std::chrono::weekday(day).c_encoding()],
+        static_cast<unsigned>(date.day()), kMonths[static_cast<unsigned>(date.month()) - 1],
+        static_cast<int>(date.year()), clock.hours().count(), clock.minutes().count(),
+        clock.seconds().count());
+}
+
+}  // namespace
+
+FleetAnswer list_vehicles(FleetContext& context, const Request&) {
+    auto vehicles = std::make_shared<const std::vector<fleet::VehicleView>>(
+        context.fleet.vehicles(context.now));
+    FleetAnswer answer;
+    answer.encode = [vehicles = std::move(vehicles)](const EncodeContext& with) {
+        const auto to_json = [&](const fleet::VehicleView& vehicle) {
+            return vehicle_json(with.plant, with.images, vehicle);
+        };
+        return json_response(200, {{"items", list_json(*vehicles, to_json)}});
+    };
+    return answer;
+}
+
+FleetAnswer get_vehicle(FleetContext& context, const Request& request) {
+    const auto vehicle = context.fleet.vehicle(plant::VehicleId(request.param("id")), context.now);
+    if (!vehicle) return {problem(unknown_vehicle(request.param("id")), request)};
+    Response response = json_response(200, vehicle_json(context.plant, context.images, *vehicle));
+    response.headers.emplace_back("ETag", etag_of_content(response.body));
+    return {std::move(response)};
+}
+
+FleetAnswer pause_vehicle(FleetContext& context, const Request& request) {
+    return vehicle_answer(context, request,
+                          context.fleet.pause_vehicle(plant::VehicleId(request.param("id")),
+                                                      request.identity.name, context.now));
+}
+
+FleetAnswer init_position(FleetContext& context, const Request& request) {
+    const auto pose = read_pose(request);
+    if (!pose) return {problem(400, pose.error(), request)};
+    return vehicle_answer(context, request,
+                          context.fleet.init_position(plant::VehicleId(request.param("id")), *pose,
+                                                      request.identity.name, context.now));
+}
+
+FleetAnswer integrate_vehicle(FleetContext& context, const Request& request) {
+    const auto wanted = read_integration(request);
+    if (!wanted) return {problem(400, wanted.error(), request)};
+    return vehicle_answer(
+        context, request,
+        context.fleet.integrate(plant::VehicleId(request.param("id")), wanted->level,
+                                wanted->off_floor, request.identity.name, context.now));
+}
+
+Response get_camera_image(const InlineContext& context, const Request& request) {
+    const plant::VehicleId id(request.param("id"));
+    if (plant::find_vehicle(context.plant, id) == nullptr) {
+        return problem(unknown_vehicle(id.str()), request);
+    }
+    const auto image = context.images.newest(id, request.param("camera"));
+    if (!image) {
+        return problem(unknown("no_image", request.param("camera"),
+                               "This camera has sent no picture yet; try again later."),
+                       request);
+    }
+    return {200,
+            image->mime,
+            {{"Cache-Control", "no-store"}, {"Last-Modified", http_date(image->taken)}},
+            image->bytes};
+}
+
+FleetAnswer get_fleet(FleetContext& context, const Request&) {
+    return {fleet_response(200, context)};
+}
+
+FleetAnswer pause_fleet(FleetContext& context, const Request& request) {
+    context.fleet.pause_fleet(request.identity.name, context.now);
+    return {fleet_response(202, context)};
+}
+
+FleetAnswer resume_fleet(FleetContext& context, const Request& request) {
+    const auto vehicles = read_resume_fleet(request);
+    if (!vehicles) return {problem(400, vehicles.error(), request)};
+    const Status resumed =
+        context.fleet.resume_fleet(*vehicles, request.identity.name, context.now);
+    if (!resumed) return {problem(resumed.error(), request)};
+    return {fleet_response(202, context)};
+}
+
+FleetAnswer list_stations(FleetContext& context, const Request&) {
+    FleetAnswer answer;
+    answer.encode = [stations = context.fleet.stations()](const EncodeContext&) {
+        return json_response(200, {{"items", list_json(stations, station_state_json)}});
+    };
+    return answer;
+}
+
+FleetAnswer get_station(FleetContext& context, const Request& request) {
+    const auto number = parse_integer(request.param("number"), 0, kMaxStation);
+    const auto station = number ? context.fleet.station(static_cast<int>(*number)) : std::nullopt;
+    if (station) return {json_response(200, station_state_json(*station))};
+    return {problem(unknown("unknown_station", request.param("number"),
+                            "There is no station of that number; GET /api/v1/stations lists them."),
+                    request)};
+}
+
+}  // namespace pulseline::api

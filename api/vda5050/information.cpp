@@ -1,0 +1,176 @@
+#include "api/vda5050/information.hpp"
+
+#include <charconv>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "api/vda5050/limits.hpp"
+
+namespace pulseline::vda5050 {
+namespace {
+
+std::string number_text(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, finite(value)).ptr;
+    return {text, end};
+}
+
+using References = std::vector<std::pair<const char*, std::string>>;
+
+Json entry(const char* type, const References& references) {
+    Json list = Json::array();
+    for (const auto& [key, value] : references) {
+        list.push_back({{"referenceKey", key}, {"referenceValue", value}});
+    }
+    return {{"infoType", type}, {"infoLevel", "INFO"}, {"infoReferences", std::move(list)}};
+}
+
+Json encode_camera(const CameraReading& reading) {
+    References references{{"camera", reading.camera}, {"found", reading.found ? "true" : "false"}};
+    if (reading.found) {
+        references.insert(references.end(), {{"payload", reading.payload},
+                                             {"x_m", number_text(reading.code.x_m)},
+                                             {"y_m", number_text(reading.code.y_m)},
+                                             {"angle_rad", number_text(reading.angle_rad)},
+                                             {"sigma_m", number_text(reading.sigma_m)},
+                                             {"rms_px", number_text(reading.rms_px)}});
+    } else {
+        references.emplace_back("why_not", reading.why_not);
+    }
+    return entry("camera", references);
+}
+
+/// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
+/// then left out, since vehicles may use our type names for something else. A number that cannot be
+/// true is an error of the message.
+class Values {
+public:
+    struct Value {
+        std::string text;
+        std::string pointer;
+    };
+    Values(std::map<std::string, Value> values, json::FieldErrors& errors)
+        : values_(std::move(values)), errors_(errors) {}
+
+    std::string text(const char* key) {
+        usable_ &= values_.count(key) != 0;
+        return text_or_empty(key);
+    }
+    std::string text_or_empty(const char* key) const {
+        const auto found = values_.find(key);
+        return found == values_.end() ? std::string{} : found->second.text;
+    }
+    double number(const char* key, json::NumberLimits within) {
+        const auto found = values_.find(key);
+        if (found == values_.end()) {
+            usable_ = false;
+            return 0;
+        }
+        const auto& [text, pointer] = found->second;
+        double read = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), read);
+        const bool whole = end == text.data() + text.size();
+        if (whole && error == std::errc::result_out_of_range) {
+            read = std::numeric_limits<double>::infinity();  // 1e999; 1e-999 is no number either
+        } else if (!whole || error != std::errc{}) {
+            usable_ = false;
+            return 0;
+        }
+        return json::read_number(read, pointer, errors_, within);
+    }
+    bool usable() const { return usable_; }
+
+private:
+    std::map<std::string, Value> values_;
+    json::FieldErrors& errors_;
+    bool usable_ = true;
+};
+
+CameraReading decode_camera(Values& in) {
+    CameraReading reading;
+    reading.camera = in.text("camera");
+    reading.found = in.text("found") == "true";
+    if (!reading.found) {
+        reading.why_not = in.text_or_empty("why_not");
+        return reading;
+    }
+    reading.payload = in.text("payload");
+    reading.code = {in.number("x_m", limits::kOnVehicle_m), in.number("y_m", limits::kOnVehicle_m)};
+    reading.angle_rad = in.number("angle_rad", limits::kAngle_rad);
+    reading.sigma_m = in.number("sigma_m", limits::kSigma_m);
+    reading.rms_px = in.number("rms_px", limits::kResidual_px);
+    return reading;
+}
+
+template <class T>
+void keep(std::vector<T>& list, T item, const Values& in) {
+    if (in.usable()) list.push_back(std::move(item));
+}
+
+void decode_entry(const std::string& type, Values& in, StateMessage& state) {
+    if (type == "bracketLoad") {
+        BracketLoad load{in.text("name"), in.number("force_a_n", limits::kForce_n),
+                         in.number("force_b_n", limits::kForce_n)};
+        keep(state.brackets, std::move(load), in);
+    } else if (type == "wheel") {
+        WheelStatus wheel{in.text("name"), in.number("steering_rad", limits::kAngle_rad),
+                          in.number("speed_mps", limits::kVelocity_mps),
+                          in.number("temperature_c", limits::kTemperature_c),
+                          in.text_or_empty("fault")};
+        keep(state.wheels, std::move(wheel), in);
+    } else if (type == "parkingFoot") {
+        ParkingFoot foot{in.text("name"), in.number("extension_m", limits::kOnVehicle_m)};
+        keep(state.parking_feet, std::move(foot), in);
+    } else if (type == "camera") {
+        keep(state.cameras, decode_camera(in), in);
+    } else if (type == "load") {
+        const double load_kg = in.number("load_kg", limits::kLoad_kg);
+        if (in.usable()) state.load_kg = load_kg;
+    }
+}
+
+}  // namespace
+
+Json encode_information(const StateMessage& state) {
+    Json list = Json::array();
+    for (const auto& bracket : state.brackets) {
+        list.push_back(entry("bracketLoad", {{"name", bracket.name},
+                                             {"force_a_n", number_text(bracket.force_a_n)},
+                                             {"force_b_n", number_text(bracket.force_b_n)}}));
+    }
+    for (const auto& wheel : state.wheels) {
+        References references{{"name", wheel.name},
+                              {"steering_rad", number_text(wheel.steering_rad)},
+                              {"speed_mps", number_text(wheel.speed_mps)},
+                              {"temperature_c", number_text(wheel.temperature_c)}};
+        if (!wheel.fault.empty()) references.emplace_back("fault", wheel.fault);
+        list.push_back(entry("wheel", references));
+    }
+    for (const auto& reading : state.cameras) list.push_back(encode_camera(reading));
+    for (const auto& foot : state.parking_feet) {
+        list.push_back(entry(
+            "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));
+    }
+    list.push_back(entry("load", {{"load_kg", number_text(state.load_kg)}}));
+    return list;
+}
+
+void decode_information(json::ObjectReader& message, StateMessage& state) {
+    json::FieldErrors& errors = message.errors();
+    message.items_if_any("information", {0, 500}, [&](const Json& item, const std::string& at) {
+        json::ObjectReader in(item, at, errors);
+        const std::string type = in.text("infoType", {0, 200});
+        in.text("infoLevel", {0, 64});
+        std::map<std::string, Values::Value> values;
+        in.items_if_any("infoReferences", {0, 100}, [&](const Json& ref, const std::string& where) {
+            json::ObjectReader reference(ref, where, errors);
+            const std::string key = reference.text("referenceKey", {0, 200});
+            values[key] = {reference.text("referenceValue", {0, 1000}), where + "/referenceValue"};
+        });
+        Values read(std::move(values), errors);
+        decode_entry(type, read, state);
+    });
+}
+
+}  // namespace pulseline::vda5050

@@ -1,0 +1,314 @@
+#include "core/onboard/executor.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/vda5050/actions.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+using vda5050::Action;
+using vda5050::ActionState;
+using vda5050::ActionStatus;
+using vda5050::VehicleError;
+
+// The base is asked for this long before braking for its end would begin.
+constexpr double kAskForBase_s = 1.0;
+
+}  // namespace
+
+Executor::Executor(Drive& motion, StopSensing& sensing, std::string map_id, Equipment* equipment,
+                   control::MotionCompensation compensation)
+    : motion_(motion),
+      procedure_(motion, sensing, {}, std::move(compensation)),
+      equipment_(equipment),
+      map_id_(std::move(map_id)),
+      way_(motion),
+      hand_(motion) {}
+
+OrderContext Executor::context() const {
+    OrderContext context;
+    context.order_id = order_id_;
+    context.order_update_id = order_update_id_;
+    context.idle = order_done() && !procedure_.running();
+    context.cancelled = cancelled_;
+    context.cancelling = !cancel_id_.empty();
+    context.stitch_node_id = base_end_.node_id;
+    context.stitch_sequence_id = base_end_.sequence_id;
+    context.in_hand = in_hand_;
+    if (position_initialized_) context.pose = motion_.believed_pose();
+    context.map_id = map_id_;
+    if (equipment_ != nullptr) context.node_actions = equipment_->action_types();
+    return context;
+}
+
+void Executor::report(VehicleError error) {
+    std::erase_if(errors_, [&](const VehicleError& old) {
+        return old.type == error.type && old.references == error.references;
+    });
+    errors_.push_back(std::move(error));
+    changed_ = true;
+}
+
+void Executor::handle(const vda5050::OrderMessage& order) {
+    const OrderDecision decision = decide_order(order, context());
+    switch (decision.kind) {
+        case OrderDecision::Kind::kDuplicate:
+            changed_ = true;  // the sender has not seen our answer yet
+            return;
+        case OrderDecision::Kind::kRejected:
+            report(decision.error);
+            return;
+        case OrderDecision::Kind::kNewOrder:
+            start_order(order);
+            return;
+        case OrderDecision::Kind::kUpdate:
+            extend_order(order);
+            return;
+    }
+}
+
+void Executor::start_order(const vda5050::OrderMessage& order) {
+    order_id_ = order.order_id;
+    order_update_id_ = order.order_update_id;
+    cancelled_ = false;
+    errors_.clear();
+    order_actions_.clear();
+    const auto& first = order.nodes.front();
+    base_end_ = {first.node_id, first.sequence_id, true};
+    for (const auto& action : first.actions) add_action(action, ActionStatus::kWaiting);
+    append(order);
+    traverse(first);
+}
+
+void Executor::extend_order(const vda5050::OrderMessage& order) {
+    order_update_id_ = order.order_update_id;
+    errors_.clear();
+    for (const auto& node : way_.drop_horizon()) {
+        for (const auto& action : node.actions) {
+            std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
+        }
+    }
+    append(order);
+    changed_ = true;
+}
+
+/// Everything of the message behind its first node, which the vehicle has or stands on.
+void Executor::append(const vda5050::OrderMessage& order) {
+    for (std::size_t i = 1; i < order.nodes.size(); ++i) {
+        const auto& node = order.nodes[i];
+        way_.append(order.edges[i - 1], node);
+        for (const auto& action : node.actions) add_action(action, ActionStatus::kWaiting);
+        if (node.released) base_end_ = {node.node_id, node.sequence_id, true};
+    }
+}
+
+void Executor::traverse(const vda5050::OrderNode& node) {
+    last_node_id_ = node.node_id;
+    last_node_sequence_id_ = node.sequence_id;
+    waiting_.insert(waiting_.end(), node.actions.begin(), node.actions.end());
+    changed_ = true;
+}
+
+void Executor::step(double dt_s) {
+    if (in_hand_) return step_in_hand(dt_s);
+    if (paused_ || !cancel_id_.empty()) {
+        motion_.hold();
+    } else {
+        motion_.release();
+    }
+    motion_.step(dt_s);
+    take_traversals();
+    run_actions(dt_s);
+    finish_cancel();
+    finish_pause();
+    queue_edges();
+    note_motion();
+}
+
+void Executor::take_traversals() {
+    for (const auto& node : way_.take_passed()) traverse(node);
+}
+
+void Executor::queue_edges() {
+    if (!waiting_.empty() || procedure_.running() || !cancel_id_.empty()) return;
+    if (equipment_ != nullptr && equipment_->holds_vehicle()) return;
+    way_.hand_over();
+}
+
+bool Executor::may_go_round() const {
+    const bool at_work = procedure_.running() || !waiting_.empty() || !cancel_id_.empty();
+    return motion_.standing() && !motion_.stop_cause() && !way_.empty() && !at_work && !paused_ &&
+           !in_hand_;
+}
+
+void Executor::go_round(const planning::Detour& detour) {
+    way_.go_round(detour);
+    changed_ = true;
+}
+
+/// Node actions one after the other, standing: all that we announce are HARD or treated so.
+void Executor::run_actions(double dt_s) {
+    if (procedure_.running()) {
+        if (const auto outcome = procedure_.step(dt_s)) finish_stop(*outcome);
+        return;
+    }
+    if (waiting_.empty() || paused_ || !cancel_id_.empty() || !motion_.idle()) return;
+    const Action& action = waiting_.front();
+    if (!action.stop_target) return run_equipment();
+    running_stop_ = action.id;
+    set_action(action.id, ActionStatus::kRunning);
+    procedure_.start(*action.stop_target, action.type == vda5050::kAdjustToMarker);
+}
+
+void Executor::run_equipment() {
+    const Action& action = waiting_.front();
+    if (running_equipment_ != action.id) {
+        running_equipment_ = action.id;
+        set_action(action.id, ActionStatus::kRunning);
+        if (auto why_not = equipment_->begin(action)) {
+            set_action(action.id, ActionStatus::kFailed, std::move(*why_not));
+            waiting_.pop_front();
+            return;
+        }
+    }
+    if (equipment_->busy()) return;
+    const auto failure = equipment_->failure();
+    set_action(action.id, failure ? ActionStatus::kFailed : ActionStatus::kFinished,
+               failure.value_or(""));
+    waiting_.pop_front();
+}
+
+void Executor::finish_stop(const StopProcedure::Outcome& outcome) {
+    if (ActionState* state = find_action(running_stop_)) {
+        state->measurement = outcome.measurement;
+        if (!outcome.succeeded) state->measurement.reset();
+    }
+    set_action(running_stop_, outcome.succeeded ? ActionStatus::kFinished : ActionStatus::kFailed,
+               outcome.why_not);
+    if (outcome.measurement) position_initialized_ = true;
+    if (!waiting_.empty() && waiting_.front().id == running_stop_) waiting_.pop_front();
+    running_stop_.clear();
+}
+
+void Executor::finish_cancel() {
+    if (cancel_id_.empty() || !motion_.standing() || procedure_.running()) return;
+    motion_.release();
+    motion_.acknowledge();
+    drop_order();
+    set_action(cancel_id_, ActionStatus::kFinished);
+    cancel_id_.clear();
+}
+
+void Executor::drop_order() {
+    way_.clear();
+    waiting_.clear();  // of nodes passed while braking
+}
+
+void Executor::finish_pause() {
+    if (pause_id_.empty() || !motion_.standing()) return;
+    set_action(pause_id_, ActionStatus::kFinished);
+    pause_id_.clear();
+}
+
+void Executor::note_motion() {
+    const bool driving = !motion_.standing();
+    const double ask_m = motion_.braking_m() + std::abs(motion_.velocity_mps()) * kAskForBase_s;
+    const bool ends = way_.base_handed_over() && motion_.remaining_m() <= ask_m;
+    const bool ask = way_.has_horizon() && (ends || base_wanted_);
+    const bool stopped = motion_.stop_cause().has_value();
+    changed_ |= driving != driving_ || ask != new_base_request_ || stopped != stopped_;
+    driving_ = driving;
+    stopped_ = stopped;
+    new_base_request_ = ask;
+}
+
+void Executor::take_by_hand() {
+    if (in_hand_) return;
+    in_hand_ = true;
+    cancelled_ = true;  // an update would lead on from where it may not stand any more
+    changed_ = true;
+    abort_actions("taken by hand");
+    hand_.take();
+}
+
+/// Nodes it brakes past still count as passed; then its order is gone.
+void Executor::step_in_hand(double dt_s) {
+    if (!way_.empty() || procedure_.running()) {
+        motion_.hold();
+        motion_.step(dt_s);
+        take_traversals();
+        waiting_.clear();
+        if (procedure_.running()) static_cast<void>(procedure_.step(dt_s));
+        if (motion_.standing() && !procedure_.running()) drop_order();
+    } else {
+        hand_.step(dt_s);
+        motion_.step(dt_s);
+    }
+    finish_cancel();
+    finish_pause();
+    note_motion();
+}
+
+Status Executor::drive_by_hand(const kinematics::Twist& wanted) {
+    if (!in_hand_) {
+        return fail(Errc::kConflict, "not_in_hand", "Take the vehicle by hand first.");
+    }
+    if (equipment_ != nullptr && equipment_->holds_vehicle()) {
+        return fail(Errc::kConflict, "held",
+                    "The vehicle stands on its feet or is plugged in. Raise the feet, stop "
+                    "charging.");
+    }
+    return hand_.command(wanted);
+}
+
+Status Executor::give_back() {
+    if (!in_hand_) {
+        return fail(Errc::kConflict, "not_in_hand", "Nobody has taken the vehicle by hand.");
+    }
+    if (!motion_.standing() || !way_.empty()) {
+        return fail(Errc::kConflict, "still_moving", "The vehicle still moves. Let go first.");
+    }
+    hand_.give_back();
+    way_.skip();
+    in_hand_ = false;
+    changed_ = true;
+    return {};
+}
+
+bool Executor::take_changed() { return std::exchange(changed_, false); }
+
+bool Executor::take_factsheet_request() { return std::exchange(factsheet_requested_, false); }
+
+void Executor::write_state(vda5050::StateMessage& state) const {
+    state.order_id = order_id_;
+    state.order_update_id = order_update_id_;
+    state.last_node_id = last_node_id_;
+    state.last_node_sequence_id = last_node_sequence_id_;
+    state.node_states.clear();
+    state.edge_states.clear();
+    for (const auto& node : way_.nodes()) {
+        state.node_states.push_back({node.node_id, node.sequence_id, node.released});
+    }
+    for (const auto& edge : way_.edges()) {
+        state.edge_states.push_back({edge.edge_id, edge.sequence_id, edge.released});
+    }
+    state.operating_mode = in_hand_ ? "MANUAL" : "AUTOMATIC";
+    state.driving = driving_;
+    state.paused = paused_;
+    state.new_base_request = new_base_request_;
+    state.distance_since_last_node_m = way_.distance_since_last_node_m();
+    state.position_initialized = position_initialized_;
+    state.map_id = map_id_;
+    state.pose.reset();
+    if (position_initialized_) state.pose = motion_.believed_pose();
+    state.velocity_mps = motion_.velocity_mps();
+    state.turn_rate_radps = motion_.turn_rate_radps();
+    state.action_states = order_actions_;
+    state.action_states.insert(state.action_states.end(), instant_actions_.begin(),
+                               instant_actions_.end());
+    state.errors = errors_;
+}
+
+}  // namespace pulseline::onboard

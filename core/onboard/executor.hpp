@@ -1,0 +1,136 @@
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/onboard/acceptance.hpp"
+#include "core/onboard/drive.hpp"
+#include "core/onboard/equipment.hpp"
+#include "core/onboard/hand_drive.hpp"
+#include "core/onboard/stop_procedure.hpp"
+#include "core/onboard/way_ahead.hpp"
+#include "core/vda5050/messages.hpp"
+
+namespace pulseline::onboard {
+
+/// Obeys orders and instant actions as VDA 5050 2.1 asks: takes or rejects them, drives the base
+/// and never past it, reports nodes, runs actions. A drive that has stopped of itself is let go on
+/// by what a person sends: stopPause, initPosition, or the end of a cancelOrder. Its state lives in
+/// memory only: a restarted vehicle knows no order and no pose. Thread safety: none. No clock: time
+/// passes by step().
+class Executor {
+public:
+    /// `equipment` may be null: it measures and drives only.
+    Executor(Drive& motion, StopSensing& sensing, std::string map_id,
+             Equipment* equipment = nullptr, control::MotionCompensation compensation = {});
+
+    void handle(const vda5050::OrderMessage& order);
+    void handle(const vda5050::InstantActionsMessage& message);
+    /// A message that could not be understood, or a fault of the vehicle; reported until the next
+    /// accepted order.
+    void report(vda5050::VehicleError error);
+    void step(double dt_s);
+
+    /// Somebody drives the vehicle with a hand-held control from now on: it brakes, gives up its
+    /// order and takes none (operatingMode MANUAL). Where it stands it still tells, and may be
+    /// told.
+    void take_by_hand();
+    /// Fails with conflict not_in_hand {}, or cannot_move_so as HandDrive says.
+    Status drive_by_hand(const kinematics::Twist& wanted);
+    /// Gives it back; it waits for an order. Fails with not_in_hand {} and still_moving {}.
+    Status give_back();
+    bool in_hand() const { return in_hand_; }
+
+    // Going round something that stands on its line; who looks out plans it.
+    /// It stands in an order with nothing else to do than to drive on.
+    bool may_go_round() const;
+    const WayAhead& way_ahead() const { return way_; }
+    /// As WayAhead says, which see. REQUIRES: may_go_round().
+    void go_round(const planning::Detour& detour);
+    /// Asks for a longer base while `wanted`, where there is a horizon to take it from.
+    void ask_for_base(bool wanted) { base_wanted_ = wanted; }
+
+    /// Order, action, drive and pose fields of the state.
+    void write_state(vda5050::StateMessage& state) const;
+    /// True once after anything happened that must be reported at once.
+    bool take_changed();
+    bool take_factsheet_request();
+
+    bool position_initialized() const { return position_initialized_; }
+    const std::string& order_id() const { return order_id_; }
+    std::int64_t last_node_sequence_id() const { return last_node_sequence_id_; }
+    /// sequenceId of the last released node: the vehicle never drives past it.
+    std::int64_t base_end_sequence_id() const { return base_end_.sequence_id; }
+    /// What the vehicle has learned of its small moves, to be kept for its next start.
+    const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
+    bool acting() const { return procedure_.running(); }
+
+private:
+    void start_order(const vda5050::OrderMessage& order);
+    void extend_order(const vda5050::OrderMessage& order);
+    void append(const vda5050::OrderMessage& order);
+    void traverse(const vda5050::OrderNode& node);
+    void take_traversals();
+    void queue_edges();
+    void run_actions(double dt_s);
+    void run_equipment();
+    void finish_stop(const StopProcedure::Outcome& outcome);
+    void finish_cancel();
+    void finish_pause();
+    void note_motion();
+    void drop_order();
+    void step_in_hand(double dt_s);
+
+    void handle_instant(const vda5050::Action& action);
+    void cancel_order(const vda5050::Action& action);
+    /// What an order still has to do fails for this reason.
+    void abort_actions(const char* why);
+    void init_position(const vda5050::Action& action);
+    void instant_stop(const vda5050::Action& action);
+    void instant_equipment(const vda5050::Action& action);
+
+    OrderContext context() const;
+    bool order_done() const { return way_.empty() && waiting_.empty(); }
+    vda5050::ActionState* find_action(const std::string& id);
+    void add_action(const vda5050::Action& action, vda5050::ActionStatus status,
+                    std::string result = {});
+    void set_action(const std::string& id, vda5050::ActionStatus status, std::string result = {});
+    void forget_old_instant_actions();
+
+    Drive& motion_;
+    StopProcedure procedure_;
+    Equipment* equipment_;
+    std::string map_id_;
+
+    std::string order_id_;
+    std::int64_t order_update_id_ = 0;
+    WayAhead way_;
+    std::string last_node_id_;
+    std::int64_t last_node_sequence_id_ = 0;
+    vda5050::NodeState base_end_;
+
+    std::deque<vda5050::Action> waiting_;  // of the node it stands on, first one running
+    std::string running_stop_;             // id of the action in the procedure
+    std::string running_equipment_;        // id of the action that the equipment is at
+    std::string cancel_id_;                // of the cancelOrder at work
+    std::string pause_id_;
+    HandDrive hand_;
+    bool cancelled_ = false;
+    bool paused_ = false;
+    bool in_hand_ = false;
+
+    std::vector<vda5050::ActionState> order_actions_;
+    std::vector<vda5050::ActionState> instant_actions_;
+    std::vector<vda5050::VehicleError> errors_;
+    bool position_initialized_ = false;
+    bool driving_ = false;
+    bool stopped_ = false;      // by the drive itself
+    bool base_wanted_ = false;  // to go round something
+    bool new_base_request_ = false;
+    bool changed_ = true;
+    bool factsheet_requested_ = false;
+};
+
+}  // namespace pulseline::onboard

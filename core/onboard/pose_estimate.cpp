@@ -1,0 +1,59 @@
+#include "core/onboard/pose_estimate.hpp"
+
+#include <cmath>
+
+namespace pulseline::onboard {
+namespace {
+
+using geometry::Pose2;
+
+// The filter's noise is that of steps of this size at least.
+constexpr double kStep_m = 0.1;
+constexpr double kStep_rad = 0.01;
+// A person looks where the vehicle stands, and points at it on the map.
+constexpr double kToldSigma_m = 0.02;
+constexpr double kToldSigma_rad = 0.01;
+// Tang 2020: +-25 mm and +-0.2 deg.
+constexpr double kTolerance_m = 0.025;
+constexpr double kTolerance_rad = 0.2 * kPi / 180;
+
+Eigen::Matrix3d told() {
+    constexpr double kPlace2 = kToldSigma_m * kToldSigma_m;
+    return Eigen::Vector3d(kPlace2, kPlace2, kToldSigma_rad * kToldSigma_rad).asDiagonal();
+}
+
+Eigen::Matrix3d covariance_of(const localisation::PoseFix& fix) {
+    Eigen::Matrix3d m;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            m(i, j) = fix.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+    return m;
+}
+
+}  // namespace
+
+PoseEstimate::PoseEstimate(const Pose2& start) : filter_(start, told()), driven_(start) {}
+
+void PoseEstimate::drive_to(const Pose2& believed) {
+    const Pose2 way = inverse(driven_) * believed;
+    if (norm(way.position()) < kStep_m && std::abs(way.heading_rad) < kStep_rad) return;
+    filter_.drive({way.x_m, way.y_m, way.heading_rad});
+    driven_ = believed;
+}
+
+void PoseEstimate::take(const localisation::PoseFix& fix) {
+    if (!filter_.correct(fix)) filter_ = localisation::PoseFilter(fix.pose, covariance_of(fix));
+    driven_ = fix.pose;
+}
+
+void PoseEstimate::start_at(const Pose2& pose) {
+    filter_ = localisation::PoseFilter(pose, told());
+    driven_ = pose;
+}
+
+double PoseEstimate::score() const {
+    return localisation::localization_score(sigma_xy_m(), sigma_heading_rad(), kTolerance_m,
+                                            kTolerance_rad);
+}
+
+}  // namespace pulseline::onboard

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/control/adjustment.hpp"
+#include "core/onboard/drive.hpp"
+#include "core/onboard/stop_sensing.hpp"
+#include "core/onboard/window_approach.hpp"
+#include "core/vda5050/messages.hpp"
+
+namespace pulseline::onboard {
+
+/// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker): from some
+/// millimetres away a WindowApproach where that helps, then the loop of control::Adjustment, whose
+/// motion compensation learns from every pass. The believed pose becomes each measured one; when
+/// the first look found nothing, also those that it gets on the way to where the codes should be.
+/// Refused with what was reached: as control::Adjustment does, and out_of_time.
+class StopProcedure {
+public:
+    struct Outcome {
+        bool succeeded = false;
+        std::optional<vda5050::StopMeasurement> measurement;  // the last one, also when it failed
+        std::string why_not;
+    };
+
+    /// `limits`: how far the vehicle may move without being asked where it is released to go;
+    /// `compensation`: what was learned of it before.
+    StopProcedure(Drive& motion, StopSensing& sensing, const control::AdjustmentLimits& limits = {},
+                  control::MotionCompensation compensation = {});
+
+    /// REQUIRES: the motion is idle.
+    void start(const vda5050::StopTarget& target, bool correct);
+    /// The outcome once it is over.
+    std::optional<Outcome> step(double dt_s);
+    bool running() const { return running_; }
+    const control::MotionCompensation& compensation() const { return compensation_; }
+    /// Gives up; a correction under way is braked first: running() until it stands.
+    void abort();
+
+private:
+    std::optional<Outcome> take_measurement();
+    /// The next pass of `loop`.
+    Status begin_pass(control::Adjustment& loop, const Pose2& body_from_target);
+    void drive_approach(double dt_s);
+    void look_on_the_way();
+    bool begin_approach(const Pose2& body_from_target);
+    bool look_where_it_should_be();
+    Status too_late(const Pose2& body_from_target) const;
+    void learn(const vda5050::StopMeasurement& after);
+    Outcome finish(bool succeeded, std::string why_not);
+
+    Drive& motion_;
+    StopSensing& sensing_;
+    control::AdjustmentLimits limits_;
+    control::AdjustmentLimits target_limits_;  // of this stop
+    control::MotionCompensation compensation_;
+    control::Adjustment adjustment_;
+    vda5050::StopTarget target_;
+    bool correct_ = false;
+    bool running_ = false;
+    bool aborting_ = false;
+    std::optional<WindowApproach> approach_;
+    int approaches_ = 0;
+    bool on_the_way_ = false;  // seen on the way where it is
+    bool late_ = false;        // the last approach timed out
+    double tick_s_ = 0;        // own time of the last step
+    double looked_at_m_ = 0;   // left to the target when it last looked on the way
+    double settling_s_ = 0;
+    int blind_passes_ = 0;
+    std::optional<vda5050::StopMeasurement> last_;
+    std::optional<Pose2> arrived_;       // seen first, where the drive had ended
+    std::vector<control::Move> driven_;  // since last_, as commanded
+};
+
+}  // namespace pulseline::onboard

@@ -1,0 +1,179 @@
+#include "core/planning/legs/leg_assessment.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/kinematics/primitives.hpp"
+#include "core/kinematics/trajectory.hpp"
+
+namespace pulseline::planning {
+namespace {
+
+using geometry::Polygon;
+using kinematics::Segment;
+using plant::MotionMode;
+
+tl::unexpected<Error> blocked(const Approach& by, double limit_m) {
+    const char* what = by.what == "wall"  ? "a wall"
+                       : by.what == "map" ? "an obstacle of the map"
+                                          : by.what.c_str();
+    return fail(Errc::kUnreachable, "blocked",
+                std::string("The swept area comes too near to ") + what +
+                    ". Choose another motion mode or station.",
+                {},
+                {{"by", by.what},
+                 {"at_x_m", by.at.x_m},
+                 {"at_y_m", by.at.y_m},
+                 {"clearance_m", by.distance_m},
+                 {"limit_m", limit_m}});
+}
+
+/// Changes of direction of a direct motion; the turn on arrival does not count.
+int turns_of(const LegTask& task, const kinematics::MotionPlan& motion) {
+    double first_turn = 0;
+    for (const Segment& segment : motion.segments) {
+        if (segment.kind == Segment::Kind::kArc) return 1;
+        if (segment.kind != Segment::Kind::kRotate) break;
+        first_turn += std::abs(segment.turn_rad);
+    }
+    return first_turn > task.cost.turn_threshold_rad ? 1 : 0;
+}
+
+LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion) {
+    LegDraft draft;
+    draft.segments = motion.segments;
+    draft.turns = turns_of(task, motion);
+    draft.cost = arc_cost(task.cost, motion.length_m, draft.turns > 0);
+    for (const Segment& segment : draft.segments) {
+        draft.max_speed_mps.push_back(
+            task.roads.lines().along(task.request.hall, segment).max_speed_mps);
+    }
+    kinematics::set_durations(*task.request.type, draft.segments, draft.max_speed_mps);
+    return draft;
+}
+
+kinematics::ExpectedDeviation expected_of(const plant::VehicleType& type,
+                                          const std::vector<Segment>& segments) {
+    return kinematics::expected_deviation(segments, kinematics::usual_noise(type.kinematics));
+}
+
+/// Of a direct motion. Floor closed in a lane's corridor closes the lane, here too.
+std::vector<std::size_t> closed_floor_on(const LegTask& task, const std::vector<Segment>& segments,
+                                         std::vector<Polygon> swept) {
+    const double reach_m = plant::reach_m(task.passage.body.pieces);
+    for (const Segment& segment : segments) {
+        const auto corridor = task.roads.lines().along(task.request.hall, segment).corridor;
+        if (!corridor) continue;
+        swept.push_back(plant::corridor_band(segment.start.position(), segment.end.position(),
+                                             *corridor, reach_m));
+    }
+    return driven_over(task.closures, task.request.hall, swept);
+}
+
+/// The plan of a draft that keeps clear; `pieces` are its swept area.
+LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
+                const std::vector<Polygon>& pieces) {
+    const auto sums = kinematics::summed(mode, std::move(draft.segments));
+    LegPlan plan;
+    plan.mode = mode;
+    plan.segments = sums.segments;
+    plan.max_speed_mps = std::move(draft.max_speed_mps);
+    plan.route = std::move(draft.route);
+    plan.length_m = sums.length_m;
+    plan.turns = draft.turns;
+    plan.cost = draft.cost;
+    plan.duration_s = sums.duration_s;
+    plan.expected = expected_of(*task.request.type, plan.segments);
+    if (plan.route.empty()) draft.closures = closed_floor_on(task, plan.segments, pieces);
+    for (const std::size_t closure : draft.closures) {
+        const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
+        auto& ids = plan.closures;
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    }
+    return plan;
+}
+
+}  // namespace
+
+Result<LegPlan> finish(const LegTask& task, MotionMode mode, LegDraft draft) {
+    const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
+    if (const auto by = task.obstacles.violation(pieces, task.limits)) {
+        return blocked(*by, task.passage.body.clearance_m);
+    }
+    return cleared(task, mode, std::move(draft), pieces);
+}
+
+LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPlan& rest) {
+    LegPlan plan = rest;
+    auto segments = first.segments;
+    segments.insert(segments.end(), rest.segments.begin(), rest.segments.end());
+    const auto sums = kinematics::summed(rest.mode, std::move(segments));
+    plan.segments = sums.segments;
+    if (!plan.max_speed_mps.empty()) {
+        plan.max_speed_mps.insert(plan.max_speed_mps.begin(), first.segments.size(), 0.0);
+    }
+    plan.length_m = sums.length_m;
+    plan.duration_s = sums.duration_s;
+    plan.expected = expected_of(type, plan.segments);
+    plan.turns += first.turns;
+    plan.cost += first.cost;
+    for (const std::string& id : first.closures) {
+        auto& ids = plan.closures;
+        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+    }
+    return plan;
+}
+
+void describe(const plant::VehicleType& type, const Body& body, const Obstacles& obstacles,
+              const std::vector<StandingBody>& standing, LegPlan& plan) {
+    const auto pieces = kinematics::sweep(body.pieces, plan.segments);
+    const Approach nearest = obstacles.nearest(pieces);
+    plan.clearance_m = nearest.distance_m;
+    plan.nearest = nearest.what;
+    for (const StandingBody& other : standing) {
+        const double distance = distance_to(other, pieces, plan.clearance_m);
+        if (distance >= plan.clearance_m) continue;
+        plan.clearance_m = distance;
+        plan.nearest = other.vehicle.str();
+    }
+    if (!type.wheels.empty()) {
+        const auto trajectory = kinematics::Trajectory::of(type, plan.segments, plan.max_speed_mps);
+        if (trajectory) plan.wheels = trajectory->wheel_peaks();
+    }
+    plan.swept = geometry::union_outline(
+        kinematics::sweep(body.pieces, plan.segments, kinematics::kOutlineDetail));
+    for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
+}
+
+Result<LegPlan> assess_free(const LegTask& task, FreeLegs& free,
+                            const std::vector<StandingBody>& standing) {
+    return free.draft(task, standing).map([&](LegDraft draft) {
+        // It was checked with finer sweeps than these, which would refuse what just fits.
+        const auto pieces = kinematics::sweep(task.passage.body.pieces, draft.segments);
+        return cleared(task, MotionMode::kFree, std::move(draft), pieces);
+    });
+}
+
+Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
+    const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
+                                                      task.station.pose, mode);
+    if (!variants) return fail(variants.error());
+    std::optional<Error> refusal;
+    std::optional<LegPlan> over_closed_floor;
+    for (const auto& motion : *variants) {
+        auto plan = finish(task, mode, draft_direct(task, motion));
+        if (plan && plan->closures.empty()) return plan;
+        if (plan && !over_closed_floor) over_closed_floor = std::move(*plan);
+        if (!plan && !refusal) refusal = plan.error();
+    }
+    if (mode == MotionMode::kLinear && !task.request.target_pose) {
+        auto plan = draft_road_leg(task).and_then(
+            [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
+        if (!over_closed_floor || (plan && plan->closures.empty())) return plan;
+    }
+    if (over_closed_floor) return std::move(*over_closed_floor);
+    return fail(std::move(*refusal));
+}
+
+}  // namespace pulseline::planning

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/onboard/equipment.hpp"
+#include "core/plant/plant.hpp"
+#include "core/simulation/machine/lifting_drive.hpp"
+#include "core/vda5050/messages.hpp"
+
+namespace pulseline::simulation {
+
+using geometry::Pose2;
+
+/// What a simulated vehicle does standing besides measuring: it charges at a charger, and one with
+/// brackets lowers and raises its parking feet (in step) and its brackets, one or all in step, by
+/// setBracketHeight {bracket: name or "all", height_m}. Speeds are times the time factor.
+/// Thread safety: none. No clock: time passes by step().
+class VehicleEquipment : public onboard::Equipment {
+public:
+    /// `true_pose`: where the vehicle truly stands; must outlive it. `chargers`: true poses at
+    /// which the contacts meet. `load_kg` lies on the brackets, nearly in their middle. REQUIRES: 0
+    /// <= battery_percent <= 100.
+    VehicleEquipment(const plant::VehicleType& type, const Pose2& true_pose,
+                     std::vector<Pose2> chargers, double battery_percent, double time_factor,
+                     double load_kg = 0, std::uint64_t seed = 1);
+
+    const std::vector<std::string>& action_types() const override { return action_types_; }
+    std::optional<std::string> begin(const vda5050::Action& action) override;
+    bool busy() const override;
+    std::optional<std::string> failure() const override;
+    void abort() override;
+    bool holds_vehicle() const override;
+
+    /// `way_m`: driven meanwhile.
+    void step(double dt_s, double way_m);
+    void write_state(vda5050::StateMessage& state);
+    /// Above the lower limit switch; nullopt: there is no such bracket.
+    std::optional<double> bracket_height_m(const std::string& name) const;
+
+private:
+    std::optional<std::string> begin_bracket(const vda5050::Action& action);
+
+    const Pose2& true_pose_;
+    std::vector<std::string> action_types_;
+    std::vector<Pose2> chargers_;
+    double time_factor_;
+    double battery_percent_;
+    bool charging_ = false;
+    bool lifting_ = false;  // what was begun last moves brackets
+    double load_kg_;
+    std::optional<LiftingDrive> feet_;
+    std::optional<LiftingDrive> brackets_;
+};
+
+}  // namespace pulseline::simulation

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "core/onboard/drive.hpp"
+
+namespace pulseline::simulation {
+
+using onboard::Drive;
+
+/// A drive whose machine truly stands somewhere. Nobody on the vehicle may ask it: for the
+/// simulated world and the truth log only.
+class SimulatedDrive : public Drive {
+public:
+    /// The same object for as long as the drive lives.
+    virtual const geometry::Pose2& true_pose() const = 0;
+};
+
+}  // namespace pulseline::simulation

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Names of the VDA 5050 actions that fleet and vehicles know, predefined ones and those that are
+/// announced in a factsheet. A name lives here only: whoever decides by one includes this.
+namespace pulseline::vda5050 {
+
+// Instant actions of every vehicle.
+inline constexpr const char* kCancelOrder = "cancelOrder";
+inline constexpr const char* kStartPause = "startPause";
+inline constexpr const char* kStopPause = "stopPause";
+inline constexpr const char* kStateRequest = "stateRequest";
+inline constexpr const char* kFactsheetRequest = "factsheetRequest";
+inline constexpr const char* kLogReport = "logReport";
+inline constexpr const char* kInitPosition = "initPosition";
+
+// Standing at a node.
+inline constexpr const char* kMeasureStop = "measureStop";
+inline constexpr const char* kAdjustToMarker = "adjustToMarker";
+inline constexpr const char* kStartCharging = "startCharging";
+inline constexpr const char* kStopCharging = "stopCharging";
+inline constexpr const char* kRaiseParking = "raiseParking";
+inline constexpr const char* kLowerParking = "lowerParking";
+inline constexpr const char* kSetBracketHeight = "setBracketHeight";
+
+// On an edge.
+inline constexpr const char* kObserveMarkers = "observeMarkers";
+
+}  // namespace pulseline::vda5050

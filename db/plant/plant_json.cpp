@@ -1,0 +1,126 @@
+#include "db/plant/plant_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "db/error.hpp"
+#include "db/json_number.hpp"
+#include "db/json_text.hpp"
+
+namespace pulseline::db {
+namespace {
+
+using Json = nlohmann::json;
+using geometry::Point2;
+
+Json number(double value) { return finite(value, "a number of the plant"); }
+Json encode(const Point2& p) { return Json::array({number(p.x_m), number(p.y_m)}); }
+Point2 decode_point(const Json& j) { return {j.at(0), j.at(1)}; }
+
+template <class T, class Encode>
+std::string list_to_json(const std::vector<T>& items, Encode encode_item) {
+    Json list = Json::array();
+    for (const T& item : items) list.push_back(encode_item(item));
+    return list.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+template <class T, class Decode>
+std::vector<T> list_from_json(const std::string& text, Decode decode_item) {
+    try {
+        std::vector<T> items;
+        for (const Json& item : Json::parse(text)) items.push_back(decode_item(item));
+        return items;
+    } catch (const Json::exception&) {
+        throw Error(Error::Kind::kBadValue,
+                    "The database holds a damaged plant; import it again or restore a backup.");
+    }
+}
+
+Json mounting_to_json(const plant::CameraMounting& m) {
+    return {{"x_m", number(m.body_from_camera.x_m)},
+            {"y_m", number(m.body_from_camera.y_m)},
+            {"heading_rad", number(m.body_from_camera.heading_rad)},
+            {"height_m", number(m.height_m)},
+            {"tilt_u_rad", number(m.tilt_u_rad)},
+            {"tilt_v_rad", number(m.tilt_v_rad)}};
+}
+plant::CameraMounting mounting_from_json(const Json& j) {
+    return {{j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+            j.at("height_m"),
+            j.value("tilt_u_rad", 0.0),
+            j.value("tilt_v_rad", 0.0)};
+}
+
+}  // namespace
+
+std::string polygon_to_json(const plant::Polygon& polygon) {
+    return list_to_json(polygon, [](const Point2& p) { return encode(p); });
+}
+plant::Polygon polygon_from_json(const std::string& text) {
+    return list_from_json<Point2>(text, decode_point);
+}
+
+std::string names_to_json(const std::vector<plant::EdgeId>& edges) {
+    return list_to_json(edges, [](const plant::EdgeId& edge) { return Json(edge.str()); });
+}
+std::vector<plant::EdgeId> edges_from_json(const std::string& text) {
+    return list_from_json<plant::EdgeId>(
+        text, [](const Json& j) { return plant::EdgeId(j.get<std::string>()); });
+}
+
+std::string wheels_to_json(const std::vector<plant::Wheel>& wheels) {
+    return list_to_json(wheels, [](const plant::Wheel& w) {
+        return Json{{"name", w.name},
+                    {"position", encode(w.position)},
+                    {"driven", w.driven},
+                    {"steered", w.steered},
+                    {"diameter_m", number(w.diameter_m)}};
+    });
+}
+std::vector<plant::Wheel> wheels_from_json(const std::string& text) {
+    return list_from_json<plant::Wheel>(text, [](const Json& j) {
+        return plant::Wheel{j.at("name"), decode_point(j.at("position")), j.at("driven"),
+                            j.at("steered"), j.at("diameter_m")};
+    });
+}
+
+std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
+    return list_to_json(cameras, [](const plant::Camera& c) {
+        Json json = mounting_to_json(c);
+        json.update({{"name", c.name},
+                     {"f_px", number(c.f_px)},
+                     {"width_px", c.width_px},
+                     {"height_px", c.height_px},
+                     {"cu_px", number(c.cu_px)},
+                     {"cv_px", number(c.cv_px)},
+                     {"k1", number(c.k1)}});
+        if (c.loaded) json["loaded"] = mounting_to_json(*c.loaded);
+        return json;
+    });
+}
+std::vector<plant::Camera> cameras_from_json(const std::string& text) {
+    return list_from_json<plant::Camera>(text, [](const Json& j) {
+        plant::Camera camera{mounting_from_json(j),
+                             j.at("name"),
+                             j.at("f_px"),
+                             whole<int>(j.at("width_px")),
+                             whole<int>(j.at("height_px")),
+                             j.at("cu_px"),
+                             j.at("cv_px"),
+                             j.at("k1")};
+        if (j.contains("loaded")) camera.loaded = mounting_from_json(j.at("loaded"));
+        return camera;
+    });
+}
+
+std::string brackets_to_json(const std::vector<plant::Bracket>& brackets) {
+    return list_to_json(brackets, [](const plant::Bracket& b) {
+        return Json{{"name", b.name}, {"position", encode(b.position)}};
+    });
+}
+std::vector<plant::Bracket> brackets_from_json(const std::string& text) {
+    return list_from_json<plant::Bracket>(text, [](const Json& j) {
+        return plant::Bracket{j.at("name"), decode_point(j.at("position"))};
+    });
+}
+
+}  // namespace pulseline::db

@@ -1,0 +1,188 @@
+#include "db/plant/plant_rows.hpp"
+
+#include "db/json_text.hpp"
+#include "db/names.hpp"
+#include "db/plant/plant_json.hpp"
+
+namespace pulseline::db {
+namespace {
+
+template <class K>
+std::string keys_to_json(const std::vector<K>& keys) {
+    std::vector<std::string> texts;
+    for (const K& key : keys) texts.push_back(key.str());
+    return texts_to_json(texts);
+}
+
+template <class K>
+std::vector<K> keys_from_json(const std::string& text) {
+    std::vector<K> keys;
+    for (const std::string& key : texts_from_json(text)) keys.push_back(K(key));
+    return keys;
+}
+
+}  // namespace
+
+void HallRow::set(const plant::Hall& hall) {
+    element.name = hall.name;
+    element.occupancy_yaml = hall.occupancy_yaml;
+    element.grid.width = hall.grid.width;
+    element.grid.height = hall.grid.height;
+    element.grid.resolution_m = hall.grid.resolution_m;
+    element.grid.origin = hall.grid.origin;
+    id = hall.id.str();
+    outline = polygon_to_json(hall.outline);
+    names = names_to_json(hall.names);
+}
+
+plant::Hall HallRow::get() const {
+    plant::Hall hall = element;
+    hall.id = plant::HallId(id);
+    hall.outline = polygon_from_json(outline);
+    hall.names = names_from_json(names);
+    return hall;
+}
+
+void NodeRow::set(const plant::RoadmapNode& node) {
+    element = node;
+    id = node.id.str();
+    hall = node.hall.str();
+}
+
+plant::RoadmapNode NodeRow::get() const {
+    return {plant::NodeId(id), plant::HallId(hall), element.position};
+}
+
+void EdgeRow::set(const plant::RoadmapEdge& edge) {
+    id = edge.id.str();
+    from = edge.from.str();
+    to = edge.to.str();
+    max_speed_mps = edge.max_speed_mps;
+    vehicle_types = keys_to_json(edge.vehicle_types);
+    corridor = edge.corridor.value_or(plant::Corridor{});
+}
+
+plant::RoadmapEdge EdgeRow::get() const {
+    plant::RoadmapEdge edge{plant::EdgeId(id), plant::NodeId(from), plant::NodeId(to),
+                            max_speed_mps, keys_from_json<plant::VehicleTypeId>(vehicle_types)};
+    if (corridor != plant::Corridor{}) edge.corridor = corridor;
+    return edge;
+}
+
+void VehicleTypeRow::set(const plant::VehicleType& type) {
+    element = type;
+    id = type.id.str();
+    kinematics = plant::to_string(type.kinematics);
+    footprint = polygon_to_json(type.footprint);
+    load_footprint = polygon_to_json(type.load_footprint);
+    std::vector<std::string> modes;
+    for (const plant::MotionMode mode : type.motion_modes)
+        modes.emplace_back(plant::to_string(mode));
+    motion_modes = texts_to_json(modes);
+    wheels = wheels_to_json(type.wheels);
+    cameras = cameras_to_json(type.cameras);
+    brackets = brackets_to_json(type.brackets);
+    usual_code_kind = plant::to_string(type.usual_code.kind);
+    slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
+    names = names_to_json(type.names);
+}
+
+plant::VehicleType VehicleTypeRow::get() const {
+    plant::VehicleType type = element;
+    type.id = plant::VehicleTypeId(id);
+    read(kinematics, type.kinematics);
+    type.footprint = polygon_from_json(footprint);
+    type.load_footprint = polygon_from_json(load_footprint);
+    type.motion_modes.clear();
+    for (const std::string& name : texts_from_json(motion_modes)) {
+        type.motion_modes.emplace_back();
+        read(name, type.motion_modes.back());
+    }
+    type.wheels = wheels_from_json(wheels);
+    type.cameras = cameras_from_json(cameras);
+    type.brackets = brackets_from_json(brackets);
+    read(usual_code_kind, type.usual_code.kind);
+    type.slip_sensor.reset();
+    if (slip_sensor_noise_mps > 0) type.slip_sensor = {slip_sensor_noise_mps};
+    type.names = names_from_json(names);
+    return type;
+}
+
+void MarkerRow::set(const plant::Marker& marker) {
+    element = marker;
+    id = marker.id.str();
+    kind = plant::to_string(marker.kind);
+    hall = marker.hall.str();
+}
+
+plant::Marker MarkerRow::get() const {
+    plant::Marker marker = element;
+    marker.id = plant::MarkerId(id);
+    read(kind, marker.kind);
+    marker.hall = plant::HallId(hall);
+    return marker;
+}
+
+void AreaRow::set(const plant::Area& area) {
+    id = area.id.str();
+    kind = plant::to_string(area.kind);
+    name = area.name;
+    hall = area.hall.str();
+    outline = polygon_to_json(area.outline);
+    names = names_to_json(area.names);
+}
+
+plant::Area AreaRow::get() const {
+    plant::Area area;
+    area.id = plant::AreaId(id);
+    read(kind, area.kind);
+    area.name = name;
+    area.hall = plant::HallId(hall);
+    area.outline = polygon_from_json(outline);
+    area.names = names_from_json(names);
+    return area;
+}
+
+void StationRow::set(const plant::Station& station) {
+    element = station;
+    id = station.id.str();
+    hall = station.hall.str();
+    tolerance_shape = stored(station.tolerance.shape);
+    markers = keys_to_json(station.markers);
+    node = station.node.str();
+    resting_place = station.resting_place;
+    charger = station.charger;
+    vehicle_types = keys_to_json(station.vehicle_types);
+    names = names_to_json(station.names);
+}
+
+plant::Station StationRow::get() const {
+    plant::Station station = element;
+    station.id = plant::StationId(id);
+    station.hall = plant::HallId(hall);
+    read(tolerance_shape, station.tolerance.shape);
+    station.markers = keys_from_json<plant::MarkerId>(markers);
+    station.node = plant::NodeId(node);
+    station.resting_place = resting_place != 0;
+    station.charger = charger != 0;
+    station.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
+    station.names = names_from_json(names);
+    return station;
+}
+
+void PlantVehicleRow::set(const plant::Vehicle& vehicle) {
+    element = vehicle;
+    id = vehicle.id.str();
+    type = vehicle.type.str();
+    home = vehicle.home.str();
+}
+
+plant::Vehicle PlantVehicleRow::get() const {
+    plant::Vehicle vehicle = element;
+    vehicle.id = plant::VehicleId(id);
+    vehicle.type = plant::VehicleTypeId(type);
+    vehicle.home = plant::StationId(home);
+    return vehicle;
+}
+
+}  // namespace pulseline::db

@@ -1,0 +1,189 @@
+#include <utility>
+
+#include "api/vda5050/connection.hpp"
+#include "api/vda5050/factsheet.hpp"
+#include "api/vda5050/frame.hpp"
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/order.hpp"
+#include "api/vda5050/state.hpp"
+#include "api/vda5050/visualization.hpp"
+#include "server/agent/utc.hpp"
+#include "server/agent/vehicle.hpp"
+#include "server/base/log.hpp"
+
+/// What a vehicle says to its server, and hears from it.
+namespace pulseline::agent {
+
+using vda5050::Topic;
+
+namespace {
+
+constexpr double kRangeSigmas = 3;  // what deviationRange covers
+
+}  // namespace
+
+vda5050::StateMessage Vehicle::state() {
+    vda5050::StateMessage state;
+    executor_.write_state(state);
+    body_.write_state(state);
+    equipment_.write_state(state);
+    if (look_out_ && !executor_.in_hand()) {
+        look_out_->write_state(state);
+        going_round_->write_state(state);
+    }
+    state.cameras = sensing_.readings();
+    state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
+    state.localization_score = estimate_.score();
+    return state;
+}
+
+template <class Put>
+void Vehicle::put_whole(Put put) {
+    try {
+        put();
+    } catch (const vda5050::NotFinite& broken) {
+        server::log::error("message.left_out",
+                           {{"vehicle", vehicle_.id.str()}, {"what", broken.what()}});
+    }
+}
+
+void Vehicle::send_state(Steady::time_point now) {
+    last_state_ = now;
+    state_due_ = false;
+    put_whole([&] {
+        outbox_.put_state(vda5050::encode_frame(
+            Topic::kState, false,
+            vda5050::encode_state(state(), headers_.next(Topic::kState, utc_now()))));
+    });
+}
+
+void Vehicle::send_visualization() {
+    const vda5050::VisualizationMessage message{drive_->believed_pose(), true,
+                                                drive_->velocity_mps(), drive_->turn_rate_radps()};
+    vda5050::StateMessage map;
+    executor_.write_state(map);
+    put_whole([&] {
+        outbox_.put_visualization(vda5050::encode_frame(
+            Topic::kVisualization, false,
+            vda5050::encode_visualization(message, map.map_id,
+                                          headers_.next(Topic::kVisualization, utc_now()))));
+    });
+}
+
+void Vehicle::send_pictures(Steady::time_point now) {
+    pictures_due_ = false;
+    last_pictures_ = now;
+    for (const auto& picture : sensing_.pictures()) {
+        auto frame = vda5050::encode_camera_frame(
+            {picture.camera, vda5050::timestamp(utc_now()), "image/jpeg", picture.jpeg});
+        if (frame) outbox_.put_picture(picture.camera, std::move(*frame));
+    }
+}
+
+void Vehicle::send_factsheet() {
+    if (!linked_) return;
+    vda5050::FactsheetSource source;
+    source.type = &type_;
+    source.time_factor = settings_.time_factor;
+    source.node_actions = onboard::stop_action_types();
+    source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
+                               equipment_.action_types().end());
+    source.instant_actions = onboard::instant_action_types();
+    put_whole([&] {
+        outbox_.put_event(vda5050::encode_frame(
+            Topic::kFactsheet, true,
+            vda5050::encode_factsheet(source, headers_.next(Topic::kFactsheet, utc_now()))));
+    });
+}
+
+void Vehicle::link_up() {
+    outbox_.clear();
+    linked_ = true;
+    outbox_.put_event(vda5050::encode_frame(
+        Topic::kConnection, true,
+        vda5050::encode_connection(vda5050::ConnectionState::kOnline,
+                                   headers_.next(Topic::kConnection, utc_now()))));
+    send_factsheet();
+    state_due_ = true;
+    last_state_ = {};
+    last_look_ = {};
+    last_pictures_ = {};
+}
+
+void Vehicle::link_down() {
+    // It drives on to the end of its base; what it has to say waits for the next link.
+    linked_ = false;
+    outbox_.clear();
+}
+
+std::string Vehicle::offline_frame() {
+    return vda5050::encode_frame(
+        Topic::kConnection, true,
+        vda5050::encode_connection(vda5050::ConnectionState::kOffline,
+                                   headers_.next(Topic::kConnection, utc_now())));
+}
+
+void Vehicle::report(const Error& error, const char* topic) {
+    server::log::warn("message.refused", {{"vehicle", vehicle_.id.str()},
+                                          {"topic", topic},
+                                          {"what", error.what},
+                                          {"field", error.field}});
+    vda5050::VehicleError out;
+    out.type = "validationError";
+    out.description = error.what;
+    out.references = {{"topic", topic}, {"field", error.field}};
+    executor_.report(std::move(out));
+}
+
+void Vehicle::receive(std::string_view text) {
+    const auto frame = vda5050::decode_frame(text);
+    if (!frame) return report(frame.error(), "unknown");
+    const char* topic = to_string(frame->topic);
+    const auto header = vda5050::decode_header(frame->payload);
+    if (!header) return report(header.error(), topic);
+    if (header->manufacturer != vehicle_.manufacturer ||
+        header->serial_number != vehicle_.serial_number) {
+        return report({Errc::kInvalid,
+                       {"wrong_identity", {}},
+                       "the message is for another vehicle",
+                       "/serialNumber"},
+                      topic);
+    }
+    if (frame->topic == Topic::kOrder) {
+        const auto order = vda5050::decode_order(frame->payload);
+        if (!order) {
+            // The order is named, so that the sender sees this as its rejection.
+            vda5050::OrderMessage named;
+            const auto& payload = frame->payload;
+            if (payload.contains("orderId") && payload["orderId"].is_string()) {
+                named.order_id = payload["orderId"].get<std::string>();
+            }
+            if (payload.contains("orderUpdateId") && payload["orderUpdateId"].is_number_integer()) {
+                named.order_update_id = payload["orderUpdateId"].get<std::int64_t>();
+            }
+            auto error = onboard::order_error("validationError", order.error().what, named);
+            error.references.emplace_back("field", order.error().field);
+            return executor_.report(std::move(error));
+        }
+        server::log::info("order.here", {{"vehicle", vehicle_.id.str()},
+                                         {"order", order->order_id},
+                                         {"update", std::to_string(order->order_update_id)}});
+        return executor_.handle(*order);
+    }
+    if (frame->topic == Topic::kInstantActions) {
+        const auto actions = vda5050::decode_instant_actions(frame->payload);
+        if (!actions) return report(actions.error(), topic);
+        const geometry::Pose2 before = drive_->believed_pose();
+        executor_.handle(*actions);
+        // Nothing drives in between: a person said where it stands.
+        if (drive_->believed_pose() != before) estimate_.start_at(drive_->believed_pose());
+        return;
+    }
+    report({Errc::kInvalid,
+            {"wrong_topic", {}},
+            "a vehicle hears order and instantActions only",
+            "/topic"},
+           topic);
+}
+
+}  // namespace pulseline::agent

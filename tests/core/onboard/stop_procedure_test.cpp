@@ -1,0 +1,141 @@
+#include "core/onboard/stop_procedure.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/control/demo_vehicles.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+using namespace simulation;
+
+using pulseline::testing::differential;
+using pulseline::testing::mecanum;
+
+constexpr double kStep_s = 0.05;
+
+class TruePose : public StopSensing {
+public:
+    explicit TruePose(const SimulatedDrive& motion) : motion_(motion) {}
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget&) override {
+        return vda5050::StopMeasurement{motion_.true_pose(), 5e-5, 5e-5, "test", {"ST01-F"}};
+    }
+
+private:
+    const SimulatedDrive& motion_;
+};
+
+vda5050::StopTarget target_at(const Pose2& pose) {
+    return {"st01", 1, pose, 0.025, 0.025, radians(0.2), {}};
+}
+
+/// `look` sees the true pose after each step.
+template <class Look>
+StopProcedure::Outcome adjusted(StopProcedure& procedure, SimulatedDrive& motion,
+                                const vda5050::StopTarget& target, Look look) {
+    procedure.start(target, true);
+    for (int i = 0; i < 20'000; ++i) {
+        motion.step(kStep_s);
+        look(motion.true_pose());
+        if (auto outcome = procedure.step(kStep_s)) return *outcome;
+    }
+    ADD_FAILURE() << "the procedure does not end";
+    return {};
+}
+
+TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
+    const auto type = differential();
+    VehicleMotion motion(type, {}, 1, 1, simulation::testing::exact());
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    Pose2 before = motion.true_pose();
+    const auto outcome =
+        adjusted(procedure, motion, target_at({0.004, 0.006, 0}), [&](const Pose2& now) {
+            const Pose2 step = inverse(before) * now;
+            ASSERT_LE(std::abs(step.y_m), 1e-6 + std::abs(step.x_m * step.heading_rad));
+            ASSERT_LE(std::abs(now.heading_rad), radians(1.001));
+            before = now;
+        });
+    EXPECT_TRUE(outcome.succeeded) << outcome.why_not;
+    EXPECT_LE(distance(motion.true_pose().position(), {0.004, 0.006}), 0.002);
+}
+
+TEST(StopProcedure, WithItsUsualErrorsEveryVehicleEndsInsideTheTolerance) {
+    for (const auto& type : {differential(), mecanum()}) {
+        int steps = 0;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            VehicleMotion motion(type, {}, seed);
+            TruePose sensing(motion);
+            StopProcedure procedure(motion, sensing);
+            const vda5050::StopTarget target = target_at({0.003, -0.006, radians(0.08)});
+            const auto outcome =
+                adjusted(procedure, motion, target, [&](const Pose2&) { ++steps; });
+            EXPECT_TRUE(outcome.succeeded) << outcome.why_not;
+            const Pose2 off = inverse(motion.true_pose()) * target.target;
+            EXPECT_LE(norm(off.position()), 0.0045);
+        }
+        const double mean_s = steps * kStep_s / 60;
+        RecordProperty(type.id.str() + "_mean_ms", static_cast<int>(1e3 * mean_s));
+        EXPECT_LT(mean_s, 60);
+    }
+}
+
+TEST(StopProcedure, TellsWhereTheDriveHadEndedBesideWhereItStandsNow) {
+    VehicleMotion motion(mecanum(), {}, 5);
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    for (const Pose2& off : {Pose2{0.03, -0.02, 0.004}, Pose2{-0.01, 0.015, -0.003}}) {
+        const Pose2 arrived = motion.true_pose();
+        const auto outcome =
+            adjusted(procedure, motion, target_at(arrived * off), [](const Pose2&) {});
+        ASSERT_TRUE(outcome.succeeded) << outcome.why_not;
+        ASSERT_TRUE(outcome.measurement && outcome.measurement->arrived);
+        EXPECT_LE(distance(outcome.measurement->arrived->position(), arrived.position()), 1e-9);
+        EXPECT_GT(distance(outcome.measurement->pose.position(), arrived.position()), 0.01);
+    }
+}
+
+TEST(StopProcedure, LearnsHowTheVehicleMovesAndKeepsIt) {
+    MotionErrors errors = simulation::testing::exact();
+    errors.fine_scale = 0.05;
+    VehicleMotion motion(mecanum(), {}, 3, 1, errors);
+    TruePose sensing(motion);
+    control::AdjustmentLimits fine;
+    fine.good_m = 0.0008;  // finer than a window ends: moves only
+    StopProcedure procedure(motion, sensing, fine);
+    for (int i = 0; i < 12; ++i) {
+        const Pose2 target = motion.true_pose() * Pose2{i % 2 == 0 ? 0.05 : -0.04, 0.03, 0.01};
+        EXPECT_TRUE(adjusted(procedure, motion, target_at(target), [](const Pose2&) {}).succeeded);
+    }
+    const Pose2 before = motion.true_pose();
+    const double wanted_m = 0.06;
+    const double command_m =
+        procedure.compensation().commanded(control::MoveKind::kAdvance, wanted_m);
+    EXPECT_GT(std::abs(command_m - wanted_m), 1e-4);  // this seed's vehicle is not exact
+    motion.correct(
+        control::placed(motion.believed_pose(), control::segments_of(std::vector<control::Move>{
+                                                    {control::MoveKind::kAdvance, command_m}})));
+    while (!motion.idle()) motion.step(kStep_s);
+    EXPECT_NEAR(distance(motion.true_pose().position(), before.position()), wanted_m, 2e-4);
+
+    const StopProcedure restarted(motion, sensing, {}, procedure.compensation());
+    EXPECT_EQ(restarted.compensation().passes(), procedure.compensation().passes());
+}
+
+TEST(StopProcedure, SaysWhatWasReachedWhenTheTargetIsTooFar) {
+    VehicleMotion motion(mecanum(), {}, 1);
+    TruePose sensing(motion);
+    StopProcedure procedure(motion, sensing);
+    const auto outcome = adjusted(procedure, motion, target_at({0.15, 0, 0}), [](const Pose2&) {});
+    EXPECT_FALSE(outcome.succeeded);
+    EXPECT_EQ(outcome.why_not.rfind("too_far_from_target: 150.0 mm and 0.000 deg left", 0), 0u)
+        << outcome.why_not;
+    EXPECT_TRUE(outcome.measurement);
+}
+
+}  // namespace
+}  // namespace pulseline::onboard
