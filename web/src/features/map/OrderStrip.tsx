@@ -1,6 +1,6 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
-import { useJobOrders, useLinkLost, useServerNow } from "@/shared/live";
+import { useJobOrders, useLinkLost, useLive, useServerNow } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { openOrders } from "./listRows";
 import { OrderCard } from "./OrderCard";
@@ -15,17 +15,19 @@ export function OrderStrip() {
   const now = useServerNow(5000);
   const open = useMemo(() => openOrders(orders, now), [orders, now]);
   const lost = useLinkLost();
+  // Before the first snapshot nobody knows whether there are any.
+  const none = useLive((s) => s.ready) && open.length === 0;
   const more = open.length - kShown;
   return (
     <section className={`strip gt-sm ${lost ? "old" : ""}`} aria-label={t("orders.title")}>
       <header>
         <b>{t("orders.title")}</b>
         <span className="cap">
-          {open.length === 0
-            ? t("orders.none")
-            : more > 0
+          {none && t("orders.none")}
+          {open.length > 0 &&
+            (more > 0
               ? t("orders.some", { shown: kShown, count: open.length })
-              : t("orders.summary", { count: open.length })}
+              : t("orders.summary", { count: open.length }))}
         </span>
         {more > 0 && (
           <Link className="inline" to="/orders">
@@ -37,7 +39,7 @@ export function OrderStrip() {
         {open.slice(0, kShown).map((order) => (
           <OrderCard key={order.id} order={order} />
         ))}
-        {open.length === 0 && <div className="mv idle lab">{t("orders.none_hint")}</div>}
+        {none && <div className="mv idle lab">{t("orders.none_hint")}</div>}
       </div>
     </section>
   );
