@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
-import { System } from "../harness/processes.mjs";
+import { System, until } from "../harness/processes.mjs";
 import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 import { reachFaultsOf } from "../harness/reach.mjs";
 
@@ -66,5 +66,20 @@ test("a dashboard that was loaded before the server answers begins when it does"
   await picture(page, "loaded-while-cut");
   await page.unroute("**/api/v1/session");
   await page.getByRole("table").getByRole("link", { name: "MV-01" }).waitFor({ timeout: 15_000 });
+  await page.context().close();
+});
+
+test("before anything is heard the map does not say that there are no orders", async () => {
+  const page = await signedIn(browser, system, "operator");
+  let stream;
+  await page.routeWebSocket(/\/api\/v1\/stream/, (one) => { stream = one; });
+  await page.goto(`${system.url}/map`);
+  const strip = page.locator(".strip");
+  await strip.getByText("Open orders", { exact: true }).waitFor();
+  await until("it asks to be told", () => stream !== undefined, { timeout_s: 10, every_ms: 20 });
+  assert.equal(await strip.getByText("No open orders").count(), 0);
+  stream.connectToServer();
+  await strip.getByText("No open orders").waitFor();
+  assert.deepEqual(page.errors, []);
   await page.context().close();
 });
