@@ -143,7 +143,7 @@ describe("modes", () => {
   // What the planner may say against a mode, read from its sources: a new code must not reach people as a code.
   const root = new URL("../../../../core/", import.meta.url);
   const sources = ["kinematics", "planning", "fleet/views"].flatMap((folder) =>
-    readdirSync(new URL(folder, root))
+    readdirSync(new URL(folder, root), { recursive: true, encoding: "utf8" })
       .filter((name) => name.endsWith(".cpp") && (folder !== "fleet/views" || name === "motion_preview.cpp"))
       .map((name) => readFileSync(new URL(`${folder}/${name}`, root), "utf8")),
   );
