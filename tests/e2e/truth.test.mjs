@@ -105,7 +105,13 @@ test("a broken wheel and a stop that was not measured: headline, list, counters,
 });
 
 test("with the link cut nothing looks fresh, and no check passes", async () => {
-  const page = await signedIn(browser, system, "operator", { path: "/vehicles/TP-01" });
+  await client.untilEnded((await client.order("TP-01", [2])).id);
+  // What the pages are made of comes before the link is cut.
+  const page = await signedIn(browser, system, "operator", { path: "/orders" });
+  await page.locator("table.rows tbody tr a").first().click();
+  await page.locator(".odetail .ans1").waitFor();
+  await page.locator(".rail a[href='/vehicles']").click();
+  await page.getByRole("link", { name: "TP-01" }).click();
   await page.locator(".why .chk[data-result=pass]").first().waitFor();
   await until("all of it is fresh", async () => (await page.locator(".chk[data-stale=true]").count()) === 0, { timeout_s: 10, every_ms: 100 });
   await page.context().setOffline(true);
@@ -122,6 +128,16 @@ test("with the link cut nothing looks fresh, and no check passes", async () => {
   assert.match(await page.locator(".veh.old[data-vehicle='TP-01']").evaluate((row) => getComputedStyle(row).backgroundImage), /gradient/, "hatched");
   await page.locator(".strip.old").waitFor();
   await picture(page, "map-link-cut-list");
+  await page.setViewportSize({ width: 760, height: 1024 });
+  for (const text of await page.locator(".banner .txt:visible > *").all()) {
+    assert.ok(await text.evaluate((e) => e.scrollWidth <= e.clientWidth + 1 && e.scrollHeight <= e.clientHeight + 1), `on a tablet it is whole: ${await text.innerText()}`);
+  }
+  await page.locator(".rail a[href='/orders']").click();
+  await page.locator("table.rows tbody tr a").first().click();
+  for (const what of [".odetail .ans1", ".odetail td"]) {
+    assert.match(await page.locator(what).first().evaluate((e) => getComputedStyle(e).backgroundImage), /gradient/, `${what} is hatched`);
+  }
+  await picture(page, "order-link-cut");
   assert.deepEqual(page.errors, []);
   await page.context().close();
 });
