@@ -122,6 +122,30 @@ test("battery, fields and mode of a vehicle stay at every width", async () => {
   await page.context().close();
 });
 
+// The three sizes are not all there are: a tablet held upright is 768 px wide, and a broken link takes more of the header.
+test("Pause fleet is in its corner, and the language in reach, at every width, with a link and without", async () => {
+  for (const lang of ["en", "zh"]) {
+    const page = await signedIn(browser, system, "operator", { lang });
+    for (const link of ["live", "lost"]) {
+      if (link === "lost") {
+        await page.context().setOffline(true);
+        await page.evaluate(() => dispatchEvent(new Event("offline")));
+        await page.locator(".app[data-link=lost]").waitFor({ timeout: 15_000 });
+      }
+      for (const width of [1920, 1280, 1279, 1024, 960, 959, 840, 839, 768, 720, 719, 390, 360]) {
+        await page.setViewportSize({ width, height: 800 });
+        const right = await page.locator("button.pause").evaluate((e) => e.getBoundingClientRect().right - innerWidth);
+        assert.ok(Math.abs(right) <= 0.5, `${lang}, ${link}, ${width} px: Pause fleet ends ${right} px beside the edge`);
+        const inHeader = await page.locator(".shell > .lang").isVisible();
+        if (!inHeader) await page.locator(".who > button").click();
+        assert.equal(await page.getByRole("button", { name: "中文" }).isVisible(), true, `${lang}, ${width} px: the language`);
+        if (!inHeader) await page.locator(".who > button").click();
+      }
+    }
+    await page.context().close();
+  }
+});
+
 // Late: MV-01 is told that it stands where its numbers are longest.
 test("the longest numbers of a pose leave the columns apart", async () => {
   await client.post("/api/v1/vehicles/MV-01/init-position", { ...(await client.get("/api/v1/vehicles/MV-01")).pose, x_m: 114.6, y_m: 57, heading_rad: Math.PI });
