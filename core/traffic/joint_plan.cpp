@@ -318,7 +318,6 @@ std::optional<TileIndex> JointPlan::obstacle(VehicleIndex vehicle, MoveNumber n)
                 if (use.last >= n) break;
                 continue;  // an earlier stay of its own that it has not passed yet
             }
-            if (use.vehicle == vehicle) return tile;
             return tile;
         }
     }

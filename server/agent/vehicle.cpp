@@ -96,15 +96,15 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                                               std::in_place, settings.learned, vehicle.id.str())),
       executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
-      scanners_(world, hall_, type_, drive_->true_pose(),
-                simulation::seed_for(settings.seed, "scanners " + vehicle.id.str())),
       estimate_(geometry::Pose2{}),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
     drive_->set_believed({});  // where it stands it is told, or its codes say
     if (settings.servo_drive) {
-        look_out_.emplace(scanners_, vehicle, *drive_);
+        scanners_.emplace(world, hall_, type_, drive_->true_pose(),
+                          simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
+        look_out_.emplace(*scanners_, vehicle, *drive_);
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
     }
 }
@@ -152,7 +152,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
 }
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {
-    scanners_.see(std::move(neighbours));
+    if (scanners_) scanners_->see(std::move(neighbours));
 }
 
 void Vehicle::show_body(const plant::HallId& hall, geometry::Point2 from,
@@ -183,10 +183,10 @@ void Vehicle::apply(const Fault& fault) {
         case Fault::Kind::kDark:
             return sensing_.darken();
         case Fault::Kind::kObstacle:
-            scanners_.put(thing_at(fault.place));
+            if (scanners_) scanners_->put(thing_at(fault.place));
             return;
         case Fault::Kind::kWayFree:
-            scanners_.take_away();
+            if (scanners_) scanners_->take_away();
             return;
         case Fault::Kind::kWheel:
             body_.break_wheel(fault.wheel);

@@ -100,8 +100,9 @@ private:
     std::optional<LearnedMoves> learned_;
     onboard::Executor executor_;
     BodyStatus body_;
-    simulation::SimulatedScanners scanners_;
-    std::optional<onboard::LookOut> look_out_;
+    // Who does not drive by its wheels sees nothing, and thousands of them cost nothing.
+    std::optional<simulation::SimulatedScanners> scanners_;
+    std::optional<onboard::LookOut> look_out_;        // with scanners
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
     TruthLog* truth_;

@@ -4,6 +4,7 @@
 #include <ranges>
 #include <set>
 
+#include "core/fleet/vehicle/link.hpp"
 #include "core/kinematics/motion.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
 

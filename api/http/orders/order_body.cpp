@@ -1,4 +1,5 @@
 #include "api/http/orders/order_body.hpp"
+#include "api/http/wire/query.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -10,7 +11,6 @@ constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kMaxActions = 20;
 constexpr std::size_t kMaxParameters = 50;
 constexpr std::size_t kMaxDependencies = 100;
-constexpr std::int64_t kMaxStation = 1'000'000'000;
 constexpr json::TextLimits kName{1, 64};
 
 /// A plain value; nothing and an error kept when it is none.

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "api/http/wire/query.hpp"
 #include "core/base/angle.hpp"
 
 namespace pulseline::api {
@@ -13,7 +14,6 @@ using json::Json;
 using json::ObjectReader;
 using plant::MotionMode;
 
-constexpr std::int64_t kMaxStation = 1'000'000'000;
 constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
 constexpr double kMaxHeading_rad = 6.2832;
 constexpr json::TextLimits kName{1, 64};

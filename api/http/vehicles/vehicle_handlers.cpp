@@ -9,11 +9,10 @@
 #include "api/http/wire/etag.hpp"
 #include "api/http/wire/page.hpp"
 #include "api/http/wire/problem.hpp"
+#include "api/http/wire/query.hpp"
 
 namespace pulseline::api {
 namespace {
-
-constexpr std::int64_t kMaxStation = 1'000'000'000;
 
 Error unknown(const char* code, const std::string& id, const char* what) {
     return {Errc::kNotFound, {code, {{"id", id.substr(0, 64)}}}, what, {}};

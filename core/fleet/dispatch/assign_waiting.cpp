@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/fleet/dispatch/assignment.hpp"
+#include "core/fleet/dispatch/cost_matching.hpp"
 #include "core/fleet/dispatch/urgency.hpp"
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/orders/planning.hpp"

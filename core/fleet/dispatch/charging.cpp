@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/fleet/dispatch/assignment.hpp"
+#include "core/fleet/dispatch/cost_matching.hpp"
 #include "core/fleet/legs/legs.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"

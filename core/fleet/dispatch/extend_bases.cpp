@@ -9,8 +9,8 @@ namespace {
 
 /// A leg that has nothing on the floor yet has not been sent either.
 bool is_first_grant(const VehicleRun& run) {
-    return run.leg().released_nodes == 1 && run.leg().nodes.size() > 1 && !run.delivery.seen() &&
-           !run.delivery.unconfirmed();
+    return run.leg().released_nodes == 1 && run.leg().nodes.size() > 1 &&
+           run.delivery.phase() == LegDelivery::Phase::kPlanned;
 }
 
 }  // namespace

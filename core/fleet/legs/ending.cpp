@@ -41,7 +41,7 @@ void begin_step_anew(FleetState& fleet, const VehicleRun& run, JobOrder& order, 
     if (has_step) {
         Step& step = order.steps[order.current_step];
         step.state = StepState::kPending;
-        if (end != LegEnd::kLost) step.leg = {};  // people look for what became of a lost one
+        if (end != LegEnd::kLost) step.leg = {};  // of a lost one it still says which it was
     }
     // Who has to look at the vehicle first decides about its order, too.
     const bool asks = end == LegEnd::kLost && run.record.needs_resume;
@@ -60,7 +60,8 @@ void end_leg(FleetState& fleet, VehicleRun& run, LegEnd end, Time now) {
     const Leg& leg = run.leg();
     const bool arrived = end == LegEnd::kDone ||
                          (end == LegEnd::kAnotherApproach && leg.passed_nodes == leg.nodes.size());
-    // One that makes way is cancelled for the sake of the vehicle's own order.
+    // A drive that was not sent begins nothing anew but its own order; a cancelled or lost one, the
+    // order that the vehicle has.
     JobOrder* order =
         end == LegEnd::kUnsent ? fleet.find(leg.order) : fleet.orders.of(run.record.id);
     drop(fleet, run, now, arrived);

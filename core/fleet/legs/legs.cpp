@@ -104,7 +104,7 @@ void extend_base(FleetState& fleet, VehicleRun& run, Time now) {
         set_order_reason(fleet, *order, {}, now);
         if (!order->expected && run.delivery.seen()) expect_end(fleet, run, *order, now);
     }
-    const bool is_new = before == 1 && !run.delivery.unconfirmed() && !run.delivery.seen();
+    const bool is_new = before == 1 && run.delivery.phase() == LegDelivery::Phase::kPlanned;
     if (!is_new) ++leg.update_id;
     send_order_update(fleet, run, is_new ? 0 : before - 1, now);
     add_event(fleet, now, event::kLegReleased, leg.order, leg.id, leg.vehicle, {},

@@ -9,6 +9,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 
 namespace pulseline::fleet {

@@ -24,11 +24,7 @@ struct BracketShare {
 
 /// How long the vehicle has been silent (no frame, no pong).
 enum class Link { kNever, kLive, kLate, kLost, kGone };
-
 const char* to_string(Link link);  // "live"
-constexpr Duration kLateAfter = std::chrono::seconds(2);
-constexpr Duration kLostAfter = std::chrono::seconds(10);
-constexpr Duration kGoneAfter = std::chrono::seconds(60);
 
 enum class Activity {
     kStanding,

@@ -6,8 +6,6 @@
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 
-// The link to a vehicle: how long it has been silent, and what is sent until the vehicle confirms
-// it.
 namespace pulseline::fleet {
 namespace {
 

@@ -5,6 +5,11 @@
 /// How long a vehicle has been silent, and what follows of it.
 namespace pulseline::fleet {
 
+// Of silence; what each of them means stands beside Link.
+constexpr Duration kLateAfter = std::chrono::seconds(2);
+constexpr Duration kLostAfter = std::chrono::seconds(10);
+constexpr Duration kGoneAfter = std::chrono::seconds(60);
+
 void connect(FleetState& fleet, VehicleRun& run, Time now);
 void disconnect(FleetState& fleet, VehicleRun& run, Time now);
 void hear(FleetState& fleet, VehicleRun& run, Time now);

@@ -1,4 +1,4 @@
-#include "core/fleet/dispatch/assignment.hpp"
+#include "core/fleet/dispatch/cost_matching.hpp"
 
 #include <cmath>
 #include <limits>
