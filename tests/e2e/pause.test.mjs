@@ -77,7 +77,7 @@ test("eight taps on Pause are a pause: it says Stopping until the platform stand
     await resume.click();
     return page.locator(".card.held .cmd[data-state=armed]").waitFor({ timeout: 700 }).then(() => true, () => false);
   }, { timeout_s: 10, every_ms: 300 });
-  await page.getByText("7 s left").waitFor();
+  await page.getByText(/[1-7] s left/).waitFor();
   await resume.click();
   await client.untilVehicle("TP-01", isDriving, "drives on");
   assert.equal((await client.untilEnded(order.id)).state, "Ended");
@@ -120,7 +120,7 @@ test("Pause fleet: Stopping until all stand, by whom on every page, and who was 
   assert.deepEqual(await faultsOf(page), []);
   const go = panel.locator(".cmd");
   await go.click();
-  await page.getByText("7 s left").waitFor();
+  await page.getByText(/[1-7] s left/).waitFor();
   await go.click();
   await client.untilVehicle("TP-01", isDriving, "drives on");
   assert.equal((await client.get("/api/v1/vehicles/MV-01")).paused, true, "its own pause still holds");
@@ -148,7 +148,7 @@ test("the move that is watched can be paused and cancelled there, and the cancel
   await picture(page, "send-paused");
   const cancel = bar.locator(".cmd", { hasText: "Cancel order" });
   await cancel.click();
-  await page.getByText("7 s left").waitFor();
+  await page.getByText(/[1-7] s left/).waitFor();
   await bar.locator(".cmd[data-state=armed]").click();
   assert.equal((await client.untilEnded(order.id)).state, "Aborted");
   await bar.getByRole("button", { name: "Next move" }).waitFor();

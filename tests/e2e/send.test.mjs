@@ -43,7 +43,7 @@ async function armAndStart(page, vehicle) {
   await until("start can be armed", async () => (await start.getAttribute("aria-disabled")) !== "true", { timeout_s: 20, every_ms: 100 });
   await page.getByRole("button", { name: /Arm/ }).click();
   // A press right behind the arming one is ignored by design; the ring has drained a second then.
-  await page.getByText("7 s left").waitFor();
+  await page.getByText(/[1-7] s left/).waitFor();
   await page.getByRole("button", { name: /Start move/ }).dblclick();
   return until("the order is stored", async () => (await client.get(`/api/v1/job-orders?vehicle=${vehicle}`)).items.find((o) => !before.has(o.id)), { timeout_s: 10, every_ms: 50 });
 }
