@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { startBrowser } from "../harness/browser.mjs";
 import { faultsOfWords, rememberPaint, wordsOf } from "../harness/crawl.mjs";
+import { overlapsOf } from "../harness/reach.mjs";
 
 let browser;
 before(async () => { browser = await startBrowser(); });
@@ -59,4 +60,15 @@ test("a page is read in all its places, what is hidden or painted over is not, a
   assert.deepEqual(found.sort(), ["alt", "cell", "drawing", "frame", "hall", "label", "option", "outline", "placeholder", "text", "tip", "title"].map((name) => `in_${name}`));
   assert.deepEqual(words.filter((word) => word.language === "zh").map((word) => word.text), ["中文"]);
   await page.context().close();
+});
+
+test("words that lie over each other are found; a panel that floats, a line below and what is cut away lie over nothing", async () => {
+  const page = await browser.newPage();
+  await page.setContent(`
+    <div style="height: 20px; line-height: 20px; width: 90px">three lines of words here</div><p style="margin: 0">what to do</p>
+    <p style="position: fixed; top: 0">a panel</p>
+    <p>above</p><p style="line-height: 15px; margin: 0">one line<br>the next</p>
+    <div style="height: 20px; overflow: hidden; width: 90px; line-height: 20px">cut away after one line</div><p style="margin: 0">after it</p>`);
+  assert.deepEqual(await overlapsOf(page), ['"three lines of words here" lies over "what to do"']);
+  await page.close();
 });

@@ -1,4 +1,4 @@
-// What a finger can not reach on the page shown: too wide, too small, cut off or covered. Runs in the page.
+// What a finger can not reach on the page shown: too wide, too small, cut off or covered; and words that lie over each other. Runs in the page.
 
 /** Faults of the layout in words; none is an empty list. Scrolls the page's own lists, and back to their beginning. `within`: a panel that lies over the rest. */
 export async function reachFaultsOf(page, { least = 44, pause: hasPause = true, within = "body" } = {}) {
@@ -45,4 +45,47 @@ export async function reachFaultsOf(page, { least = 44, pause: hasPause = true, 
     for (const e of document.querySelectorAll("*")) if (e.scrollTop > 0) e.scrollTop = 0;
     return [...new Set(faults)];
   }, [least, hasPause, within]);
+}
+
+/** Words of one layer that lie over each other; none is an empty list. A panel or a bar that floats is a layer of its own. */
+export async function overlapsOf(page) {
+  return page.evaluate(() => {
+    const floats = ({ position, zIndex }) => position === "fixed" || position === "sticky" || (position === "absolute" && zIndex !== "auto");
+    /** Its layer, and the box that its ancestors let be seen of it. */
+    const frameOf = (element) => {
+      const seen = { left: 0, right: innerWidth, top: -Infinity, bottom: Infinity };
+      let layer;
+      for (let e = element; e !== null && layer === undefined; e = e.parentElement) {
+        const style = getComputedStyle(e);
+        if (style.overflow !== "visible") {
+          const r = e.getBoundingClientRect();
+          Object.assign(seen, { left: Math.max(seen.left, r.left), right: Math.min(seen.right, r.right), top: Math.max(seen.top, r.top), bottom: Math.min(seen.bottom, r.bottom) });
+        }
+        if (floats(style)) layer = e;
+      }
+      return { layer: layer ?? document.body, seen };
+    };
+    const lines = [];
+    const texts = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (texts.nextNode()) {
+      const node = texts.currentNode, element = node.parentElement;
+      if (node.data.trim() === "" || element.closest(".sr-only, .unseen, .skip, script, style") !== null || !element.checkVisibility({ visibilityProperty: true, opacityProperty: true })) continue;
+      const { layer, seen } = frameOf(element);
+      const range = document.createRange();
+      range.selectNodeContents(node);
+      for (const r of range.getClientRects()) {
+        // A font's box is higher than its letters.
+        const box = { left: Math.max(r.left + 2, seen.left), right: Math.min(r.right - 2, seen.right), top: Math.max(r.top + r.height / 4, seen.top), bottom: Math.min(r.bottom - r.height / 4, seen.bottom) };
+        if (box.right > box.left && box.bottom > box.top) lines.push({ node, layer, box, words: node.data.trim().slice(0, 40) });
+      }
+    }
+    const faults = [];
+    for (const [i, a] of lines.entries()) {
+      for (const b of lines.slice(i + 1)) {
+        if (a.node === b.node || a.layer !== b.layer) continue;
+        if (Math.min(a.box.right, b.box.right) > Math.max(a.box.left, b.box.left) && Math.min(a.box.bottom, b.box.bottom) > Math.max(a.box.top, b.box.top)) faults.push(`"${a.words}" lies over "${b.words}"`);
+      }
+    }
+    return [...new Set(faults)];
+  });
 }

@@ -7,7 +7,7 @@ import { after, before, test } from "node:test";
 import { until } from "../harness/processes.mjs";
 import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 import { faultsOfWords, rememberPaint, wordsOf } from "../harness/crawl.mjs";
-import { reachFaultsOf } from "../harness/reach.mjs";
+import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 import { kWalker, startTroubledHall } from "./walk_hall.mjs";
 import { pausedScreens, screensOf } from "./walk_screens.mjs";
 
@@ -95,6 +95,7 @@ async function look(page, screen, axeLooks, problems) {
         note(faultsOfWords(words, allowed), "words");
         if (themes.length > 0) await picture(page, `walk-${screen.name.replaceAll(/\W+/g, "-")}-${page.viewportSize().width}-${theme}-${language}`);
         await screen.keep?.(page);
+        note(await overlapsOf(page), `${language}, words over each other`);
         note(await reachFaultsOf(page, { within: screen.within }), `${language}, reach`);
       }
       if (themes.length === 0) continue;

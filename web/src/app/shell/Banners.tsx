@@ -1,7 +1,7 @@
 import { useEffect, useMemo, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import type { Fleet } from "@/shared/api/types";
-import { age, days, timeOfDay } from "@/shared/i18n/format";
+import { age, days, timeOfDay } from "@/shared/words/format";
 import {
   alarms,
   silent,

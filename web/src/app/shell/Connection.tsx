@@ -1,5 +1,5 @@
 import { useTranslation } from "react-i18next";
-import { age } from "@/shared/i18n/format";
+import { age } from "@/shared/words/format";
 import { useFleet, useLink } from "@/shared/live";
 import { Icon, StatusSymbol } from "@/shared/ui";
 import "./Connection.css";

@@ -4,7 +4,7 @@ import { useLinkLost, useNow, usePlant } from "@/shared/live";
 import { setLanguage, setTheme } from "@/shared/i18n/setup";
 import { useTheme } from "@/shared/i18n/useTheme";
 import { Link, useLocation } from "@/shared/router";
-import { timeOfDay } from "@/shared/i18n/format";
+import { timeOfDay } from "@/shared/words/format";
 import { Button, Icon, type IconName } from "@/shared/ui";
 import { AlarmCounts } from "./AlarmCounts";
 import { Banners } from "./Banners";

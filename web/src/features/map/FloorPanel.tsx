@@ -2,7 +2,7 @@ import { useCallback, useEffect, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { Closure } from "@/shared/api/types";
-import { timeOfDay } from "@/shared/i18n/format";
+import { timeOfDay } from "@/shared/words/format";
 import { useClosures, useCommandsEnabled, useMayCommand } from "@/shared/live";
 import type { HallModel } from "@/shared/map";
 import { Button, CommandButton, type CommandProgress } from "@/shared/ui";

@@ -5,7 +5,7 @@ import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { distance_m } from "./statistics";
+import { distance_m } from "./plots/statistics";
 import type { ListedStop } from "./stopLists";
 import "./results.css";
 

@@ -3,7 +3,7 @@ import type { StopRecord } from "@/shared/api/types";
 import { Link } from "@/shared/router";
 import { Card, DeviationBar } from "@/shared/ui";
 import { degrees, mass, millimetres, number } from "@/shared/words/format";
-import { limitDecimals } from "./trendScale";
+import { limitDecimals } from "./plots/trendScale";
 import "./ThisStop.css";
 
 /** The three deviations of a stop on their tolerance bands, and how it was measured. */

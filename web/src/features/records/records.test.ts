@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
 import type { FleetEvent, StopRecord } from "@/shared/api/types";
-import { countedStops, ellipse95, series, upTo, widerThanTolerance, type Series } from "./statistics";
-import { headingFactor, niceStep, toleranceScale, rayLength, toleranceLabelSide } from "./targetScale";
-import { limitDecimals, limitsWithin, trendReach, unbroken } from "./trendScale";
+import { countedStops, ellipse95, series, upTo, widerThanTolerance, type Series } from "./plots/statistics";
+import { headingFactor, niceStep, toleranceScale, rayLength, toleranceLabelSide } from "./plots/targetScale";
+import { limitDecimals, limitsWithin, trendReach, unbroken } from "./plots/trendScale";
 import { listedStops, matches, mergeStops, resultOf, wantsOlder } from "./stopLists";
 
 const tolerance = { shape: "box" as const, dx_m: 0.025, dy_m: 0.025, dheading_rad: (0.2 * Math.PI) / 180 };

@@ -1,5 +1,5 @@
 import type { FleetEvent, StopRecord } from "@/shared/api/types";
-import { upTo } from "./statistics";
+import { upTo } from "./plots/statistics";
 
 export interface StopFilter {
   vehicle?: string | undefined;

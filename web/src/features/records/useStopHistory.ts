@@ -3,7 +3,7 @@ import { useEffect, useMemo, useRef } from "react";
 import { api, call } from "@/shared/api";
 import type { StopRecord } from "@/shared/api/types";
 import { useStopRecords, useUnmeasuredTurn } from "@/shared/live";
-import { upTo } from "./statistics";
+import { upTo } from "./plots/statistics";
 import { matches, mergeStops, wantsOlder, type StopFilter } from "./stopLists";
 
 const kPage = 50;

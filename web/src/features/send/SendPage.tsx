@@ -4,18 +4,18 @@ import type { MotionMode } from "@/shared/api/types";
 import { useStopRecords, useVehicle } from "@/shared/live";
 import { useLocation } from "@/shared/router";
 import { useWords } from "@/shared/words/useWords";
-import { BusyNote } from "./BusyNote";
-import { busyKey, busyWith, goesTo } from "./busy";
-import { MoveBar } from "./MoveBar";
-import { MovePanel } from "./MovePanel";
-import { capitalise, moveWords } from "./moveWords";
-import { PreviewCard } from "./PreviewCard";
-import { moveProgress } from "./progress";
-import { SendSteps } from "./SendSteps";
-import { StartBar } from "./StartBar";
+import { BusyNote } from "./busy/BusyNote";
+import { busyKey, busyWith, goesTo } from "./busy/busy";
+import { MoveBar } from "./move/MoveBar";
+import { MovePanel } from "./move/MovePanel";
+import { capitalise, moveWords } from "./preview/moveWords";
+import { PreviewCard } from "./preview/PreviewCard";
+import { moveProgress } from "./move/progress";
+import { SendSteps } from "./steps/SendSteps";
+import { StartBar } from "./start/StartBar";
 import { useChoice } from "./useChoice";
 import { useSend, type Send } from "./useSend";
-import { useSentOrder, useStart } from "./useStart";
+import { useSentOrder, useStart } from "./start/useStart";
 import "./SendPage.css";
 
 /** Send platform: vehicle, station, motion mode, checks, preview, two-step start, progress, result. */

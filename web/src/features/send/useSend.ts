@@ -10,14 +10,14 @@ import {
   useVehicle,
   useVehicles,
 } from "@/shared/live";
-import { busyKey, busyWith } from "./busy";
-import { floorCheck } from "./floorCheck";
-import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview";
-import { lookUpStation, stationOf } from "./stationEntry";
+import { busyKey, busyWith } from "./busy/busy";
+import { floorCheck } from "./steps/floorCheck";
+import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
+import { lookUpStation, stationOf } from "./steps/stationEntry";
 import { useOnScreen } from "./useOnScreen";
-import { usePreview, type PreviewQuestion } from "./usePreview";
-import { sortForSending } from "./VehicleStep";
-import { useWhyNot } from "./whyNot";
+import { usePreview, type PreviewQuestion } from "./preview/usePreview";
+import { sortForSending } from "./steps/VehicleStep";
+import { useWhyNot } from "./start/whyNot";
 import type { Choice } from "./useChoice";
 
 export type Send = ReturnType<typeof useSend>;

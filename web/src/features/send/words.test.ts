@@ -1,21 +1,21 @@
 import { readdirSync, readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import type { Check, MotionMode, Plant, Reason, StationState, Vehicle } from "@/shared/api/types";
-import rawReasonsEn from "@/shared/i18n/reasons.en.json";
-import rawReasonsZh from "@/shared/i18n/reasons.zh.json";
-import wordsEn from "@/shared/i18n/words.en.json";
-import wordsZh from "@/shared/i18n/words.zh.json";
+import rawReasonsEn from "@/shared/words/catalogs/reasons.en.json";
+import rawReasonsZh from "@/shared/words/catalogs/reasons.zh.json";
+import wordsEn from "@/shared/words/catalogs/words.en.json";
+import wordsZh from "@/shared/words/catalogs/words.zh.json";
 import sprite from "@/shared/ui/sprite.svg?raw";
-import { noNames } from "@/shared/words/words";
-import { checksSummary, checkWords } from "./checkWords";
+import { noNames } from "@/shared/words/sentence";
+import { checksSummary, checkWords } from "./steps/checkWords";
 import en from "./i18n.en.json";
 import zh from "./i18n.zh.json";
-import { modeIcon } from "./ModeStep";
-import { deviationValues, moveWords, type Segment } from "./moveWords";
-import { dimension, wayOf } from "./moveGeometry";
+import { modeIcon } from "./steps/ModeStep";
+import { deviationValues, moveWords, type Segment } from "./preview/moveWords";
+import { dimension, wayOf } from "./preview/moveGeometry";
 import { isTyping, pressKey, padKeyOf } from "@/shared/ui/padKeys";
-import { lookUpStation } from "./stationEntry";
-import { numberRanges } from "./StationStep";
+import { lookUpStation } from "./steps/stationEntry";
+import { numberRanges } from "./steps/StationStep";
 
 const reasonsEn: Record<string, string> = rawReasonsEn;
 const reasonsZh: Record<string, string> = rawReasonsZh;
@@ -90,6 +90,7 @@ describe("moveWords", () => {
       { kind: "combined" as const, turn_rad: -Math.PI / 2, length_m: 4 },
       "move 4.000 m, turning 90.0° right on the way",
     ],
+    [{ kind: "combined" as const, turn_rad: 0.0002, length_m: 15.881 }, "move 15.881 m"],
     [{ kind: "arc" as const, turn_rad: Math.PI / 2, length_m: 5 * Math.PI }, "arc 90.0° left, radius 10.0 m"],
     [
       { kind: "arc" as const, turn_rad: -Math.PI, length_m: -10 * Math.PI },
@@ -178,11 +179,13 @@ describe("modes", () => {
 });
 
 describe("checkWords", () => {
+  const t = (key: string, values?: Record<string, unknown>) =>
+    template(key.replace(/^send:/, "")) ?? String(values?.["defaultValue"] ?? key);
   const words = (check: Partial<Check>) =>
     checkWords(
       { code: "load", result: "pass", params: {}, ...check } as Check,
       noNames,
-      template,
+      t,
       (r: Reason) => `why ${r.code}`,
     );
   it.each<[Partial<Check>, string]>([
@@ -212,10 +215,11 @@ describe("checkWords", () => {
       result: "fail",
       params: { reason: "wheel_fault", wheel: "front drive", fault: "steering_drive_fault" },
     } as unknown as Check;
-    const names = { ...noNames, fault: () => "fault of the steering drive" };
+    const inWords = (key: string, values?: Record<string, unknown>) =>
+      key === "faults:steering_drive_fault" ? "fault of the steering drive" : t(key, values);
     const reason = (r: Reason) => `${r.params["wheel"]}: ${r.params["fault"]}`;
-    expect(checkWords(check, names, template, reason)).toBe("front drive: steering_drive_fault");
-    expect(checkWords({ ...check, code: "wheels" }, names, template, reason)).toBe(
+    expect(checkWords(check, noNames, inWords, reason)).toBe("front drive: steering_drive_fault");
+    expect(checkWords({ ...check, code: "wheels" }, noNames, inWords, reason)).toBe(
       "Wheel front drive: fault of the steering drive",
     );
   });

@@ -1,9 +1,9 @@
 import { useRef, useState, type FormEvent } from "react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/shared/api";
-import { problemText } from "@/shared/i18n/reasons";
+import { problemText } from "@/shared/words/reasons";
 import { setLanguage } from "@/shared/i18n/setup";
-import { timeOfDay } from "@/shared/i18n/format";
+import { timeOfDay } from "@/shared/words/format";
 import { signIn, useSessionState } from "@/shared/live/session";
 import { Button, StatusSymbol } from "@/shared/ui";
 import "./signin.css";

@@ -2,9 +2,9 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card } from "@/shared/ui";
 import { age, fixed } from "@/shared/words/format";
-import { feetDown } from "./faceplate";
-import { summarise, titleOf } from "./loads";
-import { PlatformDrawing } from "./PlatformDrawing";
+import { feetDown } from "./drawing/faceplate";
+import { summarise, titleOf } from "./drawing/loads";
+import { PlatformDrawing } from "./drawing/PlatformDrawing";
 
 /** The vehicle from above with what its sensors say of load, wheels and feet. */
 export function LoadsCard({

@@ -1,9 +1,9 @@
 import { describe, expect, it } from "vitest";
 import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
-import { footCorner, onSheet, sheetOf } from "./faceplate";
+import { footCorner, onSheet, sheetOf } from "./drawing/faceplate";
 import { canApply } from "./integration";
 import { draftOf, emptyDraft, parseNumber, readDraft } from "./initPosition";
-import { centreOfLoad, summarise, titleOf } from "./loads";
+import { centreOfLoad, summarise, titleOf } from "./drawing/loads";
 import { shownCameras } from "./shownCameras";
 import { byUrgency } from "./urgency";
 import { newest } from "./useHeard";

@@ -1,8 +1,8 @@
 import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { bracketFault } from "@/shared/live/brackets";
 import { faultKey } from "@/shared/words/faults";
-import { feetDown, wheelState } from "./faceplate";
-import { summarise } from "./loads";
+import { feetDown, wheelState } from "./drawing/faceplate";
+import { summarise } from "./drawing/loads";
 
 /** One line under "Why is it standing?": what was looked at and what it says. */
 export type WhyRow =

@@ -7,8 +7,8 @@ export type Theme = "light" | "dark";
 const kLanguageKey = "pulseline.language";
 const kThemeKey = "pulseline.theme";
 
-// Namespaces: shared/i18n/<namespace>.<language>.json and features/<feature>/i18n.<language>.json.
-const shared = import.meta.glob<Record<string, unknown>>("./*.{en,zh}.json", {
+// Namespaces: shared/words/catalogs/<namespace>.<language>.json and features/<feature>/i18n.<language>.json.
+const shared = import.meta.glob<Record<string, unknown>>("../words/catalogs/*.{en,zh}.json", {
   eager: true,
   import: "default",
 });

@@ -1,6 +1,6 @@
 import type { Pen } from "./pen";
 import type { HallModel } from "./scene";
-import { fixed } from "@/shared/i18n/format";
+import { fixed } from "@/shared/words/format";
 
 /** Rulers along the hall's edges (or the canvas's, when those are out of sight), scale bar and north arrow. */
 export function drawRulers(pen: Pen, model: HallModel, north: string): void {

@@ -1,4 +1,4 @@
-import { age, fixed } from "@/shared/i18n/format";
+import { age, fixed } from "@/shared/words/format";
 import { symbolOf } from "@/shared/live/attention";
 import { placed, type Box, type MetricPoint, type XY } from "@/shared/math/geometry";
 import { captionsOf } from "./captions";

@@ -3,7 +3,8 @@ import { useTranslation } from "react-i18next";
 import { useNow } from "@/shared/live/clock";
 import { age } from "@/shared/words/format";
 import "./CommandButton.css";
-import { kArmMs, kHoldMs, press, type CommandProgress, type Direction } from "./command";
+import { armedLeftMs, kArmMs, kHoldMs } from "./arming";
+import { press, type CommandProgress, type Direction } from "./command";
 import { goGuard } from "./goGuard";
 import { Icon, StatusSymbol, type IconName } from "./Icon";
 
@@ -146,11 +147,11 @@ export function CommandButton(props: CommandButtonProps) {
     if (holding && !armed)
       return { className: "armed", title: label, small: t("command.hold"), mark: <Ring /> };
     if (armed) {
-      const left = Math.max(0, Math.ceil((kArmMs - (now - armedAt)) / 1000));
+      const left = Math.ceil(armedLeftMs(armedAt, now) / 1000);
       return {
         className: "armed",
         title: t("command.armed"),
-        small: t("command.armed_left", { label, s: Math.min(left, kArmMs / 1000) }),
+        small: t("command.armed_left", { label, s: left }),
         mark: <Ring />,
       };
     }

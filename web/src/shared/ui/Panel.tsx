@@ -1,7 +1,7 @@
 import { useEffect, useState, type ReactNode } from "react";
 import { useTranslation } from "react-i18next";
 import { ApiProblem } from "@/shared/api/problem";
-import { problemText } from "@/shared/i18n/reasons";
+import { problemText } from "@/shared/words/reasons";
 import { Button } from "./Button";
 import { StatusSymbol } from "./Icon";
 import "./Panel.css";

@@ -1,3 +1,5 @@
+import { isLapsed, isSameTap } from "./arming";
+
 /** How far a command has come. Only what the server or the vehicle said, never what we hope. */
 export type CommandProgress =
   | { kind: "ready" }
@@ -7,11 +9,6 @@ export type CommandProgress =
   /** Takes no press: what was asked for is under way, or holds. */
   | { kind: "under_way" | "holds"; title: string; small: string }
   | { kind: "timed_out"; what: string; next: string };
-
-export const kArmMs = 8000;
-export const kHoldMs = 1500;
-/** A second press this soon is the same tap, not a decision. */
-export const kDoubleTapMs = 400;
 
 /** What the command is for: a guard that spans all of them keeps the two apart (goGuard). */
 export type Direction = "stop" | "go";
@@ -27,8 +24,8 @@ export function press(
   twoStep: boolean,
 ): Press {
   if (progress.kind !== "ready" && progress.kind !== "timed_out") return { kind: "none" };
-  if (lastRunMs !== undefined && nowMs - lastRunMs < kDoubleTapMs) return { kind: "none" };
+  if (lastRunMs !== undefined && isSameTap(lastRunMs, nowMs)) return { kind: "none" };
   if (!twoStep) return { kind: "run" };
-  if (armedAtMs === undefined || nowMs - armedAtMs >= kArmMs) return { kind: "arm" };
-  return nowMs - armedAtMs < kDoubleTapMs ? { kind: "none" } : { kind: "run" };
+  if (armedAtMs === undefined || isLapsed(armedAtMs, nowMs)) return { kind: "arm" };
+  return isSameTap(armedAtMs, nowMs) ? { kind: "none" } : { kind: "run" };
 }

@@ -1,4 +1,4 @@
-import type { Translate } from "@/shared/i18n/reasons";
+import type { Translate } from "./sentence";
 
 const kToken = "token:";
 

@@ -1,5 +1,5 @@
-import en from "@/shared/i18n/words.en.json";
-import zh from "@/shared/i18n/words.zh.json";
+import en from "@/shared/words/catalogs/words.en.json";
+import zh from "@/shared/words/catalogs/words.zh.json";
 
 const kKeys = new Map(
   [en.closure, zh.closure].flatMap((names) => Object.entries(names).map(([key, name]) => [name, key])),

@@ -1,7 +1,7 @@
 import { expect, it } from "vitest";
 import type { JobState } from "@/shared/api/types";
-import en from "@/shared/i18n/words.en.json";
-import zh from "@/shared/i18n/words.zh.json";
+import en from "@/shared/words/catalogs/words.en.json";
+import zh from "@/shared/words/catalogs/words.zh.json";
 import { orderStateKey } from "./orderState";
 
 const kCases: [JobState, string | undefined, string, string][] = [

@@ -2,12 +2,12 @@ import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason } from "@/shared/api/types";
-import { problemText, reasonText, type Translate } from "@/shared/i18n/reasons";
 import { usePlant } from "@/shared/live";
 import { actorText } from "./actor";
 import { closureName } from "./closures";
 import { faultText } from "./faults";
-import { named, type Names, type Template } from "./words";
+import { problemText, reasonText } from "./reasons";
+import type { Names, Translate } from "./sentence";
 
 export interface Words {
   names: Names;
@@ -25,19 +25,6 @@ export interface Words {
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
-}
-
-/** Raw templates of a namespace in the language shown. */
-export function useTemplates(namespace: string): Template {
-  const { i18n } = useTranslation(namespace);
-  const language = i18n.resolvedLanguage ?? i18n.language;
-  return useMemo(
-    () => (key: string) => {
-      const raw: unknown = i18n.getResource(language, namespace, key);
-      return typeof raw === "string" ? raw : undefined;
-    },
-    [i18n, language, namespace],
-  );
 }
 
 /** Puts codes, ids and parameters of the server into words of the language shown. */
@@ -63,12 +50,11 @@ export function useWords(): Words {
       actor: (actors) => each(actors, (one) => actorText(one, t)),
       wheel: (name) => ofWheel("wheel_name", name),
       closure: (names) => each(names, (one) => closureName(one, t)),
-      fault: (type) => faultText(type, t),
     };
     return {
       names,
-      reason: (reason) => reasonText({ code: reason.code, params: named(reason.params, names) }, t),
-      problem: (problem) => problemText({ ...problem, params: named(problem.params, names) }, t),
+      reason: (reason) => reasonText(reason, t, names),
+      problem: (problem) => problemText(problem, t, names),
       vehicle: (id) => vehicles.get(id) ?? id,
       actor: (actor) => actorText(actor, t),
       fault: (type) => faultText(type, t),
