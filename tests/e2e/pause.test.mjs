@@ -5,6 +5,7 @@ import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
 import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { reachFaultsOf } from "../harness/reach.mjs";
 
 const VEHICLES = ["TP-01", "MV-01"];
 let system, client, browser;
@@ -84,6 +85,26 @@ test("eight taps on Pause are a pause: it says Stopping until the platform stand
   assert.deepEqual(page.errors, []);
   await page.context().close();
 });
+
+for (const [width, height, lang, station] of [[1024, 768, "zh", 1], [390, 844, "en", 2]]) {
+  test(`eight taps on Pause at ${width} x ${height} are a pause, too`, async () => {
+    const page = await signedIn(browser, system, "operator", { path: "/vehicles/TP-01", width, height, lang });
+    const order = await client.order("TP-01", [station]);
+    await client.untilVehicle("TP-01", isDriving, "drives");
+    const place = await middleOf(page.locator(".pausecmd"));
+    const sent = commandsOf(page);
+    await tap(page, place, 8);
+    await client.untilVehicle("TP-01", (v) => v.pause?.stands, "stands");
+    await tap(page, place, 4);
+    assert.deepEqual([...new Set(sent)], ["/api/v1/vehicles/TP-01/pause"]);
+    assert.deepEqual(await middleOf(page.locator(".pausecmd")), place, "Pause has kept its place");
+    await page.locator(".card.held .cmd").waitFor();
+    assert.deepEqual(await reachFaultsOf(page), []);
+    await page.context().close();
+    await client.post("/api/v1/fleet/resume", { vehicles: ["TP-01"] });
+    assert.equal((await client.untilEnded(order.id)).state, "Ended");
+  });
+}
 
 test("Pause fleet: Stopping until all stand, by whom on every page, and who was paused singly is not ticked", async () => {
   await client.post("/api/v1/vehicles/MV-01/pause");

@@ -291,6 +291,11 @@ test("signed out elsewhere: the page says why, and comes back to the vehicle and
   assert.match(await told.innerText(), /The server ended the session of anna at \d\d:\d\d:\d\d\.\s+It was signed out elsewhere, an administrator changed the account, or it had lasted too long\./);
   assert.equal(await page.locator("input[name=username]").inputValue(), "anna");
   await picture(page, "session-ended-1920");
+  for (const [width, height] of [[1024, 768], [390, 844], [1920, 1080]]) {
+    await page.setViewportSize({ width, height });
+    assert.deepEqual(await reachFaultsOf(page, { pause: false }), [], `${width}`);
+    if (width < 1920) await picture(page, `session-ended-${width}`);
+  }
   await page.locator("input[type=password]").fill(system.passwords.get("anna"));
   await page.locator("button[type=submit]").click();
   await page.waitForURL(/\/send\?vehicle=TP-01&station=2$/);

@@ -188,7 +188,6 @@ void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now) {
     order.reason = {};
     fleet.store(order);
     fleet.store(run);
-    fleet.changed_stations.insert(station->id);
     add_event(fleet, now, run.leg().actions_only ? event::kStepActions : event::kStepStarted,
               order.id, id, run.record.id, {},
               {{"step", static_cast<std::int64_t>(order.current_step)},

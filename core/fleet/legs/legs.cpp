@@ -51,13 +51,15 @@ std::optional<Reason> try_leg(FleetState& fleet, VehicleRun& run, Leg leg, Time 
     const VehicleRecord before = run.record;
     const auto idle_since = run.floor.idle_since;
     take_leg(run, std::move(leg));
-    if (run.leg().nodes.size() == 1) return std::nullopt;
-    auto reason = plan_on_floor(fleet, run, now);
-    if (reason) {
-        run.record = before;
-        run.floor.idle_since = idle_since;
+    if (run.leg().nodes.size() > 1) {
+        if (auto reason = plan_on_floor(fleet, run, now)) {
+            run.record = before;
+            run.floor.idle_since = idle_since;
+            return reason;
+        }
     }
-    return reason;
+    fleet.changed_stations.insert(run.leg().station);  // it is reserved now
+    return std::nullopt;
 }
 
 void send_leg(FleetState& fleet, VehicleRun& run, Time now) {

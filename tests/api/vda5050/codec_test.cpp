@@ -213,6 +213,24 @@ TEST(Factsheet, ATopSpeedThatIsNoneIsRefused) {
     EXPECT_TRUE(decode_factsheet(message));
 }
 
+TEST(Factsheet, SaysHeightAndCodesOfItsOwnType) {
+    plant::VehicleType type;
+    type.footprint = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    type.height_m = 0.42;
+    const auto told = [&] {
+        FactsheetSource source;
+        source.type = &type;
+        return parsed(encode_factsheet(source, header()));
+    };
+    EXPECT_EQ(told()["physicalParameters"]["heightMax"], 0.42);
+    EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array()) << "no camera";
+    type.cameras.emplace_back();
+    type.usual_code.kind = plant::MarkerKind::kLandmark;
+    EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array());
+    type.usual_code.kind = plant::MarkerKind::kQr;
+    EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array({"DMC"}));
+}
+
 TEST(Others, VisualizationConnectionAndFactsheetRoundTrip) {
     const vda5050::VisualizationMessage shown{{1, 2, 3}, true, 0.4, -0.1};
     const auto read = decode_visualization(parsed(encode_visualization(shown, "hall-1", header())));

@@ -42,8 +42,10 @@ TEST_F(Charging, AnIdleLowVehicleDrivesToTheChargerAndCharges) {
     v1().state.battery_percent = 29;
     world.run(0.3);
     EXPECT_EQ(why(kV1), "goes_charging");
+    EXPECT_EQ(world.told.at(plant::StationId("s2")).reserved_by, kV1);
 
     world.run(30);
+    EXPECT_EQ(world.stations_told_wrong(), std::vector<int>{});
     EXPECT_EQ(view(kV1).at_station, plant::StationId("s2"));
     EXPECT_TRUE(v1().state.charging);
     EXPECT_EQ(view(kV1).activity, Activity::kCharging);

@@ -288,6 +288,21 @@ TEST(Fleet, CancelIsAskedConfirmedAndThenAborted) {
     EXPECT_FALSE(world.fleet->cancel_order(id, std::nullopt, "op", world.now));
 }
 
+TEST(Fleet, DashboardsAreToldWhichStationsAreReserved) {
+    World world;
+    world.connect_all();
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {3}, MotionMode::kLinear));
+    world.run(1.5);
+    ASSERT_EQ(world.told.at(world.plant.stations[2].id).reserved_by, kV1);
+
+    ASSERT_TRUE(world.fleet->cancel_order(world.only_order().id, std::nullopt, "op", world.now));
+    world.run(3);
+
+    EXPECT_EQ(world.told.at(world.plant.stations[2].id).reserved_by, VehicleId{});
+    EXPECT_EQ(world.stations_told_wrong(), std::vector<int>{});
+}
+
 TEST(Fleet, PauseStopsAndResumeGoesOn) {
     World world;
     world.connect_all();

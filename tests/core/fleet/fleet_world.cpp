@@ -321,6 +321,7 @@ void World::announce(std::vector<std::string> actions) {
 void World::settle() {
     for (int round = 0; round < 10; ++round) {
         Outputs out = fleet->take_outputs(now);
+        for (const StationView& view : out.stations) told[view.id] = view;
         if (out.records.empty() && out.messages.empty() && out.plans_wanted.empty()) return;
         store.commit(out.records);
         for (auto& question : out.plans_wanted) {
@@ -335,6 +336,18 @@ void World::settle() {
             if (connected[message.vehicle]) vehicles.at(message.vehicle).receive(message);
         }
     }
+}
+
+std::vector<int> World::stations_told_wrong() const {
+    std::vector<int> wrong;
+    for (const StationView& is : fleet->stations()) {
+        const auto found = told.find(is.id);
+        const StationView was = found == told.end() ? StationView{} : found->second;
+        if (is.occupied_by != was.occupied_by || is.reserved_by != was.reserved_by) {
+            wrong.push_back(is.number);
+        }
+    }
+    return wrong;
 }
 
 void World::run(double duration_s) {

@@ -89,6 +89,9 @@ public:
                           plant::MotionMode mode = plant::MotionMode::kAuto);
     Result<Created> order(NewOrder request);
     JobOrder only_order() const;
+    /// Stations whose occupant or reservation is another than a dashboard was told that has looked
+    /// since the start, by their numbers.
+    std::vector<int> stations_told_wrong() const;
     const JobOrder& stored(JobOrderId id) const { return store.orders.at(id); }
     int count_events(const std::string& type) const;
 
@@ -102,6 +105,7 @@ public:
     bool plans_at_once = true;  // else what the fleet asks gathers in `questions`
     std::vector<LegPlanQuestion> questions;
     LegPlanAnswerer answerer;
+    std::map<plant::StationId, StationView> told;  // of the stations; those not told of are free
     int ticks = 0;
     std::uint64_t seed = 1;
 };
