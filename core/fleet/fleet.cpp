@@ -19,6 +19,7 @@
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/fleet/views/station_news.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -44,7 +45,10 @@ GuardedState::GuardedState(std::unique_ptr<FleetState> state) : state_(std::move
 
 GuardedState::~GuardedState() = default;
 
-Fleet::Fleet(std::unique_ptr<FleetState> state) : state_(std::move(state)) {}
+Fleet::Fleet(std::unique_ptr<FleetState> state)
+    : state_(std::move(state)), station_news_(std::make_unique<StationNews>()) {
+    station_news_->begin(*state_);
+}
 
 Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_seed, Time now,
              std::shared_ptr<const PlantTables> tables)
@@ -57,6 +61,7 @@ Fleet::Fleet(const plant::Plant& plant, StoredFleet stored, std::uint64_t id_see
     restore_standing(fleet, stored);
     restore(fleet, std::move(stored), now);
     require_persons_for_schedules(fleet, now);
+    station_news_->begin(fleet);
 }
 
 Fleet::~Fleet() = default;
@@ -237,17 +242,16 @@ Outputs Fleet::take_outputs(Time now) {
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
         if (const VehicleRun* run = fleet.find(id)) out.records.vehicles.push_back(run->record);
     }
-    if (!with_views_) {
-        fleet.changed_vehicles.clear();
-        fleet.changed_stations.clear();
-    }
-    for (const auto& id : std::exchange(fleet.changed_vehicles, {})) {
-        if (const VehicleRun* run = fleet.find(id))
-            out.vehicles.push_back(view_of(fleet, *run, now));
-    }
-    for (const auto& id : std::exchange(fleet.changed_stations, {})) {
-        const auto* station = plant::find_station(fleet.plant, id);
-        if (station) out.stations.push_back(station_view(fleet, *station));
+    const auto changed = std::exchange(fleet.changed_vehicles, {});
+    if (with_views_) {
+        for (const auto& id : changed) {
+            if (const VehicleRun* run = fleet.find(id))
+                out.vehicles.push_back(view_of(fleet, *run, now));
+        }
+        for (const auto& id : station_news_->of(fleet, changed)) {
+            const auto* station = plant::find_station(fleet.plant, id);
+            if (station) out.stations.push_back(station_view(fleet, *station));
+        }
     }
     for (const auto& id : std::exchange(fleet.plans_wanted, {})) {
         const auto& awaited = fleet.find(id)->awaited_plan;

@@ -24,6 +24,7 @@ namespace pulseline::fleet {
 struct OrderPreviewTask;  // order_preview.hpp
 struct MotionQuestion;    // motion_preview.hpp
 struct MotionTask;
+class StationNews;
 struct FleetState;  // state/fleet_state.hpp, for the rooms of core/fleet only
 namespace journal {
 class Recorder;
@@ -190,6 +191,7 @@ private:
     GuardedState state_;
     journal::Recorder* recorder_ = nullptr;
     bool with_views_ = true;
+    std::unique_ptr<StationNews> station_news_;
 };
 
 }  // namespace pulseline::fleet

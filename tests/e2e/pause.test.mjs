@@ -100,6 +100,9 @@ for (const [width, height, lang, station] of [[1024, 768, "zh", 1], [390, 844, "
     assert.deepEqual(await middleOf(page.locator(".pausecmd")), place, "Pause has kept its place");
     await page.locator(".card.held .cmd").waitFor();
     assert.deepEqual(await reachFaultsOf(page), []);
+    await page.getByRole("link", { name: lang === "zh" ? `查看 ${order.name}` : `Show ${order.name}` }).click();
+    await page.waitForURL(`**/orders/${order.id}`);
+    await page.locator(".cmd", { hasText: lang === "zh" ? "取消任务" : "Cancel order" }).waitFor();
     await page.context().close();
     await client.post("/api/v1/fleet/resume", { vehicles: ["TP-01"] });
     assert.equal((await client.untilEnded(order.id)).state, "Ended");

@@ -194,6 +194,34 @@ test("on a phone the most urgent alarm is whole in three lines, and its vehicle 
   }
 });
 
+/** What of these is cut: by the screen, or by a box that scrolls. */
+const cutOf = (locator) => locator.evaluateAll((all) => all.filter((e) => {
+  const seen = { top: 0, bottom: innerHeight, left: 0, right: innerWidth };
+  for (let box = e.parentElement; box !== null; box = box.parentElement) {
+    if (getComputedStyle(box).overflow === "visible") continue;
+    const r = box.getBoundingClientRect();
+    Object.assign(seen, { top: Math.max(seen.top, r.top), bottom: Math.min(seen.bottom, r.bottom), left: Math.max(seen.left, r.left), right: Math.min(seen.right, r.right) });
+  }
+  const r = e.getBoundingClientRect();
+  return r.height === 0 || r.top < seen.top - 1 || r.bottom > seen.bottom + 1 || r.left < seen.left - 1 || r.right > seen.right + 1;
+}).map((e) => e.textContent));
+
+test("beside a banner a load is drawn whole on a tablet, and a stop's record is on one wall screen", async () => {
+  for (const [width, height, lang, path, parts, least] of [
+    [1024, 768, "zh", "/vehicles/TP-01", ".pbox .bc", 4],
+    [1024, 768, "en", "/vehicles/TP-01", ".pbox .bc", 4],
+    [1920, 1080, "en", "/vehicles/TP-01", ".pbox .bc", 4],
+    [1920, 1080, "en", `/records/${stop.id}`, ".tgt, .runcard tr", 3],
+  ]) {
+    const page = await signedIn(browser, system, "operator", { width, height, lang });
+    await page.goto(system.url + path);
+    await page.locator(".banner.high").waitFor();
+    await page.locator(parts).nth(least - 1).waitFor();
+    assert.deepEqual(await cutOf(page.locator(parts)), [], `${path} at ${width}, ${lang}`);
+    await page.context().close();
+  }
+});
+
 test("two banners on a tablet leave the pad of Send all its keys, and Start its place", async () => {
   await client.post("/api/v1/fleet/pause");
   for (const lang of ["en", "zh"]) {

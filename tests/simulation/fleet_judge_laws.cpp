@@ -274,6 +274,21 @@ void World::check_records(const fleet::Records& records) {
     }
 }
 
+/// Who has read everything since its start knows the stations as they are.
+void World::check_shown() {
+    for (const auto& is : fleet_->stations()) {
+        const auto& was = shown_.at(is.id);
+        if (is.occupied_by == was.occupied_by && is.reserved_by == was.reserved_by &&
+            is.ready == was.ready && is.last_stop == was.last_stop) {
+            continue;
+        }
+        violate("station " + std::to_string(is.number) + " is shown occupied by '" +
+                was.occupied_by.str() + "', reserved by '" + was.reserved_by.str() + "'" +
+                (was.ready ? ", ready" : "") + ", and is occupied by '" + is.occupied_by.str() +
+                "', reserved by '" + is.reserved_by.str() + "'" + (is.ready ? ", ready" : ""));
+    }
+}
+
 void World::check_all() {
     const auto every = static_cast<std::int64_t>(now_s_ * 5) % 25 == 0;
     if (!every) return;

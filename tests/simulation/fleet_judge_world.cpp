@@ -43,6 +43,7 @@ World::World(std::uint64_t seed, const Options& options) : random_(seed), option
     const bool platform = classes.count(plant::VehicleTypeId("platform")) != 0;
     outcome_.classes = platform ? static_cast<int>(classes.size()) : 0;
     if (options.journal) shadow_.emplace(plant_);
+    has_dashboards_ = options.journal || seed % 5 == 0;  // views cost more than all the rest
     start_server();
 }
 
@@ -165,8 +166,9 @@ void World::carry_messages() {
 void World::start_server() {
     fleet_ = std::make_unique<fleet::Fleet>(plant_, store_.load(), ++servers_, now(),
                                             fleet_ ? fleet_->tables() : nullptr);
-    if (!shadow_)
-        fleet_->leave_out_views();  // a restored fleet has them: all it puts out is compared
+    if (!has_dashboards_) fleet_->leave_out_views();
+    shown_.clear();  // a dashboard that comes back looks at everything
+    for (auto& view : fleet_->stations()) shown_[view.id] = view;
     if (shadow_) shadow_->follow(*fleet_);
     forget_patience();
     for (auto& [id, line] : lines_) {
@@ -185,6 +187,8 @@ void World::start_server() {
 
 fleet::Outputs World::take_outputs() {
     fleet::Outputs out = fleet_->take_outputs(now());
+    for (const auto& view : out.stations) shown_[view.id] = view;
+    if (has_dashboards_) check_shown();
     if (!shadow_) return out;
     if (const auto found = shadow_->step(fleet_, out); !found.empty()) violate(found);
     return out;

@@ -148,6 +148,7 @@ private:
     void check_one_order_each(const fleet::Records& records);
     void check_link(const fleet::Event& event);
     void check_transition(const fleet::Event& event);
+    void check_shown();
     void check_all();
     void check_end();
     bool all_over() const;
@@ -173,7 +174,9 @@ private:
     plant::Plant plant_;
     fleet::testing::MemoryStore store_;
     std::unique_ptr<fleet::Fleet> fleet_;
-    std::optional<Shadow> shadow_;
+    std::optional<Shadow> shadow_;  // with options.journal; a restored fleet has all views, too
+    bool has_dashboards_ = false;
+    std::map<plant::StationId, fleet::StationView> shown_;  // what a dashboard has been told
     std::map<plant::VehicleId, Vehicle> vehicles_;
     std::map<plant::VehicleId, Line> lines_;
     std::map<plant::VehicleId, Watch> watch_;

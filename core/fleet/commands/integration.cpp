@@ -18,7 +18,6 @@ namespace {
 /// It is carried or driven out of the hall: nobody waits for what it was told, its floor is free.
 void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
     run.actions.clear();
-    if (!run.record.at_station.empty()) fleet.changed_stations.insert(run.record.at_station);
     run.record.at_station = {};
     run.record.pose_known = false;
     run.record.pose = {};

@@ -148,7 +148,6 @@ void leave(FleetState& fleet, VehicleRun& run, const plant::StationId& station, 
     leg.nodes.push_back(start_node(run.record.pose, leg.hall));
     const auto idle_since = run.floor.idle_since;
     take_leg(run, std::move(leg));
-    fleet.changed_stations.insert(station);  // it is reserved now
     run.floor.idle_since = idle_since;
     take_plan_as_leg(fleet, run);
     tell_leaving(fleet, run, now);

@@ -16,7 +16,6 @@ namespace {
 
 /// The vehicle has no leg any more. `arrived`: nor anything left of its plan.
 void drop(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
-    fleet.changed_stations.insert(run.leg().station);  // it is reserved no more
     run.record.has_leg = false;
     run.record.leg = LegId{};
     run.record.leg_data = Leg{};

@@ -51,15 +51,13 @@ std::optional<Reason> try_leg(FleetState& fleet, VehicleRun& run, Leg leg, Time 
     const VehicleRecord before = run.record;
     const auto idle_since = run.floor.idle_since;
     take_leg(run, std::move(leg));
-    if (run.leg().nodes.size() > 1) {
-        if (auto reason = plan_on_floor(fleet, run, now)) {
-            run.record = before;
-            run.floor.idle_since = idle_since;
-            return reason;
-        }
+    if (run.leg().nodes.size() == 1) return std::nullopt;
+    auto reason = plan_on_floor(fleet, run, now);
+    if (reason) {
+        run.record = before;
+        run.floor.idle_since = idle_since;
     }
-    fleet.changed_stations.insert(run.leg().station);  // it is reserved now
-    return std::nullopt;
+    return reason;
 }
 
 void send_leg(FleetState& fleet, VehicleRun& run, Time now) {

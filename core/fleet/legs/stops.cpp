@@ -140,7 +140,6 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopM
     run.record.last_stop_station = station->id;
     run.record.last_stop_inside = stop.inside;
     run.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
-    fleet.changed_stations.insert(station->id);
     fleet.store(run);
     add_event(fleet, now, event::kStopMeasured, stop.order, stop.leg, stop.vehicle, {},
               {{"stop", stop.id.str()},

@@ -293,9 +293,6 @@ void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& 
             ? station_at(fleet, run, run.record.pose)
             : plant::StationId{};
     if (station == run.record.at_station) return;
-    for (const auto& changed : {station, run.record.at_station}) {
-        if (!changed.empty()) fleet.changed_stations.insert(changed);
-    }
     run.record.at_station = station;
     fleet.store(run);
 }

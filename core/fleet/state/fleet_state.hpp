@@ -154,7 +154,6 @@ struct FleetState {
     std::set<plant::VehicleId> stored_vehicles;  // records to write
     std::set<JobOrderId> stored_orders;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
-    std::set<plant::StationId> changed_stations;
     std::set<plant::VehicleId> plans_wanted;
 
     VehicleRun* find(const plant::VehicleId& id) {

@@ -12,6 +12,7 @@ import {
   useStations,
   useStopRecords,
 } from "@/shared/live";
+import { Link } from "@/shared/router";
 import { Card, PanelEmpty, StatusSymbol, Tabs, VehicleMini } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { age } from "@/shared/words/format";
@@ -70,6 +71,8 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
         />
       ))
     );
+  /** The bar above says it already. */
+  const said = answer(vehicle) === held(vehicle);
   const why = (
     <>
       {!narrow && <HeldBar vehicle={vehicle} />}
@@ -96,9 +99,14 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
       {narrow ? (
         <>
           <HeldBar vehicle={vehicle} />
-          <div className="card whyl" hidden={answer(vehicle) === held(vehicle)}>
-            <StatusSymbol name={symbolOf(vehicle)} />
-            <b>{answer(vehicle)}</b>
+          <div className="card whyl" hidden={said && !order}>
+            {!said && <StatusSymbol name={symbolOf(vehicle)} />}
+            {!said && <b>{answer(vehicle)}</b>}
+            {order && (
+              <Link className="btn" to={`/orders/${order.id}`}>
+                {t("command.order", { order: order.name })}
+              </Link>
+            )}
             <span className="cap">{age(heard_s)}</span>
           </div>
           <div className="facetabs">

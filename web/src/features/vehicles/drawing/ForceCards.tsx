@@ -1,19 +1,10 @@
 import { useTranslation } from "react-i18next";
-import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { kilonewtons } from "@/shared/words/format";
-import { bracketKey, onSheet, type Sheet } from "./faceplate";
+import { bracketKey, onSheet, type OnSheetProps } from "./faceplate";
 import { kBandShare, summarise, type SensorShare } from "./loads";
 
 /** A card a bracket with the forces of its two pins. */
-export function ForceCards({
-  vehicle,
-  type,
-  sheet,
-}: {
-  vehicle: Vehicle;
-  type: VehicleType | undefined;
-  sheet: Sheet;
-}) {
+export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle, type);
   if (!summary) return null;

@@ -1,19 +1,10 @@
 import { useTranslation } from "react-i18next";
-import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { kilonewtons, mass, millimetres } from "@/shared/words/format";
-import { onSheet, type Sheet } from "./faceplate";
+import { onSheet, type OnSheetProps } from "./faceplate";
 import { centreOfLoad, summarise } from "./loads";
 
 /** Weight and centre of the load. */
-export function LoadLabels({
-  vehicle,
-  type,
-  sheet,
-}: {
-  vehicle: Vehicle;
-  type: VehicleType | undefined;
-  sheet: Sheet;
-}) {
+export function LoadLabels({ vehicle, type, sheet }: OnSheetProps) {
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle, type);
   const centre = centreOfLoad(vehicle.brackets, type);

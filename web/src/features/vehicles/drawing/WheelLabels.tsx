@@ -1,23 +1,14 @@
 import { useTranslation } from "react-i18next";
-import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { StatusSymbol } from "@/shared/ui";
 import { degrees, fixed, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { footCorner, onSheet, wheelPlace, wheelRing_m, wheelState, type Sheet } from "./faceplate";
+import { footCorner, onSheet, wheelPlace, wheelRing_m, wheelState, type OnSheetProps } from "./faceplate";
 
 /** Where words beside the body stand, as a share of half its length. */
 const kBeside = 1.06;
 
 /** Words beside wheels and parking feet. */
-export function WheelLabels({
-  vehicle,
-  type,
-  sheet,
-}: {
-  vehicle: Vehicle;
-  type: VehicleType | undefined;
-  sheet: Sheet;
-}) {
+export function WheelLabels({ vehicle, type, sheet }: OnSheetProps) {
   const { t } = useTranslation("vehicles");
   const words = useWords();
   const row = sheet.height * 0.049;

@@ -9,6 +9,13 @@ export interface Sheet {
   scale: number; // of symbols, against Tang's platform
 }
 
+/** What is written on the sheet, and of which vehicle. */
+export interface OnSheetProps {
+  vehicle: Vehicle;
+  type: VehicleType | undefined;
+  sheet: Sheet;
+}
+
 const kAspect = 2.34;
 const kPlatformWidth_m = 13.8; // sheet of the platform of 10.5 m, for which the symbols were drawn
 
