@@ -3,7 +3,7 @@
 #include "api/http/orders/template_handlers.hpp"
 #include "api/http/plant/marker_handlers.hpp"
 #include "api/http/router.hpp"
-#include "api/http/routing/route_handlers.hpp"
+#include "api/http/routing/routing_handlers.hpp"
 #include "api/http/routing/traffic_handlers.hpp"
 #include "api/http/session/service_handlers.hpp"
 #include "api/http/session/session_handlers.hpp"

@@ -6,8 +6,8 @@
 
 #include "core/base/result.hpp"
 #include "core/localisation/dual_camera.hpp"
-#include "core/plant/deviation.hpp"
 #include "core/plant/plant.hpp"
+#include "core/plant/tolerance.hpp"
 #include "core/vision/marker_reading.hpp"
 
 /// Where a vehicle stands by images of its cameras: the whole way of a stop's measurement, for

@@ -17,6 +17,7 @@ enum class Errc {
     kUnavailable,  // the store or a vehicle cannot answer now
     kForbidden,
     kNeedsPlan,  // only a plan made beside the fleet can tell
+    kInternal,   // a fault of the program's own
 };
 
 /// One named value that explains an error, a wait or an event. Screens translate `reason` codes and

@@ -70,43 +70,43 @@ std::shared_ptr<const PlantTables> Fleet::tables() const { return state_->tables
 
 void Fleet::vehicle_connected(const plant::VehicleId& id, Time now) {
     FleetState& fleet = input<&Fleet::vehicle_connected>(now, id);
-    if (VehicleRun* run = fleet.find(id)) connect(fleet, *run, now);
+    if (LiveVehicle* live = fleet.find(id)) connect(fleet, *live, now);
 }
 
 void Fleet::vehicle_disconnected(const plant::VehicleId& id, Time now) {
     FleetState& fleet = input<&Fleet::vehicle_disconnected>(now, id);
-    if (VehicleRun* run = fleet.find(id)) disconnect(fleet, *run, now);
+    if (LiveVehicle* live = fleet.find(id)) disconnect(fleet, *live, now);
 }
 
 void Fleet::vehicle_heard(const plant::VehicleId& id, Time now) {
     FleetState& fleet = input<&Fleet::vehicle_heard>(now, id);
-    if (VehicleRun* run = fleet.find(id)) hear(fleet, *run, now);
+    if (LiveVehicle* live = fleet.find(id)) note_heard(fleet, *live, now);
 }
 
 void Fleet::vehicle_state(const plant::VehicleId& id, const vda5050::StateMessage& state,
                           Time now) {
     FleetState& fleet = input<&Fleet::vehicle_state>(now, id, state);
-    VehicleRun* run = fleet.find(id);
-    if (!run) return;
-    if (run->record.integration == Integration::kIgnore) return hear(fleet, *run, now);
-    take_state(fleet, *run, state, now);
-    dispatch_for(fleet, *run, now);
+    LiveVehicle* live = fleet.find(id);
+    if (!live) return;
+    if (live->record.integration == Integration::kIgnore) return note_heard(fleet, *live, now);
+    handle_state(fleet, *live, state, now);
+    dispatch_for(fleet, *live, now);
 }
 
 void Fleet::vehicle_factsheet(const plant::VehicleId& id, const vda5050::Factsheet& factsheet,
                               Time now) {
     FleetState& fleet = input<&Fleet::vehicle_factsheet>(now, id, factsheet);
-    VehicleRun* run = fleet.find(id);
-    if (!run) return;
-    run->factsheet = factsheet;
-    hear(fleet, *run, now);
+    LiveVehicle* live = fleet.find(id);
+    if (!live) return;
+    live->factsheet = factsheet;
+    note_heard(fleet, *live, now);
 }
 
 void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::VehicleError& error,
                                     Time now) {
     FleetState& fleet = input<&Fleet::vehicle_message_refused>(now, id, error);
-    VehicleRun* run = fleet.find(id);
-    if (!run || !may_tell_error(fleet, *run, now)) return;
+    LiveVehicle* live = fleet.find(id);
+    if (!live || !may_tell_error(fleet, *live, now)) return;
     Params params{{"text", error.description}};
     for (const auto& [key, value] : error.references) params.push_back({key, value});
     add_event(fleet, now, event::kVehicleMessageMalformed, {}, {}, id, {}, std::move(params));
@@ -114,15 +114,15 @@ void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::V
 
 void Fleet::vehicle_identity_conflict(const plant::VehicleId& id, Time now) {
     FleetState& fleet = input<&Fleet::vehicle_identity_conflict>(now, id);
-    VehicleRun* run = fleet.find(id);
-    if (!run) return;
-    run->connection_refused = true;
-    require_person(fleet, *run, {reasons::kIdentityConflict, {{"vehicle", id.str()}}}, now);
+    LiveVehicle* live = fleet.find(id);
+    if (!live) return;
+    live->connection_refused = true;
+    require_person(fleet, *live, {reasons::kIdentityConflict, {{"vehicle", id.str()}}}, now);
 }
 
 bool Fleet::connection_refused(const plant::VehicleId& id) const {
-    const VehicleRun* run = state_->find(id);
-    return run && run->connection_refused;
+    const LiveVehicle* live = state_->find(id);
+    return live && live->connection_refused;
 }
 
 void Fleet::store_failed(const StoreFault& fault, Time now) {
@@ -142,11 +142,11 @@ void Fleet::store_works_again(Time now) {
     fleet.store_fault.reset();
     fleet.out.fleet_changed = true;
     // Nobody listened meanwhile: silence counts from now on. Who was gone could not come back.
-    for (auto& [id, run] : fleet.vehicles) {
-        if (run.connected) {
-            run.last_heard = now;
-        } else if (run.last_heard) {
-            run.last_heard = std::min(now, *run.last_heard + (now - since));
+    for (auto& [id, live] : fleet.vehicles) {
+        if (live.connected) {
+            live.last_heard = now;
+        } else if (live.last_heard) {
+            live.last_heard = std::min(now, *live.last_heard + (now - since));
         }
     }
 }
@@ -155,23 +155,23 @@ void Fleet::commands_expired(const std::vector<plant::VehicleId>& vehicles,
                              const std::vector<JobOrderId>& orders, Time now) {
     FleetState& fleet = input<&Fleet::commands_expired>(now, vehicles, orders);
     const Reason reason{reasons::kCommandExpired, {}};
-    const auto stand = [&](VehicleRun& run) {
+    const auto stand = [&](LiveVehicle& live) {
         // It has not been told to go on, and is not now.
-        if (is_asked(run, vda5050::kStopPause)) {
-            run.record.paused = Pause{{}, now, false};
-            fleet.store(run);
-            pause_motion(fleet, run, vda5050::kStartPause, now);
+        if (is_asked(live, vda5050::kStopPause)) {
+            live.record.paused = Pause{{}, now, false};
+            fleet.store(live);
+            pause_motion(fleet, live, vda5050::kStartPause, now);
         }
-        require_person(fleet, run, reason, now);
+        require_person(fleet, live, reason, now);
     };
     for (const auto& id : vehicles) {
-        if (VehicleRun* run = fleet.find(id)) stand(*run);
+        if (LiveVehicle* live = fleet.find(id)) stand(*live);
     }
     for (const auto& id : orders) {
         JobOrder* order = fleet.find(id);
         if (!order || is_final(order->state)) continue;
-        VehicleRun* run = fleet.find(order->assigned_vehicle);
-        if (run) stand(*run);
+        LiveVehicle* live = fleet.find(order->assigned_vehicle);
+        if (live) stand(*live);
         if (order->state == JobState::kAllowedToStart) {
             set_order_state(fleet, *order, JobState::kNotAllowedToStart, reason, {}, now);
         }
@@ -182,13 +182,13 @@ void Fleet::server_stood_still(Time since, Time now) {
     FleetState& fleet = input<&Fleet::server_stood_still>(now, since);
     add_event(fleet, now, event::kServerStoodStill, {}, {}, {}, {},
               {{"for_s", seconds(now - since)}});
-    for (auto& [id, run] : fleet.vehicles) {
-        if (!run.last_heard) continue;
+    for (auto& [id, live] : fleet.vehicles) {
+        if (!live.last_heard) continue;
         // What a live vehicle said meanwhile lies unread. Who was silent before stays it.
-        const bool live = run.connected && run.link == Link::kLive;
-        run.last_heard = live ? now : std::min(now, *run.last_heard + (now - since));
+        const bool was_live = live.connected && live.link == Link::kLive;
+        live.last_heard = was_live ? now : std::min(now, *live.last_heard + (now - since));
         // Where it stands now is not known before it says so.
-        run.reconciled = false;
+        live.reconciled = false;
         fleet.changed_vehicles.insert(id);
     }
 }
@@ -240,13 +240,13 @@ Outputs Fleet::take_outputs(Time now) {
         out.records.orders.push_back(*order);
     }
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
-        if (const VehicleRun* run = fleet.find(id)) out.records.vehicles.push_back(run->record);
+        if (const LiveVehicle* live = fleet.find(id)) out.records.vehicles.push_back(live->record);
     }
     const auto changed = std::exchange(fleet.changed_vehicles, {});
     if (with_views_) {
         for (const auto& id : changed) {
-            if (const VehicleRun* run = fleet.find(id))
-                out.vehicles.push_back(view_of(fleet, *run, now));
+            if (const LiveVehicle* live = fleet.find(id))
+                out.vehicles.push_back(view_of(fleet, *live, now));
         }
         for (const auto& id : station_news_->of(fleet, changed)) {
             const auto* station = plant::find_station(fleet.plant, id);
@@ -266,15 +266,15 @@ Outputs Fleet::take_outputs(Time now) {
 void Fleet::leg_planned(const plant::VehicleId& id, std::int64_t question,
                         const LegPlanAnswer& answer, Time now) {
     FleetState& fleet = input<&Fleet::leg_planned>(now, id, question, answer);
-    VehicleRun* run = fleet.find(id);
+    LiveVehicle* live = fleet.find(id);
     // Whoever asked may want to go elsewhere meanwhile, or floor was closed.
-    if (!run || !run->awaited_plan || run->awaited_plan->question != question) return;
-    auto& known = run->awaited_plan->answer;
+    if (!live || !live->awaited_plan || live->awaited_plan->question != question) return;
+    auto& known = live->awaited_plan->answer;
     if (!known || answer.plan) {
         known = answer;
-        run->newest_plan.reset();
+        live->newest_plan.reset();
     }
-    dispatch_for(fleet, *run, now);
+    dispatch_for(fleet, *live, now);
 }
 
 }  // namespace pulseline::fleet

@@ -27,13 +27,13 @@ void interrupt_after_restart(FleetState& fleet, Time now) {
         const plant::VehicleId vehicle =
             order.assigned_vehicle.empty() ? order.wanted_vehicle : order.assigned_vehicle;
         if (vehicle.empty()) any_vehicle = true;
-        if (VehicleRun* run = fleet.find(vehicle)) {
-            require_person(fleet, *run, {reasons::kServerRestarted, {}}, now);
+        if (LiveVehicle* live = fleet.find(vehicle)) {
+            require_person(fleet, *live, {reasons::kServerRestarted, {}}, now);
         }
     }
-    for (auto& [id, run] : fleet.vehicles) {
-        if (any_vehicle || run.has_leg()) {
-            require_person(fleet, run, {reasons::kServerRestarted, {}}, now);
+    for (auto& [id, live] : fleet.vehicles) {
+        if (any_vehicle || live.has_leg()) {
+            require_person(fleet, live, {reasons::kServerRestarted, {}}, now);
         }
     }
 }
@@ -44,8 +44,8 @@ void abort_without_station(FleetState& fleet, Time now) {
     const auto open = fleet.orders.open();  // a copy: those that are aborted leave it
     for (const JobOrderId& id : open) {
         JobOrder& order = *fleet.find(id);
-        const VehicleRun* run = fleet.find(order.assigned_vehicle);
-        if (run && run->has_leg()) continue;
+        const LiveVehicle* live = fleet.find(order.assigned_vehicle);
+        if (live && live->has_leg()) continue;
         for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
             const plant::StationId station = order.steps[i].station;
             if (plant::find_station(fleet.plant, station)) continue;
@@ -103,22 +103,22 @@ void take_vehicles_of_plant(FleetState& fleet) {
     for (const auto& vehicle : fleet.plant.vehicles) {
         const auto* type = plant::find_vehicle_type(fleet.plant, vehicle.type);
         if (!type) continue;  // validate() refuses such a plant
-        VehicleRun& run = fleet.vehicles[vehicle.id];
-        run.vehicle = &vehicle;
-        run.type = type;
-        run.record.id = vehicle.id;
+        LiveVehicle& live = fleet.vehicles[vehicle.id];
+        live.vehicle = &vehicle;
+        live.type = type;
+        live.record.id = vehicle.id;
     }
 }
 
 namespace {
 
 /// What it may have driven since its row was written counts as driven: its pose is no surer.
-void count_unseen_drive(VehicleRun& run) {
-    if (!run.record.basis || !run.has_leg()) return;
-    const Leg& leg = run.leg();
+void count_unseen_drive(LiveVehicle& live) {
+    if (!live.record.basis || !live.has_leg()) return;
+    const Leg& leg = live.leg();
     for (std::size_t i = 0; i < leg.edges.size(); ++i) {
         const bool may_be_driven = i + 1 >= leg.passed_nodes && i + 1 < leg.released_nodes;
-        if (may_be_driven) run.record.basis->driven_m += std::abs(leg.edges[i].segment.length_m);
+        if (may_be_driven) live.record.basis->driven_m += std::abs(leg.edges[i].segment.length_m);
     }
 }
 
@@ -136,16 +136,16 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
             fleet.idempotency[{key.client, key.key}] = std::move(key);
     }
     for (auto& record : stored.vehicles) {
-        VehicleRun* run = fleet.find(record.id);
-        if (!run) continue;
-        run->record = std::move(record);
-        count_unseen_drive(*run);
+        LiveVehicle* live = fleet.find(record.id);
+        if (!live) continue;
+        live->record = std::move(record);
+        count_unseen_drive(*live);
     }
-    open_floor(fleet, now);
+    rebuild_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);
-    for (auto& [id, run] : fleet.vehicles) {
-        if (is_in_doubt(run)) keep_doubt(fleet, run, now);
+    for (auto& [id, live] : fleet.vehicles) {
+        if (is_in_doubt(live)) keep_doubt(fleet, live, now);
     }
     abort_without_station(fleet, now);
 }

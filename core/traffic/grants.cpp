@@ -2,7 +2,37 @@
 
 #include "core/traffic/traffic.hpp"
 
+// Whether a move may be granted now, and so whether a vehicle has to wait for floor (invariant S of
+// traffic.hpp).
 namespace pulseline::traffic {
+
+std::optional<TileIndex> JointPlan::closed_tile(const TileIndexes& stand,
+                                                const Shape& shape) const {
+    if (closed_now_ == 0) return {};
+    const auto closed = [&](TileIndex tile) { return is_closed(tile); };
+    const auto it = std::find_if(shape.swept.begin(), shape.swept.end(), closed);
+    if (it == shape.swept.end()) return {};
+    // Leaving never gets it deeper in: else a long body would drive through, piece after piece.
+    const auto before = std::count_if(stand.begin(), stand.end(), closed);
+    const auto after = std::count_if(shape.stand.begin(), shape.stand.end(), closed);
+    if (before > 0 && after <= before) return {};
+    return *it;
+}
+
+std::optional<TileIndex> JointPlan::obstacle(VehicleIndex vehicle, MoveNumber n) const {
+    const VehiclePlan& plan = vehicles_[vehicle];
+    const Shape& shape = *plan.at(n).shape;
+    for (const TileIndex tile : shape.swept) {
+        for (const Use& use : queues_[tile]) {
+            if (use.vehicle == vehicle && use.first <= n) {
+                if (use.last >= n) break;
+                continue;  // an earlier stay of its own that it has not passed yet
+            }
+            return tile;
+        }
+    }
+    return closed_tile(plan.stand_after(n - 1), shape);
+}
 
 MoveNumber Traffic::grantable(VehicleIndex vehicle, MoveNumber wanted_moves) const {
     const VehiclePlan& plan = joint_.plan(vehicle);

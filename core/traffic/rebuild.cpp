@@ -11,7 +11,7 @@ TrafficRecord Traffic::record() const {
     for (VehicleIndex v = 0; v < joint_.vehicle_count(); ++v) {
         const VehiclePlan& plan = joint_.plan(v);
         const Vehicle& vehicle = vehicles_[v];
-        VehicleRecord row;
+        StoredStand row;
         row.name = vehicle.name;
         row.graph = vehicle.graph;
         row.stand = tiles_.ids_of(plan.stand);
@@ -70,7 +70,7 @@ Result<Traffic> Traffic::rebuild(const TrafficRecord& record, Traffic empty) {
     traffic.predicted_s_ = record.predicted_s;
     std::vector<VehiclePlan> plans;
     std::vector<std::vector<std::int64_t>> ranks;
-    for (const VehicleRecord& row : record.vehicles) {
+    for (const StoredStand& row : record.vehicles) {
         if (row.graph != kNoGraph && row.graph >= traffic.graphs_.size())
             return broken("graph", row.name);
         if (row.released < row.passed || row.released - row.passed > row.moves.size()) {

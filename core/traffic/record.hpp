@@ -72,7 +72,7 @@ struct MoveRecord {
     friend bool operator==(const MoveRecord&, const MoveRecord&) = default;
 };
 
-struct VehicleRecord {
+struct StoredStand {
     std::string name;
     GraphIndex graph = kNoGraph;
     TileSet stand;
@@ -95,7 +95,7 @@ struct VehicleRecord {
     bool postponed = false;  // it gives way, its plan leaves out the visits for the time being
     double tried_s = -1e9;   // last search by improve()
     std::optional<Block> blocked_by;
-    friend bool operator==(const VehicleRecord&, const VehicleRecord&) = default;
+    friend bool operator==(const StoredStand&, const StoredStand&) = default;
 };
 
 struct ClosureRecord {
@@ -107,7 +107,7 @@ struct ClosureRecord {
 /// All that traffic knows, without handles of its own: enough to rebuild it after a restart. Move
 /// graphs are not in it; they come from the plant and are added again in the same order.
 struct TrafficRecord {
-    std::vector<VehicleRecord> vehicles;
+    std::vector<StoredStand> vehicles;
     std::vector<ClosureRecord> closures;
     double predicted_s = -1;         // time of the predictions in the moves; -1: out of date
     std::vector<TileId> tile_order;  // as the tiles became known; decides between equals

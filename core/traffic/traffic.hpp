@@ -49,6 +49,10 @@
 /// 2019; Cap et al., "Complete decentralized method for on-line multi-robot trajectory planning in
 /// well-formed infrastructures", ICAPS 2015; Phillips, Likhachev, "SIPP", ICRA 2011.)
 ///
+/// Its functions stand in a file a section: admission.cpp (tasks; making_way.cpp where others have to
+/// leave for them), grants.cpp, disturbances.cpp, improvement.cpp and improvement_steps.cpp,
+/// prediction.cpp and waits.cpp (views), rebuild.cpp (records).
+///
 /// Deterministic: the same calls give the same state. No clock, thread or random source inside.
 /// Thread safety: none; one owner. Copyable.
 namespace pulseline::traffic {
@@ -312,6 +316,19 @@ private:
     bool is_blocked(VehicleIndex vehicle, double now_s) const;
     std::size_t count_blocked(double now_s) const;
     double oldest_finish_s() const;
+    /// Why a vehicle has a turn of improve(), the least urgent first.
+    enum class Urgency { kSlow, kPostponed, kBlocked, kInTheWay };
+    struct Candidate {
+        VehicleIndex vehicle;
+        Urgency urgency;
+        double loss_s;
+    };
+    /// A gain below this is not worth a message to the vehicle.
+    static constexpr double kWorthwhile_s = 1.0;
+    std::vector<Candidate> improvement_candidates(double now_s) const;
+    bool improve_candidate(const Candidate& candidate, double now_s, Improvement& result);
+    std::optional<VehicleIndex> whom_to_overtake(VehicleIndex vehicle, double now_s) const;
+    bool move_idle_away(VehicleIndex vehicle, double now_s, Improvement& result);
     bool improve_one(VehicleIndex vehicle, double now_s);
     bool improve_pair(VehicleIndex vehicle, VehicleIndex before, double now_s);
     bool retreat(VehicleIndex vehicle, double now_s);

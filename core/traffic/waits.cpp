@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "core/traffic/traffic.hpp"
 
@@ -24,6 +25,46 @@ Reason Traffic::reason_of(const Block& block) const {
         reason.params.push_back({"tile_y_m", (box.min.y_m + box.max.y_m) / 2});
     }
     return reason;
+}
+
+bool Traffic::is_resting(VehicleIndex vehicle) const {
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    const PlaceIndex end = plan.place_after(plan.released);
+    const Vehicle& v = vehicles_[vehicle];
+    return end != kNoPlace && v.graph != kNoGraph && graphs_[v.graph]->places[end].resting;
+}
+
+bool Traffic::is_blocked(VehicleIndex vehicle, double now_s) const {
+    return joint_.finish_s(vehicle) > now_s + kBlocked_s / 2;
+}
+
+std::size_t Traffic::count_blocked(double now_s) const {
+    std::size_t count = 0;
+    for (VehicleIndex v = 0; v < vehicles_.size(); ++v) count += is_blocked(v, now_s) ? 1 : 0;
+    return count;
+}
+
+/// Planned finish of the task that was admitted first of those not ended; blocked ones cannot be
+/// helped and do not count.
+double Traffic::oldest_finish_s() const {
+    double admitted_s = std::numeric_limits<double>::infinity();
+    double finish_s = std::numeric_limits<double>::infinity();
+    for (VehicleIndex v = 0; v < vehicles_.size(); ++v) {
+        const VehiclePlan& plan = joint_.plan(v);
+        const double end_s = joint_.finish_s(v);
+        if (plan.last() == plan.passed || end_s > predicted_s_ + kBlocked_s / 2) continue;
+        if (vehicles_[v].admitted_s < admitted_s) {
+            admitted_s = vehicles_[v].admitted_s;
+            finish_s = end_s;
+        }
+    }
+    return finish_s;
+}
+
+/// It has no plan and others wait for it to leave.
+bool Traffic::in_the_way(VehicleIndex vehicle) const {
+    const VehiclePlan& plan = joint_.plan(vehicle);
+    return plan.last() == plan.released && !joint_.nobody_behind(vehicle);
 }
 
 std::vector<Wait> Traffic::waits() const {

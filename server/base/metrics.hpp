@@ -77,6 +77,9 @@ public:
 
 private:
     std::size_t heap_bytes() const;
+    void write_timings(std::string& out) const;
+    void write_store(std::string& out) const;
+    void write_links(std::string& out) const;
 
     mutable std::mutex mutex_;
     mutable std::size_t heap_bytes_ = 0;

@@ -13,7 +13,7 @@ inline Error overloaded() {
 }
 
 inline Error internal() {
-    return {Errc::kUnavailable,
+    return {Errc::kInternal,
             {"internal", {}},
             "The server met a fault of its own and changed nothing; its log has the request id.",
             {}};

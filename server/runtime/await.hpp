@@ -62,7 +62,7 @@ net::awaitable<Result<R>> on(Lane& lane, net::io_context& home, std::function<R(
                 give(fail(Errc::kUnavailable, "store_unavailable", e.what()));
             } catch (const std::exception& e) {
                 log::error("task_threw", {{"what", e.what()}});
-                give(fail(Errc::kUnavailable, "internal", "The server met a fault of its own."));
+                give(fail(Errc::kInternal, "internal", "The server met a fault of its own."));
             }
         });
         if (taken != Lane::Taken::kYes) give(fail(not_run(taken)));

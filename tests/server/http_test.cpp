@@ -79,6 +79,24 @@ TEST(Http, RefusesAHeaderOverTheLimit) {
     EXPECT_EQ(answer.status, 431);
 }
 
+TEST(Http, NamesWhatItCouldNotReadByOneRequestId) {
+    TestServer server;
+    for (const std::string text :
+         {"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Long: " + std::string(9000, 'a') + "\r\n\r\n",
+          std::string("GET /%zz HTTP/1.1\r\nHost: x\r\n\r\n"),
+          std::string("POST /api/v1/session HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\n"
+                      "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n")}) {
+        TcpClient client(server.port());
+        client.send(text);
+
+        const auto answer = client.read_answer();
+
+        EXPECT_GE(answer.status, 400);
+        EXPECT_NE(answer.body.find(answer.headers.at("x-request-id")), std::string::npos)
+            << answer.body;
+    }
+}
+
 TEST(Http, RefusesTwoLengthsInOneRequest) {
     TestServer server;
     TcpClient client(server.port());

@@ -56,6 +56,8 @@ int http_status(const Error& error) {
             return 503;
         case Errc::kForbidden:
             return 403;
+        case Errc::kInternal:
+            return 500;
     }
     return 500;
 }

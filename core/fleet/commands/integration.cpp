@@ -16,19 +16,19 @@ namespace pulseline::fleet {
 namespace {
 
 /// It is carried or driven out of the hall: nobody waits for what it was told, its floor is free.
-void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
-    run.actions.clear();
-    run.record.at_station = {};
-    run.record.pose_known = false;
-    run.record.pose = {};
-    run.record.hall = {};
-    run.record.claim.reset();
-    run.claim_told.reset();
-    run.claim_left = false;
-    run.stated.reset();
-    JobOrder* order = fleet.orders.of(run.record.id);
-    end_leg(fleet, run, LegEnd::kOffFloor, now);
-    leave_floor(fleet, run, now);
+void take_off_floor(FleetState& fleet, LiveVehicle& live, Time now) {
+    live.actions.clear();
+    live.record.at_station = {};
+    live.record.pose_known = false;
+    live.record.pose = {};
+    live.record.hall = {};
+    live.record.claim.reset();
+    live.claim_told.reset();
+    live.claim_left = false;
+    live.stated.reset();
+    JobOrder* order = fleet.orders.of(live.record.id);
+    end_leg(fleet, live, LegEnd::kOffFloor, now);
+    leave_floor(fleet, live, now);
     if (order && order->cancel_requested) abort_order(fleet, *order, order->reason, {}, now);
 }
 
@@ -37,13 +37,13 @@ void take_off_floor(FleetState& fleet, VehicleRun& run, Time now) {
 Result<VehicleView> Fleet::integrate(const plant::VehicleId& id, Integration level, bool off_floor,
                                      const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::integrate>(now, id, level, off_floor, actor);
-    VehicleRun* run = fleet.find(id);
-    if (!run) {
+    LiveVehicle* live = fleet.find(id);
+    if (!live) {
         return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},
                     {{"vehicle", id.str()}});
     }
-    const Integration before = run->record.integration;
-    if (level == before) return view_of(fleet, *run, now);
+    const Integration before = live->record.integration;
+    if (level == before) return view_of(fleet, *live, now);
     const bool leaves = level < Integration::kRespect && before >= Integration::kRespect;
     if (leaves && !off_floor) {
         return fail(Errc::kConflict, "off_floor_unconfirmed",
@@ -52,33 +52,33 @@ Result<VehicleView> Fleet::integrate(const plant::VehicleId& id, Integration lev
                         "with off_floor.",
                     "/off_floor", {{"vehicle", id.str()}});
     }
-    if (leaves && run->connected && run->state.driving) {
+    if (leaves && live->connected && live->state.driving) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " drives. Pause it and wait until it stands.", {},
                     {{"vehicle", id.str()}});
     }
-    run->record.integration = level;
-    fleet.store(*run);
+    live->record.integration = level;
+    fleet.store(*live);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, event::kVehicleIntegration, {}, run->record.leg, id, actor,
+    add_event(fleet, now, event::kVehicleIntegration, {}, live->record.leg, id, actor,
               {{"from", to_string(before)}, {"to", to_string(level)}});
     if (level != Integration::kUtilise) {
-        interrupt(fleet, *run, actor, now);
-        if (!leaves) cancel_leg(fleet, *run, now);
+        interrupt(fleet, *live, actor, now);
+        if (!leaves) cancel_leg(fleet, *live, now);
     }
-    if (leaves) take_off_floor(fleet, *run, now);
+    if (leaves) take_off_floor(fleet, *live, now);
     if (level == Integration::kIgnore) {
-        run->state = {};
-        run->state_at.reset();
+        live->state = {};
+        live->state_at.reset();
     }
     if (before < Integration::kRespect && level >= Integration::kRespect) {
         // Somebody put it there by hand: it moves when a person has seen where it stands.
-        require_person(fleet, *run, {"integrated_again", {}}, now);
-        run->reconciled = false;  // its next report says where it stands
+        require_person(fleet, *live, {"integrated_again", {}}, now);
+        live->reconciled = false;  // its next report says where it stands
     }
-    halt_or_resume(fleet, *run, now);
+    halt_or_resume(fleet, *live, now);
     dispatch(fleet, now);
-    return view_of(fleet, *run, now);
+    return view_of(fleet, *live, now);
 }
 
 }  // namespace pulseline::fleet

@@ -78,8 +78,8 @@ Status pause(FleetState& fleet, JobOrder& order, const std::string& actor, Time 
     order.pause_requested = true;
     set_order_state(fleet, order, JobState::kInterrupted, {"paused_by_person", {{"actor", actor}}},
                     actor, now);
-    VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (run && run->has_leg()) pause_motion(fleet, *run, vda5050::kStartPause, now);
+    LiveVehicle* live = fleet.find(order.assigned_vehicle);
+    if (live && live->has_leg()) pause_motion(fleet, *live, vda5050::kStartPause, now);
     return {};
 }
 
@@ -91,17 +91,17 @@ Status resume(FleetState& fleet, JobOrder& order, const std::string& actor, Time
                     "one.",
                     {}, {{"state", to_string(order.state)}});
     }
-    VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (run && waits_for_person(*run)) {
+    LiveVehicle* live = fleet.find(order.assigned_vehicle);
+    if (live && waits_for_person(*live)) {
         return fail(Errc::kConflict, "needs_person",
-                    "Vehicle " + run->record.id.str() +
+                    "Vehicle " + live->record.id.str() +
                         " waits for a person to let it move again: POST /api/v1/fleet/resume.",
-                    {}, {{"vehicle", run->record.id.str()}});
+                    {}, {{"vehicle", live->record.id.str()}});
     }
     const bool was_paused = std::exchange(order.pause_requested, false);
     set_order_state(fleet, order, JobState::kRunning, {}, actor, now);
     // Also without a leg: the drive may have ended while the pause was on its way.
-    if (was_paused && run) pause_motion(fleet, *run, vda5050::kStopPause, now);
+    if (was_paused && live) pause_motion(fleet, *live, vda5050::kStopPause, now);
     return {};
 }
 
@@ -114,13 +114,13 @@ Status end(FleetState& fleet, JobOrder& order, bool as_stop, const std::string& 
     fleet.store(order);
     add_event(fleet, now, as_stop ? event::kJobOrderStopRequested : event::kJobOrderCancelRequested,
               order.id, {}, order.assigned_vehicle, actor);
-    VehicleRun* run = fleet.find(order.assigned_vehicle);
-    if (!run || !run->has_leg() || run->leg().order != order.id) {
+    LiveVehicle* live = fleet.find(order.assigned_vehicle);
+    if (!live || !live->has_leg() || live->leg().order != order.id) {
         abort_order(fleet, order, order.reason, actor, now);
     } else if (!asked_before) {
-        cancel_leg(fleet, *run, now);
+        cancel_leg(fleet, *live, now);
         // A pause that waits at the vehicle would outlive the order that asked for it.
-        if (order.pause_requested) pause_motion(fleet, *run, vda5050::kStopPause, now);
+        if (order.pause_requested) pause_motion(fleet, *live, vda5050::kStopPause, now);
     }
     return {};
 }

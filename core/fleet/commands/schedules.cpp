@@ -116,11 +116,11 @@ void restore_standing(FleetState& fleet, StoredFleet& stored) {
 void require_persons_for_schedules(FleetState& fleet, Time now) {
     for (const auto& [id, schedule] : fleet.standing.schedules) {
         if (schedule.paused || !schedule.next) continue;
-        for (auto& [name, run] : fleet.vehicles) {
+        for (auto& [name, live] : fleet.vehicles) {
             const bool wanted = schedule.order.vehicle.empty() || schedule.order.vehicle == name;
             const auto& type = schedule.order.vehicle_type;
-            if (wanted && (type.empty() || type == run.type->id)) {
-                require_person(fleet, run, {reasons::kServerRestarted, {}}, now);
+            if (wanted && (type.empty() || type == live.type->id)) {
+                require_person(fleet, live, {reasons::kServerRestarted, {}}, now);
             }
         }
     }

@@ -29,14 +29,14 @@ tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
 }
 
 /// Connected is not enough: only its first report says where it stands and what it does.
-Status is_heard(const VehicleRun& run, const std::string& field, const std::string& wanted) {
-    const std::string& id = run.record.id.str();
-    if (!run.connected) {
+Status is_heard(const LiveVehicle& live, const std::string& field, const std::string& wanted) {
+    const std::string& id = live.record.id.str();
+    if (!live.connected) {
         return fail(Errc::kConflict, "vehicle_silent",
                     "Vehicle " + id + " is silent. " + wanted + " when it is heard again.", field,
                     {{"vehicle", id}});
     }
-    if (!run.reconciled) {
+    if (!live.reconciled) {
         return fail(Errc::kConflict, "vehicle_not_reported",
                     "Vehicle " + id + " has connected and not said yet where it stands. " + wanted +
                         " when it has.",
@@ -57,15 +57,15 @@ bool is_about_vehicle(const Reason& reason) {
                        [&](const char* code) { return reason.code == code; });
 }
 
-void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, bool with_fleet,
+void pause(FleetState& fleet, LiveVehicle& live, const std::string& actor, bool with_fleet,
            Time now) {
-    if (run.record.paused) return;
-    const plant::VehicleId& id = run.record.id;
-    run.record.paused = Pause{actor, now, with_fleet};
-    fleet.store(run);
+    if (live.record.paused) return;
+    const plant::VehicleId& id = live.record.id;
+    live.record.paused = Pause{actor, now, with_fleet};
+    fleet.store(live);
     fleet.out.fleet_changed = true;
-    add_event(fleet, now, event::kVehiclePaused, {}, run.record.leg, id, actor);
-    pause_motion(fleet, run, vda5050::kStartPause, now);
+    add_event(fleet, now, event::kVehiclePaused, {}, live.record.leg, id, actor);
+    pause_motion(fleet, live, vda5050::kStartPause, now);
     JobOrder* order = fleet.orders.of(id);
     if (order && order->state == JobState::kRunning) {
         set_order_state(fleet, *order, JobState::kInterrupted,
@@ -74,26 +74,26 @@ void pause(FleetState& fleet, VehicleRun& run, const std::string& actor, bool wi
     }
 }
 
-void resume_leg(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
-    if (has_foreign_order(run)) return cancel_foreign_order(fleet, run, actor, now);
-    if (!run.has_leg()) return;
-    if (run.state.order_id == run.leg().id.str()) {
-        if (run.state.order_update_id != run.leg().update_id) cancel_leg(fleet, run, now);
+void resume_leg(FleetState& fleet, LiveVehicle& live, const std::string& actor, Time now) {
+    if (has_foreign_order(live)) return cancel_foreign_order(fleet, live, actor, now);
+    if (!live.has_leg()) return;
+    if (live.state.order_id == live.leg().id.str()) {
+        if (live.state.order_update_id != live.leg().update_id) cancel_leg(fleet, live, now);
         return;
     }
-    if (is_on_its_way(run)) {
+    if (is_on_its_way(live)) {
         // It could be begun after it was forgotten here, so the vehicle is asked once more.
-        run.delivery.sent_anew();
-        return send_order_update(fleet, run, 0, now);
+        live.delivery.sent_anew();
+        return send_order_update(fleet, live, 0, now);
     }
     // The vehicle never got it or gave it up; the step starts anew from where it stands.
-    end_leg(fleet, run, LegEnd::kLost, now);
+    end_leg(fleet, live, LegEnd::kLost, now);
 }
 
-void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::string& actor,
+void go_on_with(FleetState& fleet, LiveVehicle& live, JobOrder& order, const std::string& actor,
                 Time now) {
     if (order.cancel_requested) {
-        if (run.has_leg()) return cancel_leg(fleet, run, now);
+        if (live.has_leg()) return cancel_leg(fleet, live, now);
         return abort_order(fleet, order, order.reason, actor, now);
     }
     if (order.state == JobState::kInterrupted && is_about_vehicle(order.reason)) {
@@ -106,31 +106,31 @@ void go_on_with(FleetState& fleet, VehicleRun& run, JobOrder& order, const std::
 Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::string& actor,
                                          Time now) {
     FleetState& fleet = input<&Fleet::pause_vehicle>(now, id, actor);
-    VehicleRun* run = fleet.find(id);
-    if (!run) return no_such_vehicle(id);
-    pause(fleet, *run, actor, false, now);
-    return view_of(fleet, *run, now);
+    LiveVehicle* live = fleet.find(id);
+    if (!live) return no_such_vehicle(id);
+    pause(fleet, *live, actor, false, now);
+    return view_of(fleet, *live, now);
 }
 
 Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2& pose,
                                          const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::init_position>(now, id, pose, actor);
-    VehicleRun* run = fleet.find(id);
-    if (!run) return no_such_vehicle(id);
-    if (Status heard = is_heard(*run, {}, "Its position can be set"); !heard) {
+    LiveVehicle* live = fleet.find(id);
+    if (!live) return no_such_vehicle(id);
+    if (Status heard = is_heard(*live, {}, "Its position can be set"); !heard) {
         return fail(std::move(heard).error());
     }
     // In doubt its leg is kept after it has given it up, since the floor of it is.
-    const bool has_order = run->has_leg() && run->state.order_id == run->leg().id.str() &&
-                           !(is_in_doubt(*run) && has_nothing_left(run->state));
-    if (run->state.driving || has_order) {
+    const bool has_order = live->has_leg() && live->state.order_id == live->leg().id.str() &&
+                           !(is_in_doubt(*live) && has_nothing_left(live->state));
+    if (live->state.driving || has_order) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
                     {}, {{"vehicle", id.str()}});
     }
-    Whereabouts stated{pose, hall_of(fleet, *run)};
+    Whereabouts stated{pose, hall_of(fleet, *live)};
     stated.pose.heading_rad = wrap(pose.heading_rad);
-    const auto& claim = run->record.claim;
+    const auto& claim = live->record.claim;
     if (claim && geometry::distance(claim->pose.position(), pose.position()) < kAsClaimed_m) {
         stated.hall = claim->hall;
     }
@@ -140,72 +140,72 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                     "That position lies outside hall " + hall->name + ".", "/x_m",
                     {{"x_m", pose.x_m}, {"y_m", pose.y_m}});
     }
-    std::erase_if(run->actions,
+    std::erase_if(live->actions,
                   [](const PendingAction& p) { return p.action.type == vda5050::kInitPosition; });
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
     action.init_position = vda5050::InitPosition{pose, stated.hall, {}};
-    run->stated = VehicleRun::Statement{stated, now, actor};
+    live->stated = LiveVehicle::Statement{stated, now, actor};
     add_event(fleet, now, event::kVehicleInitPosition, {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
-    send_action(fleet, *run, std::move(action), now);
-    return view_of(fleet, *run, now);
+    send_action(fleet, *live, std::move(action), now);
+    return view_of(fleet, *live, now);
 }
 
 void Fleet::pause_fleet(const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::pause_fleet>(now, actor);
     add_event(fleet, now, event::kFleetPaused, {}, {}, {}, actor);
     fleet.out.fleet_changed = true;
-    for (auto& [id, run] : fleet.vehicles) pause(fleet, run, actor, true, now);
+    for (auto& [id, live] : fleet.vehicles) pause(fleet, live, actor, true, now);
 }
 
 Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
                            Time now) {
     FleetState& fleet = input<&Fleet::resume_fleet>(now, vehicles, actor);
     for (std::size_t i = 0; i < vehicles.size(); ++i) {
-        const VehicleRun* run = fleet.find(vehicles[i]);
+        const LiveVehicle* live = fleet.find(vehicles[i]);
         const std::string field = "/vehicles/" + std::to_string(i);
-        if (!run) {
+        if (!live) {
             return fail(Errc::kUnreachable, "unknown_vehicle",
                         "There is no vehicle " + vehicles[i].str() + ".", field,
                         {{"vehicle", vehicles[i].str()}});
         }
-        if (run->record.needs_resume && !is_automatic(*run)) {
+        if (live->record.needs_resume && !is_automatic(*live)) {
             return fail(Errc::kConflict, "not_automatic",
                         "Vehicle " + vehicles[i].str() +
                             " is driven by hand. Give it back at the vehicle first.",
-                        field, {{"operating_mode", run->state.operating_mode}});
+                        field, {{"operating_mode", live->state.operating_mode}});
         }
-        if (is_in_doubt(*run) && !stands_where_known(fleet, *run, now)) {
+        if (is_in_doubt(*live) && !stands_where_known(fleet, *live, now)) {
             return fail(Errc::kConflict, "pose_in_doubt",
                         "Vehicle " + vehicles[i].str() +
                             " says that it stands where it cannot be. Look at it and set its "
                             "position first.",
                         field, {{"vehicle", vehicles[i].str()}});
         }
-        const bool allowed_back = run->connection_refused;
-        if (run->record.needs_resume && !allowed_back) {
-            Status heard = is_heard(*run, field, "It can be allowed to move");
+        const bool allowed_back = live->connection_refused;
+        if (live->record.needs_resume && !allowed_back) {
+            Status heard = is_heard(*live, field, "It can be allowed to move");
             if (!heard) return heard;
         }
     }
     for (const auto& id : vehicles) {
-        VehicleRun& run = *fleet.find(id);
-        add_event(fleet, now, event::kVehicleResumed, {}, run.record.leg, id, actor,
-                  {{"cause", run.record.needs_resume ? run.record.needs_resume_reason.code
-                                                     : std::string(reasons::kVehiclePaused)}});
-        const bool was_paused = std::exchange(run.record.paused, std::nullopt).has_value();
-        run.record.needs_resume = false;
-        run.record.needs_resume_reason = {};
-        run.connection_refused = false;
+        LiveVehicle& live = *fleet.find(id);
+        add_event(fleet, now, event::kVehicleResumed, {}, live.record.leg, id, actor,
+                  {{"cause", live.record.needs_resume ? live.record.needs_resume_reason.code
+                                                      : std::string(reasons::kVehiclePaused)}});
+        const bool was_paused = std::exchange(live.record.paused, std::nullopt).has_value();
+        live.record.needs_resume = false;
+        live.record.needs_resume_reason = {};
+        live.connection_refused = false;
         fleet.out.fleet_changed = true;
-        fleet.store(run);
-        if (was_paused || run.state.paused) pause_motion(fleet, run, vda5050::kStopPause, now);
-        if (is_in_doubt(run)) end_doubt(fleet, run, now);
+        fleet.store(live);
+        if (was_paused || live.state.paused) pause_motion(fleet, live, vda5050::kStopPause, now);
+        if (is_in_doubt(live)) end_doubt(fleet, live, now);
 
-        resume_leg(fleet, run, actor, now);
+        resume_leg(fleet, live, actor, now);
         JobOrder* order = fleet.orders.of(id);  // none any more when that ended a cancel
-        if (order) go_on_with(fleet, run, *order, actor, now);
+        if (order) go_on_with(fleet, live, *order, actor, now);
     }
     dispatch(fleet, now);
     return {};

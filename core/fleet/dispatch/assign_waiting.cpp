@@ -11,7 +11,7 @@
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
-#include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 
 // Free vehicles and waiting orders, solved as one assignment.
@@ -37,14 +37,14 @@ double urgency_s(const JobOrder& order, Time now) {
     return std::clamp(urgency, -kMostUrgency_s, kMostUrgency_s);
 }
 
-bool is_free(const FleetState& fleet, const VehicleRun& run) {
-    if (run.has_leg()) return false;
-    return fleet.orders.of(run.record.id) == nullptr;
+bool is_free(const FleetState& fleet, const LiveVehicle& live) {
+    if (live.has_leg()) return false;
+    return fleet.orders.of(live.record.id) == nullptr;
 }
 
-NewOrder as_request(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
+NewOrder as_request(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
     NewOrder request;
-    request.vehicle = run.record.id;
+    request.vehicle = live.record.id;
     request.planned_beside = true;
     for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
         const Step& step = order.steps[i];
@@ -56,40 +56,40 @@ NewOrder as_request(const FleetState& fleet, const JobOrder& order, const Vehicl
 }
 
 /// Time to the order's first station on an empty floor; infinity: the vehicle cannot serve it.
-double way_s(FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
+double way_s(FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
     constexpr double kNever = std::numeric_limits<double>::infinity();
     const Step& first = order.steps[order.current_step];
-    const auto& of_class = fleet.floor.classes[run.floor.of_class];
+    const auto& of_class = fleet.floor.classes[live.floor.of_class];
     const auto place = of_class.motion.station_place(first.station);
     if (!place) return kNever;
     const bool any_way =
         first.mode == plant::MotionMode::kAuto || first.mode == plant::MotionMode::kLinear;
     const double table_s =
-        fleet.floor.traffic.travel_s(run.floor.vehicle, static_cast<traffic::PlaceIndex>(*place));
+        fleet.floor.traffic.travel_s(live.floor.vehicle, static_cast<traffic::PlaceIndex>(*place));
     if (any_way && std::isfinite(table_s)) return table_s;
     const auto* station = plant::find_station(fleet.plant, first.station);
     const auto plan =
-        plan_here(fleet, leg_request(fleet, run, run.record.pose, first.station, first.mode));
+        plan_here(fleet, leg_request(fleet, live, live.record.pose, first.station, first.mode));
     if (plan) return plan->duration_s;
     if (station && plan.error().code == Errc::kNeedsPlan)
-        return least_drive_s(run, run.record.pose, *station);
-    return station && nearly_there(run, run.record.pose, *station) ? 0 : kNever;
+        return least_drive_s(live, live.record.pose, *station);
+    return station && nearly_there(live, live.record.pose, *station) ? 0 : kNever;
 }
 
 /// Why the order has no vehicle now.
 Reason why_it_waits(const FleetState& fleet, const JobOrder& order, Time now) {
     if (order.wanted_vehicle.empty()) return {"no_free_vehicle", {}};
-    const VehicleRun* run = fleet.find(order.wanted_vehicle);
-    if (!run) return {"unknown_vehicle", {{"vehicle", order.wanted_vehicle.str()}}};
-    if (!is_free(fleet, *run)) {
-        Reason busy{"vehicle_busy", {{"vehicle", run->record.id.str()}}};
-        if (const JobOrder* other = fleet.orders.of(run->record.id)) {
+    const LiveVehicle* live = fleet.find(order.wanted_vehicle);
+    if (!live) return {"unknown_vehicle", {{"vehicle", order.wanted_vehicle.str()}}};
+    if (!is_free(fleet, *live)) {
+        Reason busy{"vehicle_busy", {{"vehicle", live->record.id.str()}}};
+        if (const JobOrder* other = fleet.orders.of(live->record.id)) {
             busy.params.push_back({"order", "JO-" + std::to_string(other->number)});
         }
         return busy;
     }
-    if (auto barred = not_ready_for(fleet, order, *run, now)) return barred->reason;
-    if (auto reason = battery_bar(*run)) return *reason;
+    if (auto barred = not_ready_for(fleet, order, *live, now)) return barred->reason;
+    if (auto reason = battery_bar(*live)) return *reason;
     return {"no_free_vehicle", {}};
 }
 
@@ -116,11 +116,11 @@ void assign_waiting(FleetState& fleet, Time now) {
         }
     }
     if (orders.empty()) return;
-    std::vector<VehicleRun*> free;
-    for (auto& [id, run] : fleet.vehicles) {
-        const auto barred = not_ready(fleet, run, now);
+    std::vector<LiveVehicle*> free;
+    for (auto& [id, live] : fleet.vehicles) {
+        const auto barred = not_ready(fleet, live, now);
         const bool ready = !barred || barred->by == Bar::kFeetDown;
-        if (is_free(fleet, run) && ready && !battery_bar(run)) free.push_back(&run);
+        if (is_free(fleet, live) && ready && !battery_bar(live)) free.push_back(&live);
     }
     const std::size_t looked_at = free.empty() ? 0 : std::min(orders.size(), kMostOrders);
     CostMatrix matrix{looked_at, free.size(), {}};
@@ -128,30 +128,30 @@ void assign_waiting(FleetState& fleet, Time now) {
     for (std::size_t row = 0; row < looked_at; ++row) {
         const JobOrder& order = *orders[row];
         for (std::size_t column = 0; column < free.size(); ++column) {
-            const VehicleRun& run = *free[column];
-            if (!vehicle_fits(fleet, order, run)) continue;
-            if (not_ready_for(fleet, order, run, now)) continue;
-            matrix.at(row, column) = way_s(fleet, order, run) - urgency_s(order, now);
+            const LiveVehicle& live = *free[column];
+            if (!vehicle_fits(fleet, order, live)) continue;
+            if (not_ready_for(fleet, order, live, now)) continue;
+            matrix.at(row, column) = way_s(fleet, order, live) - urgency_s(order, now);
         }
     }
     const auto chosen = assign(matrix);
     for (std::size_t row = 0; row < orders.size(); ++row) {
         JobOrder& order = *orders[row];
-        VehicleRun* run = row < chosen.size() && chosen[row] ? free[*chosen[row]] : nullptr;
-        if (!run) {
+        LiveVehicle* live = row < chosen.size() && chosen[row] ? free[*chosen[row]] : nullptr;
+        if (!live) {
             if (order.state == JobState::kAllowedToStart) {
                 set_order_reason(fleet, order, why_it_waits(fleet, order, now), now);
             }
             continue;
         }
-        if (const auto plan = plan_order(fleet, as_request(fleet, order, *run), now); !plan) {
+        if (const auto plan = plan_order(fleet, as_request(fleet, order, *live), now); !plan) {
             set_order_reason(fleet, order, plan.error().reason, now);
             continue;
         }
-        if (!vehicle_fits(fleet, order, *run)) continue;  // its sequence got one in this round
-        fleet.orders.assign(order, run->record.id);
-        run->floor.next_try.reset();
-        run->floor.in_vain_since.reset();
+        if (!vehicle_fits(fleet, order, *live)) continue;  // its sequence got one in this round
+        fleet.orders.assign(order, live->record.id);
+        live->floor.next_try.reset();
+        live->floor.in_vain_since.reset();
         set_order_state(fleet, order, JobState::kRunning, {}, {}, now);
     }
 }

@@ -10,6 +10,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/vda5050/actions.hpp"
@@ -28,11 +29,11 @@ bool has(const std::vector<std::string>& actions, const char* type) {
 }
 
 /// Keeps the charger for the vehicle that stands there: it charges, or nobody can send it away.
-bool keeps_charger(const FleetState& fleet, const VehicleRun& run) {
-    return charges_on(run) || is_loaded(run) || cannot_move(fleet, run);
+bool keeps_charger(const FleetState& fleet, const LiveVehicle& live) {
+    return charges_on(live) || is_loaded(live) || cannot_move(fleet, live);
 }
 
-bool is_taken(const FleetState& fleet, const plant::Station& charger, const VehicleRun& by) {
+bool is_taken(const FleetState& fleet, const plant::Station& charger, const LiveVehicle& by) {
     for (const auto& [id, other] : fleet.vehicles) {
         if (id == by.record.id) continue;
         if (other.has_leg() && other.leg().station == charger.id) return true;
@@ -42,84 +43,85 @@ bool is_taken(const FleetState& fleet, const plant::Station& charger, const Vehi
 }
 
 /// Why a vehicle that should charge is not sent; none: it may be.
-std::optional<Reason> may_not_charge(const VehicleRun& run, Time now) {
-    const Params who{{"vehicle", run.record.id.str()}};
-    if (is_loaded(run)) return Reason{"charge_loaded", who};
-    if (!run.factsheet || !has(run.factsheet->node_actions, vda5050::kStartCharging)) {
+std::optional<Reason> may_not_charge(const LiveVehicle& live, Time now) {
+    const Params who{{"vehicle", live.record.id.str()}};
+    if (is_loaded(live)) return Reason{"charge_loaded", who};
+    if (!live.factsheet || !has(live.factsheet->node_actions, vda5050::kStartCharging)) {
         return Reason{"charge_not_announced", who};
     }
-    if (run.charge_retry && now < *run.charge_retry) return Reason{"charge_failed", who};
+    if (live.charge_retry && now < *live.charge_retry) return Reason{"charge_failed", who};
     return std::nullopt;
 }
 
 /// Free vehicles that should charge and may be sent now.
-std::vector<VehicleRun*> low_ones(FleetState& fleet, Time now) {
-    std::vector<VehicleRun*> low;
-    for (auto& [id, run] : fleet.vehicles) {
-        const bool low_now = run.state_at && !run.state.charging &&
-                             run.state.battery_percent < run.type->battery.low_percent;
-        const bool free = !run.has_leg() && !fleet.orders.of(id);
-        if (!low_now || !free || not_ready(fleet, run, now)) {
-            run.charge_wait.reset();
+std::vector<LiveVehicle*> low_ones(FleetState& fleet, Time now) {
+    std::vector<LiveVehicle*> low;
+    for (auto& [id, live] : fleet.vehicles) {
+        const bool low_now = live.state_at && !live.state.charging &&
+                             live.state.battery_percent < live.type->battery.low_percent;
+        const bool free = !live.has_leg() && !fleet.orders.of(id);
+        if (!low_now || !free || not_ready(fleet, live, now)) {
+            live.charge_wait.reset();
             continue;
         }
-        if (run.charge_wait && run.floor.next_try && now < *run.floor.next_try) continue;
-        run.charge_wait = may_not_charge(run, now);
-        if (!run.charge_wait) low.push_back(&run);
+        if (live.charge_wait && live.floor.next_try && now < *live.floor.next_try) continue;
+        live.charge_wait = may_not_charge(live, now);
+        if (!live.charge_wait) low.push_back(&live);
     }
     return low;
 }
 
-Result<Leg> leg_to_charger(FleetState& fleet, const VehicleRun& run, const plant::Station& charger,
-                           LegId id) {
-    if (run.record.at_station == charger.id) {
-        Leg leg = build_adjust_leg(fleet, run, charger, run.record.pose, id);
+Result<Leg> leg_to_charger(FleetState& fleet, const LiveVehicle& live,
+                           const plant::Station& charger, LegId id) {
+    if (live.record.at_station == charger.id) {
+        Leg leg = build_adjust_leg(fleet, live, charger, live.record.pose, id);
         leg.nodes.front().actions.clear();
         return leg;
     }
     const auto plan = fleet.planner.plan_primitive_leg(
-        leg_request(fleet, run, run.record.pose, charger.id, plant::MotionMode::kAuto));
+        leg_request(fleet, live, live.record.pose, charger.id, plant::MotionMode::kAuto));
     if (!plan) return fail(plan.error());
-    return build_leg(fleet, run, *plan, charger, run.record.pose, id);
+    return build_leg(fleet, live, *plan, charger, live.record.pose, id);
 }
 
-std::optional<Reason> go_to(FleetState& fleet, VehicleRun& run, const plant::Station& charger,
+std::optional<Reason> go_to(FleetState& fleet, LiveVehicle& live, const plant::Station& charger,
                             Time now) {
     const LegId id(fleet.ids.next(now));
-    auto leg = leg_to_charger(fleet, run, charger, id);
+    auto leg = leg_to_charger(fleet, live, charger, id);
     if (!leg) return leg.error().reason;
     leg->charges = true;
-    leg->nodes.back().actions = rest_actions(fleet, run, charger, *leg);
-    if (auto reason = try_leg(fleet, run, std::move(*leg), now)) return reason;
-    fleet.store(run);
-    add_event(fleet, now, event::kVehicleGoesCharging, {}, id, run.record.id, {},
-              {{"station", std::int64_t{charger.number}}, {"percent", run.state.battery_percent}});
-    send_leg(fleet, run, now);
+    leg->nodes.back().actions = rest_actions(fleet, live, charger, *leg);
+    if (auto reason = try_leg(fleet, live, std::move(*leg), now)) return reason;
+    fleet.store(live);
+    add_event(fleet, now, event::kVehicleGoesCharging, {}, id, live.record.id, {},
+              {{"station", std::int64_t{charger.number}}, {"percent", live.state.battery_percent}});
+    send_leg(fleet, live, now);
     return std::nullopt;
 }
 
 }  // namespace
 
-bool ends_charging(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.state.charging || !run.factsheet) return false;
-    if (!has(run.factsheet->actions, vda5050::kStopCharging)) return false;
-    if (!is_asked(run, vda5050::kStopCharging) && (!run.charge_retry || now >= *run.charge_retry)) {
-        run.charge_retry = now + kAskAgain;
+bool ends_charging(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!live.state.charging || !live.factsheet) return false;
+    if (!has(live.factsheet->actions, vda5050::kStopCharging)) return false;
+    if (!is_asked(live, vda5050::kStopCharging) &&
+        (!live.charge_retry || now >= *live.charge_retry)) {
+        live.charge_retry = now + kAskAgain;
         vda5050::Action action;
         action.type = vda5050::kStopCharging;
-        send_action(fleet, run, std::move(action), now);
+        send_action(fleet, live, std::move(action), now);
     }
     return true;
 }
 
-void charge_failed(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {
-    run.charge_retry = now + kTryAgain;
-    add_event(fleet, now, event::kVehicleChargeFailed, {}, run.record.leg, run.record.id, {},
+void charge_failed(FleetState& fleet, LiveVehicle& live, const std::string& why, Time now) {
+    live.charge_retry = now + kTryAgain;
+    add_event(fleet, now, event::kVehicleChargeFailed, {}, live.record.leg, live.record.id, {},
               {{"why", why}});
 }
 
 void charge_low(FleetState& fleet, Time now) {
-    const std::vector<VehicleRun*> low = low_ones(fleet, now);
+    const std::vector<LiveVehicle*> low = low_ones(fleet, now);
     if (low.empty()) return;
     std::vector<const plant::Station*> chargers;
     for (const auto& station : fleet.plant.stations) {
@@ -128,24 +130,24 @@ void charge_low(FleetState& fleet, Time now) {
     CostMatrix matrix{low.size(), chargers.size(), {}};
     matrix.costs.assign(low.size() * chargers.size(), std::numeric_limits<double>::infinity());
     for (std::size_t row = 0; row < low.size(); ++row) {
-        const VehicleRun& run = *low[row];
-        const auto& motion = fleet.floor.classes[run.floor.of_class].motion;
+        const LiveVehicle& live = *low[row];
+        const auto& motion = fleet.floor.classes[live.floor.of_class].motion;
         for (std::size_t column = 0; column < chargers.size(); ++column) {
             const auto place = motion.station_place(chargers[column]->id);
-            if (!place || is_taken(fleet, *chargers[column], run)) continue;
+            if (!place || is_taken(fleet, *chargers[column], live)) continue;
             matrix.at(row, column) =
-                fleet.floor.traffic.travel_s(run.floor.vehicle,
+                fleet.floor.traffic.travel_s(live.floor.vehicle,
                                              static_cast<traffic::PlaceIndex>(*place)) +
-                kPercent_s * run.state.battery_percent;
+                kPercent_s * live.state.battery_percent;
         }
     }
     const auto chosen = assign(matrix);
     for (std::size_t row = 0; row < low.size(); ++row) {
-        VehicleRun& run = *low[row];
+        LiveVehicle& live = *low[row];
         if (!chosen[row]) {
-            run.charge_wait = Reason{"no_free_charger", {{"vehicle", run.record.id.str()}}};
-        } else if (auto reason = go_to(fleet, run, *chargers[*chosen[row]], now)) {
-            run.charge_wait = std::move(reason);
+            live.charge_wait = Reason{"no_free_charger", {{"vehicle", live.record.id.str()}}};
+        } else if (auto reason = go_to(fleet, live, *chargers[*chosen[row]], now)) {
+            live.charge_wait = std::move(reason);
         }
     }
 }

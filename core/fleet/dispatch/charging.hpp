@@ -10,7 +10,7 @@ namespace pulseline::fleet {
 /// Vehicles without an order whose battery is low go to chargers.
 void charge_low(FleetState& fleet, Time now);
 /// Before a drive: whether it has to be waited for that the vehicle stops charging.
-bool ends_charging(FleetState& fleet, VehicleRun& run, Time now);
-void charge_failed(FleetState& fleet, VehicleRun& run, const std::string& why, Time now);
+bool ends_charging(FleetState& fleet, LiveVehicle& live, Time now);
+void charge_failed(FleetState& fleet, LiveVehicle& live, const std::string& why, Time now);
 
 }  // namespace pulseline::fleet

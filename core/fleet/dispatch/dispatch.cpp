@@ -16,12 +16,12 @@
 
 namespace pulseline::fleet {
 
-void dispatch_for(FleetState& fleet, VehicleRun& run, Time now) {
-    if (may_extend_base(fleet, run, now)) extend_base(fleet, run, now);
-    JobOrder* order = fleet.orders.of(run.record.id);
-    if (run.has_leg() || !order || order->state != JobState::kRunning) return;
+void dispatch_for(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (may_extend_base(fleet, live, now)) extend_base(fleet, live, now);
+    JobOrder* order = fleet.orders.of(live.record.id);
+    if (live.has_leg() || !order || order->state != JobState::kRunning) return;
     if (order->current_step >= order->steps.size()) return;
-    if (!not_ready_for(fleet, *order, run, now)) start_step(fleet, *order, run, now);
+    if (!not_ready_for(fleet, *order, live, now)) start_step(fleet, *order, live, now);
 }
 
 void dispatch(FleetState& fleet, Time now) {

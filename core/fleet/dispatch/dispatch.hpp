@@ -8,6 +8,6 @@ namespace pulseline::fleet {
 void dispatch(FleetState& fleet, Time now);
 /// What a report of one vehicle can set in motion at once: its base, its next step. The rest waits
 /// for the next tick, so that a report costs the same in a fleet of a thousand.
-void dispatch_for(FleetState& fleet, VehicleRun& run, Time now);
+void dispatch_for(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

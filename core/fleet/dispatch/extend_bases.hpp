@@ -7,6 +7,6 @@ namespace pulseline::fleet {
 
 /// Vehicles at work get further base.
 void extend_bases(FleetState& fleet, Time now);
-bool may_extend_base(const FleetState& fleet, const VehicleRun& run, Time now);
+bool may_extend_base(const FleetState& fleet, const LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

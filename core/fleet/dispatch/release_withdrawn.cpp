@@ -28,11 +28,11 @@ void give_back(FleetState& fleet, JobOrder& order) {
 }  // namespace
 
 void release_withdrawn(FleetState& fleet, Time now) {
-    for (auto& [id, run] : fleet.vehicles) {
-        if (run.record.integration == Integration::kUtilise || run.has_leg()) continue;
-        interrupt(fleet, run, {}, now);  // resumed by a person meanwhile
+    for (auto& [id, live] : fleet.vehicles) {
+        if (live.record.integration == Integration::kUtilise || live.has_leg()) continue;
+        interrupt(fleet, live, {}, now);  // resumed by a person meanwhile
         JobOrder* order = fleet.orders.of(id);
-        if (!order || order->cancel_requested || is_loaded(run)) continue;
+        if (!order || order->cancel_requested || is_loaded(live)) continue;
         if (order->reason.code != reasons::kVehicleWithdrawn || is_bound_to(fleet, *order, id))
             continue;
         give_back(fleet, *order);

@@ -7,6 +7,6 @@ namespace pulseline::fleet {
 
 /// Assigned orders start their next step, and legs without a plan get one.
 void start_steps(FleetState& fleet, Time now);
-void start_step(FleetState& fleet, JobOrder& order, VehicleRun& run, Time now);
+void start_step(FleetState& fleet, JobOrder& order, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

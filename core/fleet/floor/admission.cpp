@@ -38,17 +38,17 @@ bool same_pose(const Pose2& a, const Pose2& b) {
 }
 
 /// It brings its load to where it cannot rest: it stays there until others need the floor.
-bool works_at(const VehicleRun& run, const plant::Station& station) {
-    return is_loaded(run) && !station.resting_place;
+bool works_at(const LiveVehicle& live, const plant::Station& station) {
+    return is_loaded(live) && !station.resting_place;
 }
 
 /// What the leg's task is part of, and where the order goes on to.
-void describe_order(const FleetState& fleet, const VehicleRun& run, const JobOrder& order,
+void describe_order(const FleetState& fleet, const LiveVehicle& live, const JobOrder& order,
                     traffic::Task& task) {
     task.purpose = static_cast<std::uint64_t>(order.number);
     task.since_s = seconds(order.created.time_since_epoch());
     for (std::size_t i = order.current_step + 1; i < order.steps.size(); ++i) {
-        const auto place = floor_class_of(fleet, run).motion.station_place(order.steps[i].station);
+        const auto place = floor_class_of(fleet, live).motion.station_place(order.steps[i].station);
         if (place) task.later.push_back(static_cast<traffic::PlaceIndex>(*place));
     }
 }
@@ -72,16 +72,16 @@ traffic::PlaceIndex exact_place(const FloorClass& of_class, const std::string& h
 }
 
 /// The leg's edges behind its base as traffic takes them.
-traffic::Sequence sequence_of(const FleetState& fleet, const VehicleRun& run) {
-    const Leg& leg = run.leg();
-    const FloorClass& of_class = floor_class_of(fleet, run);
+traffic::Sequence sequence_of(const FleetState& fleet, const LiveVehicle& live) {
+    const Leg& leg = live.leg();
+    const FloorClass& of_class = floor_class_of(fleet, live);
     traffic::Sequence sequence;
     for (std::size_t i = leg.released_nodes; i < leg.nodes.size(); ++i) {
         traffic::Sequence::Step step;
-        step.swept = floor_of_edge(fleet, run, leg.edges[i - 1]);
+        step.swept = floor_of_edge(fleet, live, leg.edges[i - 1]);
         step.place = exact_place(of_class, leg.hall, leg.nodes[i].pose);
         step.stand =
-            step.place != kNoPlace ? of_class.stands[step.place] : floor_at_node(fleet, run, i);
+            step.place != kNoPlace ? of_class.stands[step.place] : floor_at_node(fleet, live, i);
         step.duration_s = std::max(0.1, leg.edges[i - 1].segment.duration_s);
         sequence.steps.push_back(std::move(step));
     }
@@ -141,38 +141,38 @@ void append_move(const FloorClass& of_class, Leg& leg, traffic::PlaceIndex place
 }
 
 /// Makes the leg's horizon that of the plan; true when it changed.
-bool take_horizon(FleetState& fleet, VehicleRun& run) {
-    Leg& leg = run.leg();
-    const auto& plan = fleet.floor.traffic.plan(run.floor.vehicle);
-    const FloorClass& of_class = floor_class_of(fleet, run);
+bool take_horizon(FleetState& fleet, LiveVehicle& live) {
+    Leg& leg = live.leg();
+    const auto& plan = fleet.floor.traffic.plan(live.floor.vehicle);
+    const FloorClass& of_class = floor_class_of(fleet, live);
     // The stop is in the base: the vehicle makes it, whatever the plan would do before.
     if (leg.released_nodes == leg.nodes.size() && !leg.nodes.back().actions.empty()) return false;
     const auto is_drive = [&](MoveNumber n) {
         return n <= plan.last() && plan.at(n).visit == kNoVisit;
     };
     std::size_t node = leg.released_nodes;
-    for (; node < leg.nodes.size() && is_drive(move_of_node(run, node)); ++node) {
-        const auto& move = plan.at(move_of_node(run, node));
+    for (; node < leg.nodes.size() && is_drive(move_of_node(live, node)); ++node) {
+        const auto& move = plan.at(move_of_node(live, node));
         // Without a place it is the leg's own step: those never come from a search.
         if (move.place == kNoPlace) continue;
         if (!same_pose(of_class.motion.places[move.place].pose, leg.nodes[node].pose)) break;
     }
-    const bool ends = !is_drive(move_of_node(run, node));
-    const bool has_stop = move_of_node(run, node) <= plan.last() && ends;
+    const bool ends = !is_drive(move_of_node(live, node));
+    const bool has_stop = move_of_node(live, node) <= plan.last() && ends;
     if (node == leg.nodes.size() && ends &&
         (leg.order.empty() || has_stop == !leg.nodes.back().actions.empty())) {
         return false;
     }
     leg.nodes.resize(node);
     leg.edges.resize(node - 1);
-    run.areas = {};  // they are of the old horizon
+    live.areas = {};  // they are of the old horizon
     // What was the stop may only be passed now, and is stopped at later.
     for (std::size_t i = leg.released_nodes; i < node; ++i) {
         if (leg.nodes[i].actions.empty()) continue;
         leg.nodes[i].actions.clear();
         leg.nodes[i].node_id = "p" + std::to_string(i);
     }
-    MoveNumber next = move_of_node(run, node);
+    MoveNumber next = move_of_node(live, node);
     for (; is_drive(next); ++next) {
         const MoveNumber n = next;
         const traffic::PlaceIndex before = plan.place_after(n - 1);
@@ -190,8 +190,8 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
     const bool rests = leg.order.empty() && station && leg.nodes.size() > 1;
     if (stops || rests) {
         leg.nodes.back().node_id = station->id.str();
-        leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, run, *station, leg)
-                                                     : stop_actions(fleet, run, *station, leg.id);
+        leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, live, *station, leg)
+                                                     : stop_actions(fleet, live, *station, leg.id);
     }
     widen_nodes(leg);
     leg.duration_s = 0;
@@ -201,13 +201,13 @@ bool take_horizon(FleetState& fleet, VehicleRun& run) {
 
 }  // namespace
 
-std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now) {
+std::optional<Reason> plan_on_floor(FleetState& fleet, LiveVehicle& live, Time now) {
     auto& traffic = fleet.floor.traffic;
-    auto& stand = run.floor;
+    auto& stand = live.floor;
     if (stand.conflict) return stand.conflict;
     if (fleet.floor.stopped) return fleet.floor.stopped;
-    Leg& leg = run.leg();
-    const auto target = floor_class_of(fleet, run).motion.station_place(leg.station);
+    Leg& leg = live.leg();
+    const auto target = floor_class_of(fleet, live).motion.station_place(leg.station);
     if (!target) return Reason{"station_not_for_type", {{"station", leg.station.str()}}};
     const auto& plan = traffic.plan(stand.vehicle);
     if (!stand.leg_planned && leg.released_nodes <= 1) {
@@ -220,13 +220,13 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     } else {
         task.visits = {{goal, kStop_s}};
         const auto* station = plant::find_station(fleet.plant, leg.station);
-        if (station && works_at(run, *station)) task.visits.push_back({goal, kWork_s});
-        if (const auto* order = fleet.find(leg.order)) describe_order(fleet, run, *order, task);
+        if (station && works_at(live, *station)) task.visits.push_back({goal, kWork_s});
+        if (const auto* order = fleet.find(leg.order)) describe_order(fleet, live, *order, task);
     }
-    auto sequence = sequence_of(fleet, run);
+    auto sequence = sequence_of(fleet, live);
     if (!sequence.steps.empty()) {
         // A horizon of before a restart may lead elsewhere, to give way: the search goes on there.
-        const auto end = floor_class_of(fleet, run)
+        const auto end = floor_class_of(fleet, live)
                              .motion.place_at(plant::HallId(leg.hall), leg.nodes.back().pose);
         sequence.ends_at = end ? static_cast<traffic::PlaceIndex>(*end) : kNoPlace;
         if (end) task.sequences = {std::move(sequence)};
@@ -266,39 +266,39 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, VehicleRun& run, Time now
     stand.next_try.reset();
     stand.in_vain_since.reset();
     stand.leg_planned = true;
-    run.swept = {};  // it was for the tries
-    take_horizon(fleet, run);
+    live.swept = {};  // it was for the tries
+    take_horizon(fleet, live);
     return std::nullopt;
 }
 
-void take_plan_as_leg(FleetState& fleet, VehicleRun& run) {
-    run.floor.moves_before_leg =
-        static_cast<std::int64_t>(fleet.floor.traffic.plan(run.floor.vehicle).passed);
-    run.floor.leg_planned = true;
-    take_horizon(fleet, run);
+void take_plan_as_leg(FleetState& fleet, LiveVehicle& live) {
+    live.floor.moves_before_leg =
+        static_cast<std::int64_t>(fleet.floor.traffic.plan(live.floor.vehicle).passed);
+    live.floor.leg_planned = true;
+    take_horizon(fleet, live);
 }
 
 void follow_replans(FleetState& fleet, Time now) {
     for (const auto vehicle : fleet.floor.traffic.take_replanned()) {
-        VehicleRun* run = fleet.find(plant::VehicleId(fleet.floor.traffic.name(vehicle)));
-        if (!run || !run->has_leg() || !run->floor.leg_planned || run->delivery.cancelling())
+        LiveVehicle* live = fleet.find(plant::VehicleId(fleet.floor.traffic.name(vehicle)));
+        if (!live || !live->has_leg() || !live->floor.leg_planned || live->delivery.cancelling())
             continue;
-        if (!take_horizon(fleet, *run)) continue;
-        Leg& leg = run->leg();
+        if (!take_horizon(fleet, *live)) continue;
+        Leg& leg = live->leg();
         add_event(fleet, now, event::kLegRerouted, leg.order, leg.id, leg.vehicle, {},
                   {{"nodes", static_cast<std::int64_t>(leg.nodes.size())},
                    {"from_node", static_cast<std::int64_t>(leg.released_nodes)}});
-        fleet.store(*run);
+        fleet.store(*live);
         if (leg.released_nodes > 1 && leg.nodes.size() == leg.released_nodes &&
             !leg.nodes.back().actions.empty()) {
             // The vehicle has that node without the stop: it gets a leg of its own for that.
             leg.nodes.back().actions.clear();
-            cancel_leg(fleet, *run, now);
+            cancel_leg(fleet, *live, now);
             continue;
         }
-        if (leg.released_nodes > 1 && !waits_for_person(*run) && run->delivery.seen()) {
+        if (leg.released_nodes > 1 && !waits_for_person(*live) && live->delivery.seen()) {
             ++leg.update_id;
-            send_order_update(fleet, *run, leg.released_nodes - 1, now);
+            send_order_update(fleet, *live, leg.released_nodes - 1, now);
         }
     }
 }

@@ -83,9 +83,9 @@ traffic::TileSet tiles_of(const FleetState& fleet, const Closure& closure) {
 /// Legs planned before do not count any more.
 void tell_planner(FleetState& fleet) {
     close_to_planner(fleet);
-    for (auto& [id, run] : fleet.vehicles) {
-        run.newest_plan.reset();
-        run.awaited_plan.reset();
+    for (auto& [id, live] : fleet.vehicles) {
+        live.newest_plan.reset();
+        live.awaited_plan.reset();
     }
 }
 

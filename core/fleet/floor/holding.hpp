@@ -8,17 +8,18 @@ namespace pulseline::fleet {
 /// Says of which class of the plant's tables each vehicle is.
 void find_classes(FleetState& fleet);
 /// Puts every vehicle on the floor its record says, base included.
-void open_floor(FleetState& fleet, Time now);
+void rebuild_floor(FleetState& fleet, Time now);
 
 /// A vehicle without a leg stands where its record says. It keeps its plan when that is where the
 /// plan has it, unless `give_up_plan`.
-void settle(FleetState& fleet, VehicleRun& run, Time now, bool give_up_plan = false);
+void hold_where_it_stands(FleetState& fleet, LiveVehicle& live, Time now,
+                          bool give_up_plan = false);
 /// Nobody knows where it stands: it keeps all its floor, and of that where it says that it stands
 /// what is free.
-void hold_both_floors(FleetState& fleet, VehicleRun& run, Time now);
+void hold_both_floors(FleetState& fleet, LiveVehicle& live, Time now);
 /// The vehicle is out of the hall: it holds no floor.
-void leave_floor(FleetState& fleet, VehicleRun& run, Time now);
+void leave_floor(FleetState& fleet, LiveVehicle& live, Time now);
 /// The last approach was not successful enough to move on: floor for a correction in place.
-void hold_for_correction(FleetState& fleet, VehicleRun& run, const Pose2& target, Time now);
+void hold_for_correction(FleetState& fleet, LiveVehicle& live, const Pose2& target, Time now);
 
 }  // namespace pulseline::fleet

@@ -22,14 +22,14 @@ void stop_floor(FleetState& fleet, const traffic::Violation& violation, Time now
 
 }  // namespace
 
-bool keeps_to_its_floor(FleetState& fleet, const VehicleRun& run, std::size_t nodes, Time now) {
-    const Leg& leg = run.leg();
-    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
+bool keeps_to_its_floor(FleetState& fleet, const LiveVehicle& live, std::size_t nodes, Time now) {
+    const Leg& leg = live.leg();
+    const auto body = plant::outline_with_load(*live.type, is_loaded(live));
     for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
         const vda5050::OrderEdge& edge = leg.edges[i - 1];
         const auto under = traffic::tiles_under(hall_index(fleet, leg.hall),
                                                 floor_along(body, edge.segment, edge.corridor), 0);
-        const auto outside = fleet.floor.monitor.check_footprint(run.floor.vehicle, under);
+        const auto outside = fleet.floor.monitor.check_footprint(live.floor.vehicle, under);
         if (outside.empty()) continue;
         stop_floor(fleet, outside.front(), now);
         return false;

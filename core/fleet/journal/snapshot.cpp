@@ -18,12 +18,12 @@ constexpr std::size_t kChecksumSize = 8;
 /// Vehicles by the plant's names. False: these are not the plant's.
 void read_vehicles(Reader& in, FleetState& fleet) {
     if (in.length() != fleet.vehicles.size()) return in.refuse("other vehicles than the plant's");
-    for (auto& [id, run] : fleet.vehicles) {
-        const std::size_t of_class = run.floor.of_class;
-        in.get(run);
-        if (run.awaited_plan) run.awaited_plan->request.type = run.type;
-        if (run.record.id != id) return in.refuse("other vehicles than the plant's");
-        if (run.floor.of_class != of_class) return in.refuse("other classes than the plant's");
+    for (auto& [id, live] : fleet.vehicles) {
+        const std::size_t of_class = live.floor.of_class;
+        in.get(live);
+        if (live.awaited_plan) live.awaited_plan->request.type = live.type;
+        if (live.record.id != id) return in.refuse("other vehicles than the plant's");
+        if (live.floor.of_class != of_class) return in.refuse("other classes than the plant's");
     }
 }
 
@@ -48,8 +48,8 @@ void read_state(Reader& in, FleetState& fleet) {
     if (fleet.floor.traffic.vehicle_count() != fleet.vehicles.size()) {
         return in.refuse("other vehicles in traffic");
     }
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (run.floor.vehicle >= fleet.vehicles.size()) in.refuse("a vehicle traffic has not");
+    for (const auto& [id, live] : fleet.vehicles) {
+        if (live.floor.vehicle >= fleet.vehicles.size()) in.refuse("a vehicle traffic has not");
     }
     close_to_planner(fleet);
     // What it found before has stopped the floor already (Floor::stopped).
@@ -82,7 +82,7 @@ std::string Fleet::snapshot() const {
     journal::Writer out;
     out.reserve(std::size_t{1} << 20);
     out.number(fleet.vehicles.size());
-    for (const auto& [id, run] : fleet.vehicles) out.put(run);
+    for (const auto& [id, live] : fleet.vehicles) out.put(live);
     out.put(fleet);
     return out.take();
 }

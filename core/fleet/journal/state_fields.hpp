@@ -69,8 +69,8 @@ namespace fleet {
 PULSELINE_FIELDS(PendingAction, action, first_sent, last_sent, sends, escalated)
 PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, pose, conflict,
                  next_try, in_vain_since, next_leave, idle_since)
-PULSELINE_FIELDS(VehicleRun::Seen, pose, at, moving, speed_mps)
-PULSELINE_FIELDS(VehicleRun::Statement, where, at, actor)
+PULSELINE_FIELDS(LiveVehicle::Seen, pose, at, moving, speed_mps)
+PULSELINE_FIELDS(LiveVehicle::Statement, where, at, actor)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
 PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
@@ -78,7 +78,7 @@ PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
 // Vehicle and type are the plant's; the areas are only drawn. Areas, plan and swept floor are
 // worked out when asked for and not there, and come out the same.
 template <class V, class S>
-requires std::same_as<std::remove_const_t<S>, VehicleRun>
+requires std::same_as<std::remove_const_t<S>, LiveVehicle>
 void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, delivery, floor, seen, seen_before, stated,

@@ -15,18 +15,18 @@ namespace pulseline::fleet {
 namespace {
 
 /// The vehicle has no leg any more. `arrived`: nor anything left of its plan.
-void drop(FleetState& fleet, VehicleRun& run, Time now, bool arrived) {
-    run.record.has_leg = false;
-    run.record.leg = LegId{};
-    run.record.leg_data = Leg{};
-    run.delivery.begin();
+void drop(FleetState& fleet, LiveVehicle& live, Time now, bool arrived) {
+    live.record.has_leg = false;
+    live.record.leg = LegId{};
+    live.record.leg_data = Leg{};
+    live.delivery.begin();
     // Repeated, it would hit the next leg.
-    std::erase_if(run.actions,
+    std::erase_if(live.actions,
                   [](const auto& p) { return p.action.type == vda5050::kCancelOrder; });
-    run.floor.leg_planned = false;
-    run.floor.idle_since.reset();
-    settle(fleet, run, now, !arrived);
-    fleet.store(run);
+    live.floor.leg_planned = false;
+    live.floor.idle_since.reset();
+    hold_where_it_stands(fleet, live, now, !arrived);
+    fleet.store(live);
 }
 
 bool begins_anew(LegEnd end) {
@@ -34,7 +34,7 @@ bool begins_anew(LegEnd end) {
 }
 
 /// The order's present step as if nothing had been sent for it.
-void begin_step_anew(FleetState& fleet, const VehicleRun& run, JobOrder& order, LegEnd end,
+void begin_step_anew(FleetState& fleet, const LiveVehicle& live, JobOrder& order, LegEnd end,
                      Time now) {
     const bool has_step = order.current_step < order.steps.size();
     if (!has_step && end == LegEnd::kLost) return;
@@ -44,7 +44,7 @@ void begin_step_anew(FleetState& fleet, const VehicleRun& run, JobOrder& order, 
         if (end != LegEnd::kLost) step.leg = {};  // of a lost one it still says which it was
     }
     // Who has to look at the vehicle first decides about its order, too.
-    const bool asks = end == LegEnd::kLost && run.record.needs_resume;
+    const bool asks = end == LegEnd::kLost && live.record.needs_resume;
     const bool gives_up = order.cancel_requested && end != LegEnd::kUnsent && !asks;
     if (!gives_up || end == LegEnd::kLost) fleet.store(order);
     if (gives_up) abort_order(fleet, order, order.reason, {}, now);
@@ -52,20 +52,20 @@ void begin_step_anew(FleetState& fleet, const VehicleRun& run, JobOrder& order, 
 
 }  // namespace
 
-void end_leg(FleetState& fleet, VehicleRun& run, LegEnd end, Time now) {
+void end_leg(FleetState& fleet, LiveVehicle& live, LegEnd end, Time now) {
     if (end == LegEnd::kLost) {
-        run.delivery.give_up();
-        if (!run.record.pose_known) return;
+        live.delivery.give_up();
+        if (!live.record.pose_known) return;
     }
-    const Leg& leg = run.leg();
+    const Leg& leg = live.leg();
     const bool arrived = end == LegEnd::kDone ||
                          (end == LegEnd::kAnotherApproach && leg.passed_nodes == leg.nodes.size());
     // A drive that was not sent begins nothing anew but its own order; a cancelled or lost one, the
     // order that the vehicle has.
     JobOrder* order =
-        end == LegEnd::kUnsent ? fleet.find(leg.order) : fleet.orders.of(run.record.id);
-    drop(fleet, run, now, arrived);
-    if (order && begins_anew(end)) begin_step_anew(fleet, run, *order, end, now);
+        end == LegEnd::kUnsent ? fleet.find(leg.order) : fleet.orders.of(live.record.id);
+    drop(fleet, live, now, arrived);
+    if (order && begins_anew(end)) begin_step_anew(fleet, live, *order, end, now);
 }
 
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
@@ -75,16 +75,16 @@ void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::s
     }
     const JobState to = order.stop_requested ? JobState::kEnded : JobState::kAborted;
     set_order_state(fleet, order, to, std::move(reason), actor, now);
-    if (VehicleRun* run = fleet.find(order.assigned_vehicle)) give_up_task(fleet, *run, now);
+    if (LiveVehicle* live = fleet.find(order.assigned_vehicle)) give_up_task(fleet, *live, now);
 }
 
-void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now) {
-    JobOrder* order = fleet.orders.of(run.record.id);
+void interrupt(FleetState& fleet, const LiveVehicle& live, const std::string& actor, Time now) {
+    JobOrder* order = fleet.orders.of(live.record.id);
     if (!order || order->state != JobState::kRunning) return;
     const char* code =
-        is_loaded(run) ? reasons::kLoadOnWithdrawnVehicle : reasons::kVehicleWithdrawn;
+        is_loaded(live) ? reasons::kLoadOnWithdrawnVehicle : reasons::kVehicleWithdrawn;
     set_order_state(fleet, *order, JobState::kInterrupted,
-                    {code, {{"vehicle", run.record.id.str()}}}, actor, now);
+                    {code, {{"vehicle", live.record.id.str()}}}, actor, now);
 }
 
 }  // namespace pulseline::fleet

@@ -22,11 +22,11 @@ enum class LegEnd {
 /// the rest. A lost leg is kept until the vehicle knows its pose: it may stand anywhere on the
 /// base, which only the leg remembers over a restart. An order that was asked to be cancelled is
 /// given up.
-void end_leg(FleetState& fleet, VehicleRun& run, LegEnd end, Time now);
+void end_leg(FleetState& fleet, LiveVehicle& live, LegEnd end, Time now);
 /// Ends an order whose vehicle has nothing to do for it any more: Ended after a Stop, else Aborted.
 void abort_order(FleetState& fleet, JobOrder& order, Reason reason, const std::string& actor,
                  Time now);
 /// The running order of a vehicle that is taken out waits for a person.
-void interrupt(FleetState& fleet, const VehicleRun& run, const std::string& actor, Time now);
+void interrupt(FleetState& fleet, const LiveVehicle& live, const std::string& actor, Time now);
 
 }  // namespace pulseline::fleet

@@ -22,13 +22,13 @@ double left_of_leg_s(const Leg& leg) {
 
 }  // namespace
 
-void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now) {
-    double left_s = left_of_leg_s(run.leg());
-    for (std::size_t i = static_cast<std::size_t>(run.leg().step) + 1; i < order.steps.size();
+void expect_end(FleetState& fleet, const LiveVehicle& live, JobOrder& order, Time now) {
+    double left_s = left_of_leg_s(live.leg());
+    for (std::size_t i = static_cast<std::size_t>(live.leg().step) + 1; i < order.steps.size();
          ++i) {
         left_s += order.steps[i].planned_s;
     }
-    order.expected = now + from_seconds(left_s / speed_share(run));
+    order.expected = now + from_seconds(left_s / speed_share(live));
     fleet.store(order);
 }
 
@@ -36,9 +36,9 @@ void renew_expected_ends(FleetState& fleet, Time now) {
     for (const JobOrderId& id : fleet.orders.open()) {
         JobOrder* order = fleet.find(id);
         if (!order->expected || *order->expected > now + kAlmostOver) continue;
-        const VehicleRun* run = fleet.find(order->assigned_vehicle);
-        const bool drives = run && run->has_leg() && run->leg().order == id;
-        if (drives) expect_end(fleet, *run, *order, now);
+        const LiveVehicle* live = fleet.find(order->assigned_vehicle);
+        const bool drives = live && live->has_leg() && live->leg().order == id;
+        if (drives) expect_end(fleet, *live, *order, now);
         // At its stop, or between two drives: nobody knows how long that takes.
         if (*order->expected > now + kAlmostOver) continue;
         order->expected.reset();

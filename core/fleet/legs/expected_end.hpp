@@ -6,7 +6,7 @@
 namespace pulseline::fleet {
 
 /// From what is left of the leg and of the steps behind it.
-void expect_end(FleetState& fleet, const VehicleRun& run, JobOrder& order, Time now);
+void expect_end(FleetState& fleet, const LiveVehicle& live, JobOrder& order, Time now);
 /// Those whose time has come without their end.
 void renew_expected_ends(FleetState& fleet, Time now);
 

@@ -45,9 +45,9 @@ Result<planning::LegPlan> plan_here(const FleetState& fleet, const planning::Leg
     return under_way();
 }
 
-Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
+Result<planning::LegPlan> plan_or_ask(FleetState& fleet, LiveVehicle& live,
                                       const planning::LegRequest& request, Time now) {
-    auto& awaited = run.awaited_plan;
+    auto& awaited = live.awaited_plan;
     if (awaited && answers(*awaited, request)) {
         if (const auto& answer = awaited->answer) {
             if (answer->plan) return *answer->plan;
@@ -59,17 +59,17 @@ Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
         if (plan || plan.error().code != Errc::kNeedsPlan) return plan;
     }
     awaited = AwaitedPlan{++fleet.questions, request, now, {}};
-    fleet.plans_wanted.insert(run.record.id);
+    fleet.plans_wanted.insert(live.record.id);
     return under_way();
 }
 
-void ask_anew(FleetState& fleet, VehicleRun& run, Time now) {
-    auto& awaited = run.awaited_plan;
+void ask_anew(FleetState& fleet, LiveVehicle& live, Time now) {
+    auto& awaited = live.awaited_plan;
     const bool known = awaited && awaited->answer && awaited->answer->plan;
     if (!known || now - awaited->asked < kAskAnew) return;
     awaited->question = ++fleet.questions;
     awaited->asked = now;
-    fleet.plans_wanted.insert(run.record.id);
+    fleet.plans_wanted.insert(live.record.id);
 }
 
 }  // namespace pulseline::fleet

@@ -14,11 +14,11 @@ namespace pulseline::fleet {
 Result<planning::LegPlan> plan_here(const FleetState& fleet, const planning::LegRequest& request);
 /// The plan of a vehicle's next leg; what is not planned here is asked for, once more when it takes
 /// long. Errors: as before; why there is no way, once that has been told.
-Result<planning::LegPlan> plan_or_ask(FleetState& fleet, VehicleRun& run,
+Result<planning::LegPlan> plan_or_ask(FleetState& fleet, LiveVehicle& live,
                                       const planning::LegRequest& request, Time now);
 
 /// When the plan of its next leg has been barred for a while: another is asked for, and the known
 /// one counts until then.
-void ask_anew(FleetState& fleet, VehicleRun& run, Time now);
+void ask_anew(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

@@ -37,11 +37,11 @@ void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now)
 
 }  // namespace
 
-std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, const VehicleRun& run,
-                                    LegId id) {
+std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
+                                    const LiveVehicle& live, LegId id) {
     Step& step = order.steps[order.current_step];
     // Moved away before its actions were done: it has to arrive and measure again.
-    if (step.phase == StepPhase::kAfter && run.record.at_station != step.station) {
+    if (step.phase == StepPhase::kAfter && live.record.at_station != step.station) {
         enter(step, StepPhase::kDrive);
     }
     if (step.phase == StepPhase::kBefore && step.actions_done >= step.before.size()) {
@@ -51,17 +51,17 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, co
 
     Leg leg;
     leg.id = id;
-    leg.vehicle = run.record.id;
+    leg.vehicle = live.record.id;
     leg.station = step.station;
     leg.mode = plant::MotionMode::kLinear;
-    leg.hall = hall_of(fleet, run);
+    leg.hall = hall_of(fleet, live);
     leg.actions_only = true;
     // The drive still to come counts for the expected end.
     if (step.phase == StepPhase::kBefore) leg.duration_s = step.planned_s;
     vda5050::OrderNode node;
     node.node_id = step.phase == StepPhase::kAfter ? step.station.str() : "start";
     node.released = true;
-    node.pose = run.record.pose;
+    node.pose = live.record.pose;
     node.allowed_deviation_xy_m = 0.3;
     node.allowed_deviation_theta_rad = 0.1;
     node.map_id = leg.hall;
@@ -78,8 +78,8 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, co
     return leg;
 }
 
-void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
-    const Leg leg = run.leg();
+void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now) {
+    const Leg leg = live.leg();
     JobOrder* order = fleet.find(leg.order);
     if (!order) return;
     Step& step = order->steps[static_cast<std::size_t>(leg.step)];
@@ -87,14 +87,14 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
     const std::size_t before = step.actions_done;
     while (step.actions_done < wanted.size()) {
         const std::string id = action_id(leg.id, step.actions_done);
-        const auto& states = run.state.action_states;
+        const auto& states = live.state.action_states;
         const auto found =
             std::find_if(states.begin(), states.end(),
                          [&](const vda5050::ActionState& state) { return state.id == id; });
         if (found == states.end()) break;
         const std::string& type = wanted[step.actions_done].type;
         if (found->status == vda5050::ActionStatus::kFailed) {
-            end_leg(fleet, run, LegEnd::kDone, now);
+            end_leg(fleet, live, LegEnd::kDone, now);
             if (step.phase == StepPhase::kBefore) step.state = StepState::kPending;
             const Params params{{"action", type},
                                 {"phase", to_string(step.phase)},
@@ -111,8 +111,8 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
                   {{"action", type}, {"phase", to_string(step.phase)}});
     }
     if (step.actions_done != before) fleet.store(*order);
-    if (step.actions_done < wanted.size() || run.state.driving) return;
-    end_leg(fleet, run, LegEnd::kDone, now);
+    if (step.actions_done < wanted.size() || live.state.driving) return;
+    end_leg(fleet, live, LegEnd::kDone, now);
     step.leg = {};
     if (step.phase == StepPhase::kAfter) {
         finish_step(fleet, *order, static_cast<std::size_t>(leg.step), now);
@@ -122,7 +122,7 @@ void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now) {
     }
 }
 
-void take_good_stop(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
+void handle_good_stop(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
     if (order.steps[step].after.empty() || order.cancel_requested) {
         finish_step(fleet, order, step, now);
         return;

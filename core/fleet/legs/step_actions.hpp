@@ -11,11 +11,11 @@
 namespace pulseline::fleet {
 
 /// The leg that does what the present step asks for now; nullopt: it is time to drive.
-std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order, const VehicleRun& run,
-                                    LegId id);
+std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
+                                    const LiveVehicle& live, LegId id);
 /// What the vehicle reports of a leg with Leg::actions_only.
-void take_actions_leg(FleetState& fleet, VehicleRun& run, Time now);
+void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now);
 /// The step's stop is inside its tolerance: its actions follow, or it is done.
-void take_good_stop(FleetState& fleet, JobOrder& order, std::size_t step, Time now);
+void handle_good_stop(FleetState& fleet, JobOrder& order, std::size_t step, Time now);
 
 }  // namespace pulseline::fleet

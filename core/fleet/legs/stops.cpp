@@ -10,7 +10,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/dead_reckoning.hpp"
-#include "core/plant/deviation.hpp"
+#include "core/plant/tolerance.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -28,8 +28,8 @@ constexpr double kElsewhere_m = 0.3;
 constexpr double kLongerThanPlanned = 1.2;
 
 /// Why a measurement cannot be true; null: it can.
-const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
-                     const Pose2& found) {
+const char* fault_of(const FleetState& fleet, const LiveVehicle& live,
+                     const plant::Station& station, const Pose2& found) {
     if (!(std::isfinite(found.x_m) && std::isfinite(found.y_m) &&
           std::isfinite(found.heading_rad))) {
         return "measured_nowhere";
@@ -40,44 +40,44 @@ const char* fault_of(const FleetState& fleet, const VehicleRun& run, const plant
         std::abs(wrap(found.heading_rad - station.pose.heading_rad)) > kFarFromStation_rad;
     if (far) return "measured_far_from_station";
     const bool elsewhere =
-        run.record.pose_known &&
-        geometry::distance(found.position(), run.record.pose.position()) > kElsewhere_m;
+        live.record.pose_known &&
+        geometry::distance(found.position(), live.record.pose.position()) > kElsewhere_m;
     return elsewhere ? "measured_elsewhere" : nullptr;
 }
 
 /// What a usual vehicle would have missed the station by, where the whole drive began at a place
 /// that had been measured; else nothing.
-kinematics::ExpectedDeviation expected_of_drive(const VehicleRun& run) {
-    const auto& basis = run.record.basis;
-    if (!basis || basis->kind != PoseBasis::Kind::kStop || run.leg().attempt != 1) return {};
+kinematics::ExpectedDeviation expected_of_drive(const LiveVehicle& live) {
+    const auto& basis = live.record.basis;
+    if (!basis || basis->kind != PoseBasis::Kind::kStop || live.leg().attempt != 1) return {};
     std::vector<kinematics::Segment> segments;
     double length_m = 0;
     bool drives = false;  // else it only measures again where it stands
-    for (const vda5050::OrderEdge& edge : run.leg().edges) {
+    for (const vda5050::OrderEdge& edge : live.leg().edges) {
         segments.push_back(edge.segment);
         length_m += std::abs(edge.segment.length_m);
         drives = drives || edge.segment.length_m != 0 || edge.segment.turn_rad != 0;
     }
     if (!drives) return {};
     if (basis->driven_m > kLongerThanPlanned * length_m + kElsewhere_m) return {};
-    return kinematics::expected_deviation(segments, kinematics::usual_noise(run.type->kinematics));
+    return kinematics::expected_deviation(segments, kinematics::usual_noise(live.type->kinematics));
 }
 
-Arrival arrival_of(const VehicleRun& run, const plant::Station& station, const Pose2& arrived) {
+Arrival arrival_of(const LiveVehicle& live, const plant::Station& station, const Pose2& arrived) {
     const plant::Deviation by = plant::deviation(station, arrived);
-    const auto expected = expected_of_drive(run);
+    const auto expected = expected_of_drive(live);
     return {by.dx_m, by.dy_m, by.dheading_rad, expected.position_m, expected.heading_rad};
 }
 
-StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::Station& station,
+StopRecord stop_record(FleetState& fleet, const LiveVehicle& live, const plant::Station& station,
                        const vda5050::StopMeasurement& found, Time now) {
-    const Leg& leg = run.leg();
+    const Leg& leg = live.leg();
     StopRecord stop;
     stop.id = StopRecordId(fleet.ids.next(now));
     stop.order = leg.order;
     stop.leg = leg.id;
     stop.step = leg.step;
-    stop.vehicle = run.record.id;
+    stop.vehicle = live.record.id;
     stop.station = station.id;
     stop.station_number = station.number;
     stop.mode = leg.mode;
@@ -96,18 +96,18 @@ StopRecord stop_record(FleetState& fleet, const VehicleRun& run, const plant::St
     stop.attempt = leg.attempt;
     stop.method = found.method;
     stop.markers = found.markers;
-    stop.load_kg = run.state.load_kg;
+    stop.load_kg = live.state.load_kg;
     stop.at = now;
-    if (found.arrived) stop.arrival = arrival_of(run, station, *found.arrived);
+    if (found.arrived) stop.arrival = arrival_of(live, station, *found.arrived);
     return stop;
 }
 
 /// After an unsuccessful approach: the step is tried again, or a person is asked.
-void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
-    JobOrder* order = fleet.find(run.leg().order);
-    const int attempt = run.leg().attempt;
-    const int step = run.leg().step;
-    end_leg(fleet, run, LegEnd::kAnotherApproach, now);
+void try_again(FleetState& fleet, LiveVehicle& live, Reason reason, Time now) {
+    JobOrder* order = fleet.find(live.leg().order);
+    const int attempt = live.leg().attempt;
+    const int step = live.leg().step;
+    end_leg(fleet, live, LegEnd::kAnotherApproach, now);
     if (!order) return;
     auto& current = order->steps[static_cast<std::size_t>(step)];
     current.state = StepState::kPending;
@@ -121,26 +121,26 @@ void try_again(FleetState& fleet, VehicleRun& run, Reason reason, Time now) {
 
 }  // namespace
 
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopMeasurement& told,
-                        Time now) {
-    const plant::Station* station = plant::find_station(fleet.plant, run.leg().station);
+void handle_measured_stop(FleetState& fleet, LiveVehicle& live,
+                          const vda5050::StopMeasurement& told, Time now) {
+    const plant::Station* station = plant::find_station(fleet.plant, live.leg().station);
     if (!station) return;
-    if (const char* fault = fault_of(fleet, run, *station, told.pose)) {
-        return take_failed_stop(fleet, run, fault, now);
+    if (const char* fault = fault_of(fleet, live, *station, told.pose)) {
+        return handle_failed_stop(fleet, live, fault, now);
     }
     vda5050::StopMeasurement found = told;
     found.pose.heading_rad = wrap(told.pose.heading_rad);
-    if (found.arrived && fault_of(fleet, run, *station, *found.arrived)) found.arrived.reset();
-    const StopRecord stop = stop_record(fleet, run, *station, found, now);
+    if (found.arrived && fault_of(fleet, live, *station, *found.arrived)) found.arrived.reset();
+    const StopRecord stop = stop_record(fleet, live, *station, found, now);
     fleet.out.records.stops.push_back(stop);
-    run.record.pose = found.pose;
-    run.record.pose_known = true;
-    run.record.at_station = station->id;
-    run.record.last_stop = stop.id;
-    run.record.last_stop_station = station->id;
-    run.record.last_stop_inside = stop.inside;
-    run.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
-    fleet.store(run);
+    live.record.pose = found.pose;
+    live.record.pose_known = true;
+    live.record.at_station = station->id;
+    live.record.last_stop = stop.id;
+    live.record.last_stop_station = station->id;
+    live.record.last_stop_inside = stop.inside;
+    live.record.basis = PoseBasis{PoseBasis::Kind::kStop, station->id, {}, now, 0};
+    fleet.store(live);
     add_event(fleet, now, event::kStopMeasured, stop.order, stop.leg, stop.vehicle, {},
               {{"stop", stop.id.str()},
                {"station", static_cast<std::int64_t>(stop.station_number)},
@@ -150,13 +150,13 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopM
                {"inside", stop.inside},
                {"attempt", static_cast<std::int64_t>(stop.attempt)}});
 
-    JobOrder* order = fleet.find(run.leg().order);
+    JobOrder* order = fleet.find(live.leg().order);
     if (order) {
         order->steps[static_cast<std::size_t>(stop.step)].stop = stop.id;
         fleet.store(*order);
     }
     if (!stop.inside) {
-        try_again(fleet, run,
+        try_again(fleet, live,
                   {"out_of_tolerance",
                    {{"station", static_cast<std::int64_t>(stop.station_number)},
                     {"dx_m", stop.dx_m},
@@ -165,19 +165,19 @@ void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopM
                   now);
         return;
     }
-    pass_stop(fleet, run, now);
-    end_leg(fleet, run, LegEnd::kDone, now);
+    pass_stop(fleet, live, now);
+    end_leg(fleet, live, LegEnd::kDone, now);
     if (!order) return;
-    take_good_stop(fleet, *order, static_cast<std::size_t>(stop.step), now);
+    handle_good_stop(fleet, *order, static_cast<std::size_t>(stop.step), now);
 }
 
-void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now) {
-    const Leg& leg = run.leg();
+void handle_failed_stop(FleetState& fleet, LiveVehicle& live, const std::string& why, Time now) {
+    const Leg& leg = live.leg();
     const plant::Station* station = plant::find_station(fleet.plant, leg.station);
     const std::int64_t number = station ? station->number : 0;
-    add_event(fleet, now, event::kStopNotMeasured, leg.order, leg.id, run.record.id, {},
+    add_event(fleet, now, event::kStopNotMeasured, leg.order, leg.id, live.record.id, {},
               {{"station", number}, {"why", why}, {"attempt", std::int64_t{leg.attempt}}});
-    try_again(fleet, run, {"stop_not_measured", {{"station", number}, {"why", why}}}, now);
+    try_again(fleet, live, {"stop_not_measured", {{"station", number}, {"why", why}}}, now);
 }
 
 }  // namespace pulseline::fleet

@@ -7,8 +7,8 @@
 /// What becomes of a stop, measured or not.
 namespace pulseline::fleet {
 
-void take_measured_stop(FleetState& fleet, VehicleRun& run, const vda5050::StopMeasurement& told,
-                        Time now);
-void take_failed_stop(FleetState& fleet, VehicleRun& run, const std::string& why, Time now);
+void handle_measured_stop(FleetState& fleet, LiveVehicle& live,
+                          const vda5050::StopMeasurement& told, Time now);
+void handle_failed_stop(FleetState& fleet, LiveVehicle& live, const std::string& why, Time now);
 
 }  // namespace pulseline::fleet

@@ -40,11 +40,11 @@ std::vector<PlacedAction> actions_of(const NewOrder& order) {
 }
 
 /// By vehicle, type and sequence; not by its actions.
-bool is_candidate(const FleetState& fleet, const NewOrder& order, const VehicleRun& run) {
-    if (!order.vehicle.empty() && order.vehicle != run.record.id) return false;
-    if (!order.vehicle_type.empty() && order.vehicle_type != run.type->id) return false;
+bool is_candidate(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live) {
+    if (!order.vehicle.empty() && order.vehicle != live.record.id) return false;
+    if (!order.vehicle_type.empty() && order.vehicle_type != live.type->id) return false;
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
-    return bound.empty() || bound == run.record.id;
+    return bound.empty() || bound == live.record.id;
 }
 
 Status check_actions(const FleetState& fleet, const NewOrder& order) {
@@ -61,16 +61,16 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
     const PlacedAction* missing = nullptr;
     std::string announced;
     bool any_factsheet = false;
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (!is_candidate(fleet, order, run) || !run.factsheet) continue;
+    for (const auto& [id, live] : fleet.vehicles) {
+        if (!is_candidate(fleet, order, live) || !live.factsheet) continue;
         any_factsheet = true;
-        const auto lacks = std::find_if(placed.begin(), placed.end(), [&, &vehicle = run](auto& p) {
-            return !announces_at_node(vehicle, *p.action);
-        });
+        const auto lacks = std::find_if(
+            placed.begin(), placed.end(),
+            [&, &vehicle = live](auto& p) { return !announces_at_node(vehicle, *p.action); });
         if (lacks == placed.end()) return {};
         if (missing) continue;
         missing = &*lacks;
-        for (const auto& name : run.factsheet->node_actions) {
+        for (const auto& name : live.factsheet->node_actions) {
             const bool own =
                 std::find(kOwnActions.begin(), kOwnActions.end(), name) != kOwnActions.end();
             if (!own) announced += (announced.empty() ? "" : ", ") + name;
@@ -98,8 +98,8 @@ std::optional<JobOrder> named(const FleetState& fleet, const std::string& name) 
 }  // namespace
 
 Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order) {
-    const VehicleRun* run = order.vehicle.empty() ? nullptr : fleet.find(order.vehicle);
-    if (!order.vehicle.empty() && !run) {
+    const LiveVehicle* live = order.vehicle.empty() ? nullptr : fleet.find(order.vehicle);
+    if (!order.vehicle.empty() && !live) {
         return fail(Errc::kUnreachable, "unknown_vehicle",
                     "There is no vehicle " + order.vehicle.str() +
                         ". GET /api/v1/vehicles lists the vehicles.",
@@ -111,15 +111,15 @@ Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order) {
                     "There is no vehicle type " + type + ". GET /api/v1/plant lists the types.",
                     "/vehicle_type", {{"vehicle_type", type}});
     }
-    if (run && !type.empty() && run->type->id != order.vehicle_type) {
+    if (live && !type.empty() && live->type->id != order.vehicle_type) {
         return fail(Errc::kUnreachable, "vehicle_not_of_type",
-                    "Vehicle " + order.vehicle.str() + " is of type " + run->type->id.str() +
+                    "Vehicle " + order.vehicle.str() + " is of type " + live->type->id.str() +
                         ". Name only one of vehicle and vehicle_type, or two that fit.",
                     "/vehicle_type",
-                    {{"vehicle", order.vehicle.str()}, {"vehicle_type", run->type->id.str()}});
+                    {{"vehicle", order.vehicle.str()}, {"vehicle_type", live->type->id.str()}});
     }
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
-    const VehicleRun* has = bound.empty() ? nullptr : fleet.find(bound);
+    const LiveVehicle* has = bound.empty() ? nullptr : fleet.find(bound);
     if (has && !is_candidate(fleet, order, *has)) {
         return fail(Errc::kConflict, "sequence_on_other_vehicle",
                     "Sequence " + order.sequence + " already has vehicle " + bound.str() +
@@ -130,11 +130,11 @@ Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order) {
     return {};
 }
 
-bool may_have(const FleetState& fleet, const NewOrder& order, const VehicleRun& run) {
-    if (!is_candidate(fleet, order, run)) return false;
+bool may_have(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live) {
+    if (!is_candidate(fleet, order, live)) return false;
     const auto placed = actions_of(order);
     return std::all_of(placed.begin(), placed.end(),
-                       [&](const PlacedAction& p) { return announces_at_node(run, *p.action); });
+                       [&](const PlacedAction& p) { return announces_at_node(live, *p.action); });
 }
 
 Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const NewOrder& order,

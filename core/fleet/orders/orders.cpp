@@ -6,7 +6,6 @@
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
-#include "core/fleet/vehicle/leg_build.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -15,8 +14,8 @@ namespace {
 constexpr std::size_t kMostOpenOrders = 5000;
 
 /// Puts into the order what a request may set at its creation and by Update.
-void fill(const FleetState& fleet, JobOrder& order, const NewOrder& request,
-          std::vector<Dependency> after, const OrderPlan& plan) {
+void fill(JobOrder& order, const NewOrder& request, std::vector<Dependency> after,
+          const OrderPlan& plan) {
     order.wanted_vehicle = request.vehicle;
     order.wanted_type = request.vehicle_type;
     order.priority = request.priority;
@@ -26,7 +25,7 @@ void fill(const FleetState& fleet, JobOrder& order, const NewOrder& request,
     order.steps.clear();
     for (std::size_t i = 0; i < request.steps.size(); ++i) {
         Step made;
-        made.station = plant::find_station(fleet.plant, request.steps[i].station_number)->id;
+        made.station = plan.stations[i];
         made.mode = request.steps[i].mode;
         made.before = request.steps[i].before;
         made.after = request.steps[i].after;
@@ -80,14 +79,8 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     if (!fields) return fail(fields.error());
     const auto plan = plan_order(fleet, request, now);
     if (!plan) return fail(plan.error());
-    if (plan->plans.front()) {
-        VehicleRun& run = *fleet.find(plan->vehicle);
-        const auto* station =
-            plant::find_station(fleet.plant, request.steps.front().station_number);
-        run.newest_plan = PlannedLeg{
-            leg_request(fleet, run, plan->starts.front(), station->id, request.steps.front().mode),
-            *plan->plans.front()};
-    }
+    // The vehicle begins by what was planned for it, if nothing has changed until then.
+    if (plan->legs.front()) fleet.find(plan->vehicle)->newest_plan = plan->legs.front();
 
     JobOrder order;
     order.id = JobOrderId(fleet.ids.next(now));
@@ -98,7 +91,7 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.from_schedule = request.from_schedule;
     order.created_by = request.actor;
     order.created = now;
-    fill(fleet, order, request, std::move(*fields), *plan);
+    fill(order, request, std::move(*fields), *plan);
     if (!request.start) {
         order.state = JobState::kNotAllowedToStart;
         order.reason = {"waits_for_start", {}};
@@ -122,7 +115,7 @@ Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
     const auto plan = plan_order(fleet, request, now);
     if (!plan) return fail(plan.error());
     JobOrder changed = order;
-    fill(fleet, changed, request, std::move(*fields), *plan);
+    fill(changed, request, std::move(*fields), *plan);
     changed.sequence = request.sequence;
     if (depends_on(fleet, changed, order.id, &changed)) {
         return fail(Errc::kConflict, "dependency_cycle",

@@ -8,7 +8,7 @@
 #include "core/fleet/orders/checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
-#include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 
@@ -49,41 +49,45 @@ LastStations last_stations(const FleetState& fleet) {
 }
 
 /// Where the vehicle will stand when all it has to do is done; nullopt: nobody knows.
-std::optional<Pose2> future_pose(const FleetState& fleet, const VehicleRun& run,
+std::optional<Pose2> future_pose(const FleetState& fleet, const LiveVehicle& live,
                                  const LastStations& last) {
-    const auto found = last.find(run.record.id);
+    const auto found = last.find(live.record.id);
     if (found != last.end()) {
         if (const auto* station = plant::find_station(fleet.plant, found->second)) {
             return station->pose;
         }
     }
-    return run.record.pose_known ? std::optional(run.record.pose) : std::nullopt;
+    return live.record.pose_known ? std::optional(live.record.pose) : std::nullopt;
 }
 
-Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, const VehicleRun& run,
+using Stations = std::vector<const plant::Station*>;  // one per step
+
+Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
+                            const Stations& stations, const LiveVehicle& live,
                             std::optional<Pose2> pose, FreeManoeuvres free) {
     OrderPlan plan;
-    plan.vehicle = run.record.id;
+    plan.vehicle = live.record.id;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
-        const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
-        if (!may_stop_at(*station, *run.type)) {
+        const plant::Station* station = stations[i];
+        if (!may_stop_at(*station, *live.type)) {
             return fail(
                 Errc::kUnreachable, "station_not_for_type",
                 "Station " + std::to_string(station->number) + " is not for vehicles of type " +
-                    run.type->name + ". Choose another station or vehicle.",
+                    live.type->name + ". Choose another station or vehicle.",
                 step_field(i, "station"),
-                {{"station", std::int64_t{station->number}}, {"vehicle_type", run.type->name}});
+                {{"station", std::int64_t{station->number}}, {"vehicle_type", live.type->name}});
         }
+        plan.stations.push_back(station->id);
         plan.starts.push_back(pose.value_or(Pose2{}));
-        plan.plans.emplace_back();
+        plan.legs.emplace_back();
         plan.durations_s.push_back(0);
-        if (pose && !nearly_there(run, *pose, *station)) {
-            const auto request = leg_request(fleet, run, *pose, station->id, order.steps[i].mode);
+        if (pose && !nearly_there(live, *pose, *station)) {
+            auto request = leg_request(fleet, live, *pose, station->id, order.steps[i].mode);
             auto leg = free == FreeManoeuvres::kPlanned ? fleet.planner.plan_leg(request)
                                                         : plan_here(fleet, request);
             const bool beside = !leg && leg.error().code == Errc::kNeedsPlan;
             if (beside && order.planned_beside) {
-                plan.durations_s.back() = least_drive_s(run, *pose, *station);
+                plan.durations_s.back() = least_drive_s(live, *pose, *station);
                 pose = station->pose;
                 continue;
             }
@@ -97,35 +101,34 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order, cons
                 return fail(std::move(error));
             }
             plan.durations_s.back() = leg->duration_s;
-            plan.plans.back() = std::move(*leg);
+            plan.legs.back() = PlannedLeg{std::move(request), std::move(*leg)};
         }
         pose = station->pose;
     }
     return plan;
 }
 
-bool is_gone(const FleetState& fleet, const VehicleRun& run, Time now) {
-    return silence(fleet, run, now) >= kGoneAfter;
+bool is_gone(const FleetState& fleet, const LiveVehicle& live, Time now) {
+    return silence(fleet, live, now) >= kGoneAfter;
 }
 
 struct Candidate {
-    const VehicleRun* run = nullptr;
+    const LiveVehicle* live = nullptr;
     std::optional<Pose2> pose;  // from where it would come
 };
 
 /// Those that are worth a plan, by name: with a thousand vehicles a plan of each takes seconds.
 std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOrder& order,
-                                            Time now) {
-    const auto& goal = plant::find_station(fleet.plant, order.steps.front().station_number)->pose;
+                                            const Pose2& goal, Time now) {
     const LastStations last = last_stations(fleet);
     std::map<plant::VehicleTypeId, std::vector<std::pair<double, Candidate>>> by_type;
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (is_gone(fleet, run, now) || !may_have(fleet, order, run)) continue;
-        if (run.record.integration != Integration::kUtilise) continue;
-        const auto pose = future_pose(fleet, run, last);
+    for (const auto& [id, live] : fleet.vehicles) {
+        if (is_gone(fleet, live, now) || !may_have(fleet, order, live)) continue;
+        if (live.record.integration != Integration::kUtilise) continue;
+        const auto pose = future_pose(fleet, live, last);
         const double away_m =
             pose ? geometry::distance(pose->position(), goal.position()) : kUnknownAway_m;
-        by_type[run.type->id].push_back({away_m, {&run, pose}});
+        by_type[live.type->id].push_back({away_m, {&live, pose}});
     }
     std::vector<Candidate> nearest;
     for (auto& [type, all] : by_type) {
@@ -134,18 +137,21 @@ std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOr
         for (auto& [away_m, candidate] : all) nearest.push_back(candidate);
     }
     std::ranges::sort(nearest, {}, [](const Candidate& one) -> const plant::VehicleId& {
-        return one.run->record.id;
+        return one.live->record.id;
     });
     return nearest;
 }
 
-Status check_steps(const FleetState& fleet, const NewOrder& order) {
+/// What the numbers of the steps mean; from here on nobody looks them up again.
+Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order) {
     if (order.steps.empty() || order.steps.size() > kMaxSteps) {
         return fail(Errc::kInvalid, "bad_step_count", "An order has 1 to 100 steps.", "/steps",
                     {{"steps", static_cast<std::int64_t>(order.steps.size())}});
     }
+    Stations stations;
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
-        if (!plant::find_station(fleet.plant, order.steps[i].station_number)) {
+        stations.push_back(plant::find_station(fleet.plant, order.steps[i].station_number));
+        if (!stations.back()) {
             return fail(Errc::kUnreachable, "unknown_station",
                         "There is no station " + std::to_string(order.steps[i].station_number) +
                             ". GET /api/v1/stations lists the stations.",
@@ -153,56 +159,59 @@ Status check_steps(const FleetState& fleet, const NewOrder& order) {
                         {{"station", std::int64_t{order.steps[i].station_number}}});
         }
     }
-    return {};
+    return stations;
 }
 
 }  // namespace
 
-bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station) {
+bool nearly_there(const LiveVehicle& live, const Pose2& pose, const plant::Station& station) {
     const Pose2 off = geometry::inverse(station.pose) * pose;
     const bool in_place = std::hypot(off.x_m, off.y_m) < 1e-3 && std::abs(off.heading_rad) < 1e-4;
-    const bool correctable = !station.markers.empty() && !run.type->cameras.empty();
+    const bool correctable = !station.markers.empty() && !live.type->cameras.empty();
     return in_place || (correctable && std::hypot(off.x_m, off.y_m) < kNearlyThere_m &&
                         std::abs(off.heading_rad) < kNearlyThere_rad);
 }
 
-double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Station& to) {
-    return geometry::distance(from.position(), to.pose.position()) / run.type->max_speed_mps;
+double least_drive_s(const LiveVehicle& live, const Pose2& from, const plant::Station& to) {
+    return geometry::distance(from.position(), to.pose.position()) / live.type->max_speed_mps;
 }
 
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
                              FreeManoeuvres free) {
-    if (auto steps = check_steps(fleet, order); !steps) return fail(steps.error());
+    const auto stations = stations_of(fleet, order);
+    if (!stations) return fail(stations.error());
     if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
         return fail(vehicles.error());
     }
     if (!order.vehicle.empty()) {
-        const VehicleRun* run = fleet.find(order.vehicle);
-        if (is_gone(fleet, *run, now)) {
+        const LiveVehicle* live = fleet.find(order.vehicle);
+        if (is_gone(fleet, *live, now)) {
             return fail(Errc::kConflict, reasons::kVehicleGone,
                         "Vehicle " + order.vehicle.str() +
                             " has been silent for more than 60 s. Bring it back or choose another.",
                         "/vehicle",
                         {{"vehicle", order.vehicle.str()},
-                         {"silent_s", seconds(silence(fleet, *run, now))}});
+                         {"silent_s", seconds(silence(fleet, *live, now))}});
         }
-        if (run->record.integration != Integration::kUtilise) {
+        if (live->record.integration != Integration::kUtilise) {
             return fail(
                 Errc::kConflict, "not_integrated",
                 "Vehicle " + order.vehicle.str() + " is taken out (" +
-                    to_string(run->record.integration) +
+                    to_string(live->record.integration) +
                     "). Set its integration to utilise or choose another.",
                 "/vehicle",
-                {{"vehicle", order.vehicle.str()}, {"level", to_string(run->record.integration)}});
+                {{"vehicle", order.vehicle.str()}, {"level", to_string(live->record.integration)}});
         }
-        return plan_with(fleet, order, *run, future_pose(fleet, *run, last_stations(fleet)), free);
+        return plan_with(fleet, order, *stations, *live,
+                         future_pose(fleet, *live, last_stations(fleet)), free);
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
     std::optional<OrderPlan> best;
     double best_s = 0;
     std::optional<Error> why_not;
-    for (const auto& [run, pose] : nearest_of_each_type(fleet, order, now)) {
-        auto plan = plan_with(fleet, order, *run, pose, free);
+    for (const auto& [live, pose] :
+         nearest_of_each_type(fleet, order, stations->front()->pose, now)) {
+        auto plan = plan_with(fleet, order, *stations, *live, pose, free);
         if (!plan) {
             // One that only a plan beside the fleet can judge is not refused for another's reason.
             if (!why_not || plan.error().code == Errc::kNeedsPlan) why_not = plan.error();

@@ -11,9 +11,10 @@ namespace pulseline::fleet {
 /// The vehicle that would serve the order and the plan of each step from where it will stand.
 struct OrderPlan {
     plant::VehicleId vehicle;
-    std::vector<Pose2> starts;  // one per step
+    std::vector<plant::StationId> stations;  // one per step: what its number means
+    std::vector<Pose2> starts;               // one per step
     /// Absent: the start is unknown or in place, or the leg is estimated.
-    std::vector<std::optional<planning::LegPlan>> plans;
+    std::vector<std::optional<PlannedLeg>> legs;
     std::vector<double> durations_s;  // 0: start unknown or in place
 };
 
@@ -23,8 +24,8 @@ enum class FreeManoeuvres { kEstimated, kPlanned };
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
                              FreeManoeuvres free = FreeManoeuvres::kEstimated);
 /// As the crow flies, at top speed.
-double least_drive_s(const VehicleRun& run, const Pose2& from, const plant::Station& to);
+double least_drive_s(const LiveVehicle& live, const Pose2& from, const plant::Station& to);
 /// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
-bool nearly_there(const VehicleRun& run, const Pose2& pose, const plant::Station& station);
+bool nearly_there(const LiveVehicle& live, const Pose2& pose, const plant::Station& station);
 
 }  // namespace pulseline::fleet

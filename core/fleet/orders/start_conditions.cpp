@@ -59,17 +59,17 @@ std::string keeper(const FleetState& fleet, const JobOrder& order, const plant::
 
 }  // namespace
 
-bool announces_at_node(const VehicleRun& run, const StepAction& action) {
-    if (!run.factsheet) return false;
-    const auto& known = run.factsheet->node_actions;
+bool announces_at_node(const LiveVehicle& live, const StepAction& action) {
+    if (!live.factsheet) return false;
+    const auto& known = live.factsheet->node_actions;
     return std::find(known.begin(), known.end(), action.type) != known.end();
 }
 
-const StepAction* unannounced_action(const JobOrder& order, const VehicleRun& run) {
+const StepAction* unannounced_action(const JobOrder& order, const LiveVehicle& live) {
     for (const Step& step : order.steps) {
         for (const auto* actions : {&step.before, &step.after}) {
             for (const StepAction& action : *actions) {
-                if (!announces_at_node(run, action)) return &action;
+                if (!announces_at_node(live, action)) return &action;
             }
         }
     }
@@ -86,26 +86,26 @@ std::optional<Reason> waits_for_condition(const FleetState& fleet, const JobOrde
     if (auto reason = waits_for_sequence(fleet, order)) return reason;
     const plant::VehicleId vehicle =
         !order.wanted_vehicle.empty() ? order.wanted_vehicle : order.sequence_vehicle;
-    const VehicleRun* run = fleet.find(vehicle);
-    if (!run) return std::nullopt;
+    const LiveVehicle* live = fleet.find(vehicle);
+    if (!live) return std::nullopt;
     if (const std::string name = keeper(fleet, order, vehicle); !name.empty()) {
         return Reason{"vehicle_kept", {{"vehicle", vehicle.str()}, {"sequence", name}}};
     }
-    if (const StepAction* action = unannounced_action(order, *run)) {
+    if (const StepAction* action = unannounced_action(order, *live)) {
         return Reason{"actions_not_announced",
                       {{"vehicle", vehicle.str()}, {"action", action->type}}};
     }
     return std::nullopt;
 }
 
-bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const VehicleRun& run) {
-    const plant::VehicleId& id = run.record.id;
+bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
+    const plant::VehicleId& id = live.record.id;
     if (!order.wanted_vehicle.empty() && order.wanted_vehicle != id) return false;
-    if (!order.wanted_type.empty() && order.wanted_type != run.type->id) return false;
+    if (!order.wanted_type.empty() && order.wanted_type != live.type->id) return false;
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
     if (!bound.empty() && bound != id) return false;
     if (!keeper(fleet, order, id).empty()) return false;
-    return unannounced_action(order, run) == nullptr;
+    return unannounced_action(order, live) == nullptr;
 }
 
 void settle_dependencies(FleetState& fleet) {

@@ -15,12 +15,12 @@ std::optional<Reason> waits_for_condition(const FleetState& fleet, const JobOrde
 
 /// Whether the vehicle is one that the order may have: the required one, of the required type, of
 /// its sequence, kept by no other sequence, and able to do its actions.
-bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const VehicleRun& run);
+bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live);
 
 /// The first action of the order that the vehicle's factsheet does not announce for nodes; null:
 /// none. A vehicle without a factsheet announces nothing.
-const StepAction* unannounced_action(const JobOrder& order, const VehicleRun& run);
-bool announces_at_node(const VehicleRun& run, const StepAction& action);
+const StepAction* unannounced_action(const JobOrder& order, const LiveVehicle& live);
+bool announces_at_node(const LiveVehicle& live, const StepAction& action);
 
 /// Notes in waiting orders what became of the orders they depend on.
 void settle_dependencies(FleetState& fleet);

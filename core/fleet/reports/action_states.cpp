@@ -23,34 +23,34 @@ const vda5050::ActionState* find_action(const vda5050::StateMessage& state, cons
     return nullptr;
 }
 
-void take_action_states(FleetState& fleet, VehicleRun& run, Time now) {
+void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now) {
     bool cancelled = false;
     bool again = false;
-    std::erase_if(run.actions, [&](const PendingAction& pending) {
-        const vda5050::ActionState* found = find_action(run.state, pending.action.id);
+    std::erase_if(live.actions, [&](const PendingAction& pending) {
+        const vda5050::ActionState* found = find_action(live.state, pending.action.id);
         if (!found || !is_final(found->status)) return false;
         // A cancel is done when the vehicle says so AND stands; floor is freed only then.
         if (pending.action.type == vda5050::kCancelOrder) {
-            if (run.state.driving || (run.has_leg() && !run.record.pose_known)) return false;
+            if (live.state.driving || (live.has_leg() && !live.record.pose_known)) return false;
             // It knew of no order to cancel: that may still be on its way, or have come since.
             const bool failed = found->status == vda5050::ActionStatus::kFailed;
-            if (failed && run.has_leg() && is_on_its_way(run)) return false;
-            again = failed && run.has_leg() && run.state.order_id == run.leg().id.str() &&
-                    !has_nothing_left(run.state);
+            if (failed && live.has_leg() && is_on_its_way(live)) return false;
+            again = failed && live.has_leg() && live.state.order_id == live.leg().id.str() &&
+                    !has_nothing_left(live.state);
             cancelled = !again;
         }
         add_event(
-            fleet, now, event::kVehicleAction, {}, {}, run.record.id, {},
+            fleet, now, event::kVehicleAction, {}, {}, live.record.id, {},
             {{"action", pending.action.type},
              {"action_id", pending.action.id},
              {"status", found->status == vda5050::ActionStatus::kFinished ? "finished" : "failed"},
              {"result", found->result_description}});
         return true;
     });
-    if (cancelled) end_leg(fleet, run, LegEnd::kCancelled, now);
+    if (cancelled) end_leg(fleet, live, LegEnd::kCancelled, now);
     if (!again) return;
-    run.delivery.cancel_failed();
-    cancel_leg(fleet, run, now);
+    live.delivery.cancel_failed();
+    cancel_leg(fleet, live, now);
 }
 
 }  // namespace pulseline::fleet

@@ -11,6 +11,6 @@ bool is_final(vda5050::ActionStatus status);
 /// What the vehicle says of an action; null: nothing.
 const vda5050::ActionState* find_action(const vda5050::StateMessage& state, const std::string& id);
 /// Ends the instant actions that the vehicle reports final, and what waited for them.
-void take_action_states(FleetState& fleet, VehicleRun& run, Time now);
+void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

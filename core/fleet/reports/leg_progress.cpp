@@ -9,6 +9,7 @@
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/legs/stops.hpp"
 #include "core/fleet/reports/action_states.hpp"
+#include "core/fleet/reports/rejected_order.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
@@ -20,54 +21,23 @@
 namespace pulseline::fleet {
 namespace {
 
-const vda5050::VehicleError* rejection_of(const vda5050::StateMessage& state,
-                                          const std::string& order_id) {
-    for (const auto& error : state.errors) {
-        for (const auto& [key, value] : error.references) {
-            if (key == "orderId" && value == order_id) return &error;
-        }
-    }
-    return nullptr;
-}
-
-/// Restarted, switched to manual or cancelled by hand: it does not carry out its order any more.
-void lose_order(FleetState& fleet, VehicleRun& run, Time now) {
-    require_person(fleet, run, {reasons::kVehicleLostOrder, {}}, now);
-    end_leg(fleet, run, LegEnd::kLost, now);
-}
-
-/// It shows another order than its leg, or none.
-void take_other_order(FleetState& fleet, VehicleRun& run, Time now) {
-    // Without pose it has restarted: an order sent before must not set it in motion.
-    if (run.delivery.seen() || (!run.record.pose_known && !run.delivery.lost())) {
-        return lose_order(fleet, run, now);
-    }
-    if (run.delivery.lost()) return end_leg(fleet, run, LegEnd::kLost, now);
-    const auto* error = rejection_of(run.state, run.leg().id.str());
-    if (!error) return;
-    require_person(fleet, run,
-                   {reasons::kOrderRejected, {{"type", error->type}, {"text", error->description}}},
-                   now);
-    end_leg(fleet, run, LegEnd::kRejected, now);
-}
-
 /// It shows its leg: what it has of it, and which nodes are behind it.
-void take_shown_leg(FleetState& fleet, VehicleRun& run, Time now) {
-    const vda5050::StateMessage& state = run.state;
-    Leg& leg = run.leg();
-    if (run.delivery.shown(now)) {
+void handle_shown_leg(FleetState& fleet, LiveVehicle& live, Time now) {
+    const vda5050::StateMessage& state = live.state;
+    Leg& leg = live.leg();
+    if (live.delivery.shown(now)) {
         add_event(fleet, now, event::kLegAccepted, leg.order, leg.id, leg.vehicle, {});
-        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, run, *order, now);
+        if (JobOrder* order = fleet.find(leg.order)) expect_end(fleet, live, *order, now);
     }
-    if (state.order_update_id >= leg.update_id) run.delivery.confirmed();
+    if (state.order_update_id >= leg.update_id) live.delivery.confirmed();
     if (state.last_node_id.empty()) return;
     const auto passed = static_cast<std::size_t>(std::clamp<std::int64_t>(
         state.last_node_sequence_id / 2 + 1, 1, static_cast<std::int64_t>(leg.nodes.size())));
     if (passed <= leg.passed_nodes) return;
     leg.passed_nodes = passed;
-    pass_nodes(fleet, run, now);
+    pass_nodes(fleet, live, now);
     // After a restart it would hold floor again that others were granted since.
-    fleet.store(run);
+    fleet.store(live);
 }
 
 /// The step of a stop that has begun says so.
@@ -83,9 +53,9 @@ void show_measuring(FleetState& fleet, const Leg& leg) {
 enum class Stop { kNone, kOpen, kOver };  // the leg has no stop to measure, has it ahead, had it
 
 /// The stop at the end of the leg, if it has one.
-Stop take_stop(FleetState& fleet, VehicleRun& run, Time now) {
-    const vda5050::StateMessage& state = run.state;
-    const Leg& leg = run.leg();
+Stop handle_stop(FleetState& fleet, LiveVehicle& live, Time now) {
+    const vda5050::StateMessage& state = live.state;
+    const Leg& leg = live.leg();
     Stop stop = Stop::kNone;
     for (const auto& action : leg.nodes.back().actions) {
         if (action.type != vda5050::kMeasureStop) continue;
@@ -93,13 +63,13 @@ Stop take_stop(FleetState& fleet, VehicleRun& run, Time now) {
         const vda5050::ActionState* found = find_action(state, action.id);
         if (!found) continue;
         if (found->status == vda5050::ActionStatus::kFinished && found->measurement) {
-            take_measured_stop(fleet, run, *found->measurement, now);
+            handle_measured_stop(fleet, live, *found->measurement, now);
             return Stop::kOver;
         }
         if (is_final(found->status)) {
             // A cancelOrder of before a restart fails the stop before the vehicle stands.
             if (!has_nothing_left(state)) return Stop::kOver;
-            take_failed_stop(fleet, run, found->result_description, now);
+            handle_failed_stop(fleet, live, found->result_description, now);
             return Stop::kOver;
         }
         if (found->status == vda5050::ActionStatus::kRunning) show_measuring(fleet, leg);
@@ -108,51 +78,51 @@ Stop take_stop(FleetState& fleet, VehicleRun& run, Time now) {
 }
 
 /// A drive without an order, for others' sake or to a charger, whose vehicle has driven it.
-void end_own_drive(FleetState& fleet, VehicleRun& run, Time now) {
-    const Leg& leg = run.leg();
+void end_own_drive(FleetState& fleet, LiveVehicle& live, Time now) {
+    const Leg& leg = live.leg();
     for (const auto& action : leg.nodes.back().actions) {
-        const vda5050::ActionState* found = find_action(run.state, action.id);
+        const vda5050::ActionState* found = find_action(live.state, action.id);
         if (found && !is_final(found->status)) return;
         if (found && found->status == vda5050::ActionStatus::kFailed &&
             action.type == vda5050::kStartCharging) {
-            charge_failed(fleet, run, found->result_description, now);
+            charge_failed(fleet, live, found->result_description, now);
         }
     }
     add_event(fleet, now, event::kLegEnded, {}, leg.id, leg.vehicle, {});
-    end_leg(fleet, run, LegEnd::kDone, now);
+    end_leg(fleet, live, LegEnd::kDone, now);
 }
 
 /// A vehicle without measureStop: its own pose at the last node is the measurement.
-void take_own_pose(FleetState& fleet, VehicleRun& run, Time now) {
+void handle_own_pose(FleetState& fleet, LiveVehicle& live, Time now) {
     vda5050::StopMeasurement found;
-    found.pose = *run.state.pose;
-    found.sigma_xy_m = run.state.deviation_range_m;
+    found.pose = *live.state.pose;
+    found.sigma_xy_m = live.state.deviation_range_m;
     found.method = "vehicle_pose";
-    take_measured_stop(fleet, run, found, now);
+    handle_measured_stop(fleet, live, found, now);
 }
 
 }  // namespace
 
-void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now) {
-    const vda5050::StateMessage& state = run.state;
-    Leg& leg = run.leg();
-    if (state.order_id != leg.id.str()) return take_other_order(fleet, run, now);
-    take_shown_leg(fleet, run, now);
+void handle_leg_progress(FleetState& fleet, LiveVehicle& live, Time now) {
+    const vda5050::StateMessage& state = live.state;
+    Leg& leg = live.leg();
+    if (state.order_id != leg.id.str()) return handle_other_order(fleet, live, now);
+    handle_shown_leg(fleet, live, now);
     // What it still reports of a drive that it is to give up decides nothing.
-    if (run.delivery.cancelling()) return;
-    if (leg.actions_only) return take_actions_leg(fleet, run, now);
-    const Stop stop = take_stop(fleet, run, now);
+    if (live.delivery.cancelling()) return;
+    if (leg.actions_only) return take_actions_leg(fleet, live, now);
+    const Stop stop = handle_stop(fleet, live, now);
     if (stop == Stop::kOver || !has_nothing_left(state)) return;
     // Who takes it by hand takes the rest away, too, that it waited for at the end of its base.
-    const std::size_t owed = is_automatic(run) ? leg.released_nodes : leg.nodes.size();
+    const std::size_t owed = is_automatic(live) ? leg.released_nodes : leg.nodes.size();
     if (leg.passed_nodes < owed && state.order_update_id == leg.update_id) {
-        return lose_order(fleet, run, now);
+        return lose_order(fleet, live, now);
     }
     if (leg.order.empty() && leg.passed_nodes == leg.nodes.size()) {
-        return end_own_drive(fleet, run, now);
+        return end_own_drive(fleet, live, now);
     }
-    if (stop == Stop::kNone && stands_at_stop(fleet, run) && state.pose) {
-        take_own_pose(fleet, run, now);
+    if (stop == Stop::kNone && stands_at_stop(fleet, live) && state.pose) {
+        handle_own_pose(fleet, live, now);
     }
 }
 

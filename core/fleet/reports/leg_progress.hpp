@@ -6,6 +6,6 @@
 namespace pulseline::fleet {
 
 /// Follows the vehicle along its leg: the nodes it has passed, its actions, its stop, its end.
-void take_leg_progress(FleetState& fleet, VehicleRun& run, Time now);
+void handle_leg_progress(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

@@ -65,13 +65,13 @@ bool is_near(const vda5050::OrderEdge& edge, const Pose2& pose) {
 
 /// On the base of its leg, behind the node that it says it has passed: what lies before that is
 /// freed on its word.
-bool is_on_leg(const VehicleRun& run, const Pose2& pose) {
-    const Leg& leg = run.leg();
-    const bool has_it = run.state.order_id == leg.id.str() && !run.state.last_node_id.empty();
+bool is_on_leg(const LiveVehicle& live, const Pose2& pose) {
+    const Leg& leg = live.leg();
+    const bool has_it = live.state.order_id == leg.id.str() && !live.state.last_node_id.empty();
     const auto last = static_cast<std::int64_t>(leg.nodes.size()) - 1;
     const auto passed = static_cast<std::int64_t>(leg.passed_nodes) - 1;
     const auto from = static_cast<std::size_t>(
-        std::clamp(has_it ? run.state.last_node_sequence_id / 2 : passed, std::int64_t{0}, last));
+        std::clamp(has_it ? live.state.last_node_sequence_id / 2 : passed, std::int64_t{0}, last));
     if (is_near(leg.nodes[from], pose)) return true;
     for (std::size_t i = from; i + 1 < leg.released_nodes; ++i) {
         if (is_near(leg.edges[i], pose)) return true;
@@ -86,229 +86,231 @@ bool moves(const vda5050::StateMessage& state) {
 }
 
 /// Whether it can have come there from where it was believed to be.
-bool is_within_reach(const VehicleRun& run, const Pose2& pose, Time now) {
-    if (is_near(run.record.pose, pose)) return true;
+bool is_within_reach(const LiveVehicle& live, const Pose2& pose, Time now) {
+    if (is_near(live.record.pose, pose)) return true;
     // The server was down while it drove; without a leg it did not.
-    if (!run.seen) return run.has_leg();
-    const auto& newest = *run.seen;
+    if (!live.seen) return live.has_leg();
+    const auto& newest = *live.seen;
     const auto& from =
-        now - newest.at >= kJudgedOver || !run.seen_before ? newest : *run.seen_before;
-    const bool unseen = run.has_leg() && now - newest.at > kHidesADrive;
-    if (!(unseen || moves(run.state) || newest.moving || from.moving)) return false;
+        now - newest.at >= kJudgedOver || !live.seen_before ? newest : *live.seen_before;
+    const bool unseen = live.has_leg() && now - newest.at > kHidesADrive;
+    if (!(unseen || moves(live.state) || newest.moving || from.moving)) return false;
     // On its leg, where the pose has to lie on the base in any case, a vehicle that is too fast is
     // believed. Elsewhere a pose that jumps often brings the speed of its jump along.
     const double told_mps =
-        run.has_leg()
-            ? std::max({std::abs(run.state.velocity_mps), newest.speed_mps, from.speed_mps})
+        live.has_leg()
+            ? std::max({std::abs(live.state.velocity_mps), newest.speed_mps, from.speed_mps})
             : 0;
-    const double top_mps = run.type->max_speed_mps * std::max(1.0, speed_share(run));
+    const double top_mps = live.type->max_speed_mps * std::max(1.0, speed_share(live));
     const double speed_mps = std::max(top_mps, told_mps);
     return geometry::distance(from.pose.position(), pose.position()) <=
            kPush_m + speed_mps * seconds(now - from.at);
 }
 
-bool can_be_at(const FleetState& fleet, const VehicleRun& run, const Whereabouts& told, Time now) {
-    if (run.record.integration < Integration::kRespect) return true;  // it holds no floor
+bool can_be_at(const FleetState& fleet, const LiveVehicle& live, const Whereabouts& told,
+               Time now) {
+    if (live.record.integration < Integration::kRespect) return true;  // it holds no floor
     if (!is_in_hall(fleet, told)) return false;
-    if (!has_stood(run.record) && !run.has_leg()) return true;
-    if (told.hall != hall_of(fleet, run)) return false;
-    if (run.has_leg() && is_automatic(run) && !is_on_leg(run, told.pose)) return false;
-    return is_within_reach(run, told.pose, now);
+    if (!has_stood(live.record) && !live.has_leg()) return true;
+    if (told.hall != hall_of(fleet, live)) return false;
+    if (live.has_leg() && is_automatic(live) && !is_on_leg(live, told.pose)) return false;
+    return is_within_reach(live, told.pose, now);
 }
 
-void note_seen(VehicleRun& run, Time now) {
-    const double speed_mps = std::abs(run.state.velocity_mps);
-    if (!run.seen || now - run.seen->at >= kJudgedOver) {
-        run.seen_before = run.seen;
-        run.seen = VehicleRun::Seen{run.record.pose, now, moves(run.state), speed_mps};
+void note_seen(LiveVehicle& live, Time now) {
+    const double speed_mps = std::abs(live.state.velocity_mps);
+    if (!live.seen || now - live.seen->at >= kJudgedOver) {
+        live.seen_before = live.seen;
+        live.seen = LiveVehicle::Seen{live.record.pose, now, moves(live.state), speed_mps};
         return;
     }
     // Of those that come at once after a stall the last one says where it is.
-    if (now - run.seen->at < kAtOnce) run.seen->pose = run.record.pose;
-    run.seen->moving |= moves(run.state);
-    run.seen->speed_mps = std::max(run.seen->speed_mps, speed_mps);
+    if (now - live.seen->at < kAtOnce) live.seen->pose = live.record.pose;
+    live.seen->moving |= moves(live.state);
+    live.seen->speed_mps = std::max(live.seen->speed_mps, speed_mps);
 }
 
 /// Of a pose that was not known before: what it can rest on, seen from here.
-PoseBasis basis_of(const FleetState& fleet, const VehicleRun& run, const Pose2& told, Time now) {
-    const auto by_codes = pose_from_codes(fleet, run, run.state.cameras);
+PoseBasis basis_of(const FleetState& fleet, const LiveVehicle& live, const Pose2& told, Time now) {
+    const auto by_codes = pose_from_codes(fleet, live, live.state.cameras);
     const bool seen = by_codes && is_near(*by_codes, told);
     return {seen ? PoseBasis::Kind::kCodes : PoseBasis::Kind::kVehicle, {}, {}, now, 0};
 }
 
-void believe(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
-    const bool was_known = run.record.pose_known;
-    if (!was_known || !run.record.basis) {
-        run.record.basis = basis_of(fleet, run, told.pose, now);
-    } else if (moves(run.state)) {
-        run.record.basis->driven_m +=
-            geometry::distance(run.record.pose.position(), told.pose.position());
+void believe(FleetState& fleet, LiveVehicle& live, const Whereabouts& told, Time now) {
+    const bool was_known = live.record.pose_known;
+    if (!was_known || !live.record.basis) {
+        live.record.basis = basis_of(fleet, live, told.pose, now);
+    } else if (moves(live.state)) {
+        live.record.basis->driven_m +=
+            geometry::distance(live.record.pose.position(), told.pose.position());
     }
-    run.record.pose = told.pose;
-    run.record.pose_known = true;
-    note_seen(run, now);
-    if (run.record.hall != told.hall && is_in_hall(fleet, told)) {
-        run.record.hall = told.hall;
-        fleet.store(run);
+    live.record.pose = told.pose;
+    live.record.pose_known = true;
+    note_seen(live, now);
+    if (live.record.hall != told.hall && is_in_hall(fleet, told)) {
+        live.record.hall = told.hall;
+        fleet.store(live);
     }
     if (was_known) return;
     add_event(
-        fleet, now, event::kVehiclePoseConfirmed, {}, {}, run.record.id, {},
+        fleet, now, event::kVehiclePoseConfirmed, {}, {}, live.record.id, {},
         {{"x_m", told.pose.x_m}, {"y_m", told.pose.y_m}, {"heading_rad", told.pose.heading_rad}});
-    fleet.store(run);
+    fleet.store(live);
 }
 
-void lose_pose(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.record.pose_known) return;
-    run.record.pose_known = false;
-    add_event(fleet, now, event::kVehiclePoseLost, {}, {}, run.record.id, {});
-    fleet.store(run);
+void lose_pose(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!live.record.pose_known) return;
+    live.record.pose_known = false;
+    add_event(fleet, now, event::kVehiclePoseLost, {}, {}, live.record.id, {});
+    fleet.store(live);
 }
 
 /// It may be where it was or where it says: both floors are its own, it is told to give up what it
 /// does, and the rest is for a person.
-void doubt(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
-    const std::string& name = run.record.id.str();
-    const Pose2& known = run.record.pose;
+void doubt(FleetState& fleet, LiveVehicle& live, const Whereabouts& told, Time now) {
+    const std::string& name = live.record.id.str();
+    const Pose2& known = live.record.pose;
     const double distance_m = geometry::distance(known.position(), told.pose.position());
     Params params{{"x_m", told.pose.x_m},
                   {"y_m", told.pose.y_m},
                   {"heading_rad", told.pose.heading_rad},
                   {"hall", told.hall}};
-    if (has_stood(run.record)) {
+    if (has_stood(live.record)) {
         params.push_back({"distance_m", distance_m});
         params.push_back({"known_x_m", known.x_m});
         params.push_back({"known_y_m", known.y_m});
         params.push_back({"known_heading_rad", known.heading_rad});
     }
-    add_event(fleet, now, event::kVehiclePoseJumped, {}, run.record.leg, run.record.id, {},
+    add_event(fleet, now, event::kVehiclePoseJumped, {}, live.record.leg, live.record.id, {},
               std::move(params));
-    run.record.claim = told;
-    run.claim_told = now;
-    run.claim_left = false;
-    run.record.pose_known = false;
-    run.stated.reset();
+    live.record.claim = told;
+    live.claim_told = now;
+    live.claim_left = false;
+    live.record.pose_known = false;
+    live.stated.reset();
     const Reason jumped{reasons::kPoseJumped, {{"vehicle", name}, {"distance_m", distance_m}}};
-    require_person(fleet, run, jumped, now);
-    run.record.needs_resume_reason = jumped;  // whatever was asked before, this comes first
-    fleet.store(run);
-    keep_doubt(fleet, run, now);
+    require_person(fleet, live, jumped, now);
+    live.record.needs_resume_reason = jumped;  // whatever was asked before, this comes first
+    fleet.store(live);
+    keep_doubt(fleet, live, now);
 }
 
 /// Whether a vehicle that is where it claims can say this next. What it said before the server
 /// was restarted is not known, and a wrong code goes along with a vehicle that drives.
-bool can_follow_claim(const VehicleRun& run, const Whereabouts& told, Time now) {
-    const Whereabouts& claim = *run.record.claim;
+bool can_follow_claim(const LiveVehicle& live, const Whereabouts& told, Time now) {
+    const Whereabouts& claim = *live.record.claim;
     if (claim.hall != told.hall) return false;
-    if (run.claim_left) return is_near(claim.pose, told.pose);
-    if (!run.claim_told) return true;
-    const double way_m = run.type->max_speed_mps * std::max(1.0, speed_share(run)) *
-                         seconds(std::max(kHidesADrive, now - *run.claim_told));
+    if (live.claim_left) return is_near(claim.pose, told.pose);
+    if (!live.claim_told) return true;
+    const double way_m = live.type->max_speed_mps * std::max(1.0, speed_share(live)) *
+                         seconds(std::max(kHidesADrive, now - *live.claim_told));
     return geometry::distance(claim.pose.position(), told.pose.position()) <= kPush_m + way_m;
 }
 
 /// In doubt: the claim goes where the vehicle says to go.
-void follow_claim(FleetState& fleet, VehicleRun& run, const Whereabouts& told, Time now) {
-    Whereabouts& claim = *run.record.claim;
-    run.claim_left = !can_follow_claim(run, told, now);
-    if (stands_where_known(fleet, run, now)) return;
-    run.claim_left = false;
-    run.claim_told = now;
+void follow_claim(FleetState& fleet, LiveVehicle& live, const Whereabouts& told, Time now) {
+    Whereabouts& claim = *live.record.claim;
+    live.claim_left = !can_follow_claim(live, told, now);
+    if (stands_where_known(fleet, live, now)) return;
+    live.claim_left = false;
+    live.claim_told = now;
     if (claim.hall == told.hall && is_near(claim.pose, told.pose)) return;
     claim = told;
-    fleet.store(run);
-    hold_both_floors(fleet, run, now);
+    fleet.store(live);
+    hold_both_floors(fleet, live, now);
 }
 
-bool is_as_stated(const VehicleRun& run, const Whereabouts& told, Time now) {
-    return run.stated && now - run.stated->at <= kStatementLasts &&
-           run.stated->where.hall == told.hall && is_near(run.stated->where.pose, told.pose);
+bool is_as_stated(const LiveVehicle& live, const Whereabouts& told, Time now) {
+    return live.stated && now - live.stated->at <= kStatementLasts &&
+           live.stated->where.hall == told.hall && is_near(live.stated->where.pose, told.pose);
 }
 
-Whereabouts told_by(const FleetState& fleet, const VehicleRun& run) {
-    const vda5050::StateMessage& state = run.state;
-    return {*state.pose, state.map_id.empty() ? hall_of(fleet, run) : state.map_id};
+Whereabouts told_by(const FleetState& fleet, const LiveVehicle& live) {
+    const vda5050::StateMessage& state = live.state;
+    return {*state.pose, state.map_id.empty() ? hall_of(fleet, live) : state.map_id};
 }
 
-bool tells_pose(const VehicleRun& run) {
-    return run.state.position_initialized && run.state.pose.has_value();
+bool tells_pose(const LiveVehicle& live) {
+    return live.state.position_initialized && live.state.pose.has_value();
 }
 
 }  // namespace
 
-bool stands_where_known(const FleetState& fleet, const VehicleRun& run, Time) {
-    if (!tells_pose(run) || !run.reconciled) return false;
-    const Whereabouts told = told_by(fleet, run);
-    if (told.hall != hall_of(fleet, run) || !is_in_hall(fleet, told)) return false;
-    const bool has_returned = is_near(run.record.pose, told.pose);
-    if (!run.has_leg()) return has_returned;
-    return (has_returned || run.claim_left) && is_on_leg(run, told.pose);
+bool stands_where_known(const FleetState& fleet, const LiveVehicle& live, Time) {
+    if (!tells_pose(live) || !live.reconciled) return false;
+    const Whereabouts told = told_by(fleet, live);
+    if (told.hall != hall_of(fleet, live) || !is_in_hall(fleet, told)) return false;
+    const bool has_returned = is_near(live.record.pose, told.pose);
+    if (!live.has_leg()) return has_returned;
+    return (has_returned || live.claim_left) && is_on_leg(live, told.pose);
 }
 
-void end_doubt(FleetState& fleet, VehicleRun& run, Time now) {
-    run.record.claim.reset();
-    run.claim_told.reset();
-    run.claim_left = false;
-    run.stated.reset();
-    run.seen.reset();
-    run.seen_before.reset();
-    run.floor.pose.reset();  // both floors are left for the one where it stands
-    fleet.store(run);
-    believe(fleet, run, told_by(fleet, run), now);
-    if (!run.state.driving) settle(fleet, run, now);
+void end_doubt(FleetState& fleet, LiveVehicle& live, Time now) {
+    live.record.claim.reset();
+    live.claim_told.reset();
+    live.claim_left = false;
+    live.stated.reset();
+    live.seen.reset();
+    live.seen_before.reset();
+    live.floor.pose.reset();  // both floors are left for the one where it stands
+    fleet.store(live);
+    believe(fleet, live, told_by(fleet, live), now);
+    if (!live.state.driving) hold_where_it_stands(fleet, live, now);
 }
 
-void keep_doubt(FleetState& fleet, VehicleRun& run, Time now) {
-    hold_both_floors(fleet, run, now);
-    if (run.has_leg() && !run.delivery.lost()) cancel_leg(fleet, run, now);
+void keep_doubt(FleetState& fleet, LiveVehicle& live, Time now) {
+    hold_both_floors(fleet, live, now);
+    if (live.has_leg() && !live.delivery.lost()) cancel_leg(fleet, live, now);
 }
 
-void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& before, Time now) {
-    vda5050::StateMessage& state = run.state;
+void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& before,
+                 Time now) {
+    vda5050::StateMessage& state = live.state;
     const bool finite = state.pose && std::isfinite(state.pose->x_m) &&
                         std::isfinite(state.pose->y_m) && std::isfinite(state.pose->heading_rad);
     if (!finite) state.pose.reset();
-    if (moves(before) && run.seen) run.seen->moving = true;
-    const bool told = tells_pose(run);
+    if (moves(before) && live.seen) live.seen->moving = true;
+    const bool told = tells_pose(live);
     if (!told) {
-        lose_pose(fleet, run, now);
+        lose_pose(fleet, live, now);
     } else {
         state.pose->heading_rad = wrap(state.pose->heading_rad);
-        const Whereabouts where = told_by(fleet, run);
-        if (is_as_stated(run, where, now)) {
-            const std::string actor = run.stated->actor;
-            end_doubt(fleet, run, now);
-            run.record.basis = PoseBasis{PoseBasis::Kind::kStatement, {}, actor, now, 0};
-        } else if (is_in_doubt(run)) {
-            follow_claim(fleet, run, where, now);
-        } else if (can_be_at(fleet, run, where, now)) {
-            believe(fleet, run, where, now);
+        const Whereabouts where = told_by(fleet, live);
+        if (is_as_stated(live, where, now)) {
+            const std::string actor = live.stated->actor;
+            end_doubt(fleet, live, now);
+            live.record.basis = PoseBasis{PoseBasis::Kind::kStatement, {}, actor, now, 0};
+        } else if (is_in_doubt(live)) {
+            follow_claim(fleet, live, where, now);
+        } else if (can_be_at(fleet, live, where, now)) {
+            believe(fleet, live, where, now);
         } else {
-            doubt(fleet, run, where, now);
+            doubt(fleet, live, where, now);
         }
     }
-    if (is_in_doubt(run) || !(told || state.driving)) return;
+    if (is_in_doubt(live) || !(told || state.driving)) return;
     const plant::StationId station =
-        told && !state.driving && run.record.integration >= Integration::kRespect
-            ? station_at(fleet, run, run.record.pose)
+        told && !state.driving && live.record.integration >= Integration::kRespect
+            ? station_at(fleet, live, live.record.pose)
             : plant::StationId{};
-    if (station == run.record.at_station) return;
-    run.record.at_station = station;
-    fleet.store(run);
+    if (station == live.record.at_station) return;
+    live.record.at_station = station;
+    fleet.store(live);
 }
 
-void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now) {
-    const vda5050::StateMessage& state = run.state;
-    if (state.position_initialized || state.driving || is_in_doubt(run)) return;
-    if (run.record.integration < Integration::kRespect) return;
-    if (is_asked(run, vda5050::kInitPosition)) return;
-    const auto pose = pose_from_codes(fleet, run, state.cameras);
+void offer_pose_from_codes(FleetState& fleet, LiveVehicle& live, Time now) {
+    const vda5050::StateMessage& state = live.state;
+    if (state.position_initialized || state.driving || is_in_doubt(live)) return;
+    if (live.record.integration < Integration::kRespect) return;
+    if (is_asked(live, vda5050::kInitPosition)) return;
+    const auto pose = pose_from_codes(fleet, live, state.cameras);
     if (!pose) return;
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
     action.blocking = vda5050::BlockingType::kHard;
-    action.init_position = vda5050::InitPosition{*pose, hall_of(fleet, run), {}};
-    send_action(fleet, run, std::move(action), now);
+    action.init_position = vda5050::InitPosition{*pose, hall_of(fleet, live), {}};
+    send_action(fleet, live, std::move(action), now);
 }
 
 }  // namespace pulseline::fleet

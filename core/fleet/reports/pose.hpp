@@ -5,18 +5,19 @@
 /// Where vehicles say that they stand, and whether that can be true.
 namespace pulseline::fleet {
 
-/// Takes what `run.state` says of the pose, if it can be true after what was known (`before`).
+/// Takes what `live.state` says of the pose, if it can be true after what was known (`before`).
 /// Else, from then on and until a person has said where it stands, it counts as not known.
-void take_pose(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& before, Time now);
+void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& before,
+                 Time now);
 /// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
 /// it.
-void offer_pose_from_codes(FleetState& fleet, VehicleRun& run, Time now);
+void offer_pose_from_codes(FleetState& fleet, LiveVehicle& live, Time now);
 /// Having claimed to be elsewhere it says again that it is where it was known to be, or that it
 /// has gone on from there on its leg. A claim that only happens to lie on the leg is not that.
-bool stands_where_known(const FleetState& fleet, const VehicleRun& run, Time now);
+bool stands_where_known(const FleetState& fleet, const LiveVehicle& live, Time now);
 /// A person has looked: it is where it says now.
-void end_doubt(FleetState& fleet, VehicleRun& run, Time now);
+void end_doubt(FleetState& fleet, LiveVehicle& live, Time now);
 /// After a restart: both floors, and the leg is given up as it was to be before.
-void keep_doubt(FleetState& fleet, VehicleRun& run, Time now);
+void keep_doubt(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

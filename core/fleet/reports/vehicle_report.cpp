@@ -25,74 +25,75 @@ constexpr Duration kForeignAfter = std::chrono::seconds(5);  // an own leg just 
 
 /// A state that was overtaken on its way tells of a floor the vehicle has left since. Header ids
 /// are 32 bit and begin anew.
-bool is_overtaken(const VehicleRun& run, const vda5050::StateMessage& state) {
+bool is_overtaken(const LiveVehicle& live, const vda5050::StateMessage& state) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 31;
-    if (state.header_id == 0 || run.newest_header == 0) return false;
-    const std::int64_t ahead = state.header_id - run.newest_header;
+    if (state.header_id == 0 || live.newest_header == 0) return false;
+    const std::int64_t ahead = state.header_id - live.newest_header;
     return (ahead <= 0 && ahead > -kHalf) || ahead > kHalf;
 }
 
 /// Of another master, or given by this server before its database was put back to an older copy:
 /// no leg of its own can begin before that is gone, and only a person knows whether it may go.
-void watch_foreign_order(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!has_foreign_order(run)) {
-        run.foreign_since.reset();
+void watch_foreign_order(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!has_foreign_order(live)) {
+        live.foreign_since.reset();
         return;
     }
-    if (!run.foreign_since) run.foreign_since = now;
-    if (now - *run.foreign_since < kForeignAfter || is_asked(run, vda5050::kCancelOrder)) return;
-    if (run.record.integration != Integration::kUtilise) return;
-    require_person(
-        fleet, run,
-        {reasons::kForeignOrder, {{"vehicle", run.record.id.str()}, {"order", run.state.order_id}}},
-        now);
+    if (!live.foreign_since) live.foreign_since = now;
+    if (now - *live.foreign_since < kForeignAfter || is_asked(live, vda5050::kCancelOrder)) return;
+    if (live.record.integration != Integration::kUtilise) return;
+    require_person(fleet, live,
+                   {reasons::kForeignOrder,
+                    {{"vehicle", live.record.id.str()}, {"order", live.state.order_id}}},
+                   now);
 }
 
 /// An error is its type and what it refers to; its text may count up or tell the time.
-void note_errors(FleetState& fleet, VehicleRun& run,
+void note_errors(FleetState& fleet, LiveVehicle& live,
                  const std::vector<vda5050::VehicleError>& before, Time now) {
-    for (const auto& error : run.state.errors) {
+    for (const auto& error : live.state.errors) {
         const bool known = std::any_of(before.begin(), before.end(), [&](const auto& old) {
             return old.type == error.type && old.references == error.references;
         });
-        if (known || !may_tell_error(fleet, run, now)) continue;
-        add_event(fleet, now, event::kVehicleError, {}, run.record.leg, run.record.id, {},
+        if (known || !may_tell_error(fleet, live, now)) continue;
+        add_event(fleet, now, event::kVehicleError, {}, live.record.leg, live.record.id, {},
                   {{"type", error.type}, {"fatal", error.fatal}, {"text", error.description}});
     }
 }
 
 /// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing
 /// moves it but they, and after the second nothing does until a person says so here.
-void watch_mode(FleetState& fleet, VehicleRun& run, const std::string& before, Time now) {
-    const std::string& mode = run.state.operating_mode;
+void watch_mode(FleetState& fleet, LiveVehicle& live, const std::string& before, Time now) {
+    const std::string& mode = live.state.operating_mode;
     if (mode != before) {
-        add_event(fleet, now, event::kVehicleOperatingMode, {}, run.record.leg, run.record.id, {},
+        add_event(fleet, now, event::kVehicleOperatingMode, {}, live.record.leg, live.record.id, {},
                   {{"from", before}, {"to", mode}});
     }
-    if (is_automatic(run) || run.record.integration != Integration::kUtilise) return;
-    require_person(fleet, run, {reasons::kDrivenByHand, {{"operating_mode", mode}}}, now);
+    if (is_automatic(live) || live.record.integration != Integration::kUtilise) return;
+    require_person(fleet, live, {reasons::kDrivenByHand, {{"operating_mode", mode}}}, now);
 }
 
 }  // namespace
 
-void take_state(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& state, Time now) {
-    hear(fleet, run, now);
-    if (is_overtaken(run, state)) return;
-    run.newest_header = state.header_id;
-    const vda5050::StateMessage before = std::exchange(run.state, state);
-    run.state_at = now;
-    run.reconciled = true;
-    fleet.changed_vehicles.insert(run.record.id);
-    note_errors(fleet, run, before.errors, now);
-    take_pose(fleet, run, before, now);
-    watch_mode(fleet, run, before.operating_mode, now);
-    take_action_states(fleet, run, now);
+void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& state,
+                  Time now) {
+    note_heard(fleet, live, now);
+    if (is_overtaken(live, state)) return;
+    live.newest_header = state.header_id;
+    const vda5050::StateMessage before = std::exchange(live.state, state);
+    live.state_at = now;
+    live.reconciled = true;
+    fleet.changed_vehicles.insert(live.record.id);
+    note_errors(fleet, live, before.errors, now);
+    handle_pose(fleet, live, before, now);
+    watch_mode(fleet, live, before.operating_mode, now);
+    handle_action_states(fleet, live, now);
     // What it has passed is where it says to be; on that nothing is freed or measured.
-    if (run.has_leg() && !is_in_doubt(run)) take_leg_progress(fleet, run, now);
-    watch_foreign_order(fleet, run, now);
-    if (!state.driving) settle(fleet, run, now);
-    halt_or_resume(fleet, run, now);
-    offer_pose_from_codes(fleet, run, now);
+    if (live.has_leg() && !is_in_doubt(live)) handle_leg_progress(fleet, live, now);
+    watch_foreign_order(fleet, live, now);
+    if (!state.driving) hold_where_it_stands(fleet, live, now);
+    halt_or_resume(fleet, live, now);
+    offer_pose_from_codes(fleet, live, now);
 }
 
 }  // namespace pulseline::fleet

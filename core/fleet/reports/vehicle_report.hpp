@@ -5,6 +5,7 @@
 /// A vehicle's state message, step by step.
 namespace pulseline::fleet {
 
-void take_state(FleetState& fleet, VehicleRun& run, const vda5050::StateMessage& state, Time now);
+void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& state,
+                  Time now);
 
 }  // namespace pulseline::fleet

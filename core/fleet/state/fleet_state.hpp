@@ -48,7 +48,7 @@ struct SweptSegment {
 };
 
 /// One vehicle while the server runs. `record` is what survives a restart.
-struct VehicleRun {
+struct LiveVehicle {
     const plant::Vehicle* vehicle = nullptr;
     const plant::VehicleType* type = nullptr;
     VehicleRecord record;
@@ -66,7 +66,7 @@ struct VehicleRun {
 
     LegDelivery delivery;
     FloorStand floor;
-    /// Where it was believed to be, newest and at least a second before: see take_pose.
+    /// Where it was believed to be, newest and at least a second before: see handle_pose.
     struct Seen {
         Pose2 pose;
         Time at;
@@ -128,7 +128,7 @@ struct FleetState {
     planning::LegPlanner planner;
     IdSource ids;
     Time started;
-    std::map<plant::VehicleId, VehicleRun> vehicles;
+    std::map<plant::VehicleId, LiveVehicle> vehicles;
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     Floor floor;
@@ -156,11 +156,11 @@ struct FleetState {
     std::set<plant::VehicleId> changed_vehicles;  // views to show
     std::set<plant::VehicleId> plans_wanted;
 
-    VehicleRun* find(const plant::VehicleId& id) {
+    LiveVehicle* find(const plant::VehicleId& id) {
         const auto it = vehicles.find(id);
         return it == vehicles.end() ? nullptr : &it->second;
     }
-    const VehicleRun* find(const plant::VehicleId& id) const {
+    const LiveVehicle* find(const plant::VehicleId& id) const {
         return const_cast<FleetState*>(this)->find(id);
     }
     JobOrder* find(JobOrderId id) { return orders.find(id); }
@@ -170,9 +170,9 @@ struct FleetState {
         ++order.revision;
         stored_orders.insert(order.id);
     }
-    void store(const VehicleRun& run) {
-        stored_vehicles.insert(run.record.id);
-        changed_vehicles.insert(run.record.id);
+    void store(const LiveVehicle& live) {
+        stored_vehicles.insert(live.record.id);
+        changed_vehicles.insert(live.record.id);
     }
 };
 

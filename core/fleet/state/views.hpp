@@ -76,7 +76,7 @@ struct VehicleView {
     Integration integration = Integration::kUtilise;
     bool needs_resume = false;
     Reason needs_resume_reason;
-    std::vector<Time> made_way;                 // newest last; see VehicleRun
+    std::vector<Time> made_way;                 // newest last; see LiveVehicle
     std::optional<BracketShare> worst_bracket;  // there while it carries a load
     vda5050::StateMessage state;                // as last reported; all defaults before the first
 };

@@ -6,9 +6,9 @@
 namespace pulseline::fleet {
 
 /// The vehicle stops taking new floor until a person allows it; its order is interrupted.
-void require_person(FleetState& fleet, VehicleRun& run, Reason reason, Time now);
+void require_person(FleetState& fleet, LiveVehicle& live, Reason reason, Time now);
 /// Counts an error of the vehicle. False: it has told of so many in this minute that no more become
 /// events.
-bool may_tell_error(FleetState& fleet, VehicleRun& run, Time now);
+bool may_tell_error(FleetState& fleet, LiveVehicle& live, Time now);
 
 }  // namespace pulseline::fleet

@@ -10,7 +10,7 @@ namespace pulseline::fleet {
 
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 
-std::optional<BracketShare> worst_bracket(const VehicleRun& run);
+std::optional<BracketShare> worst_bracket(const LiveVehicle& live);
 
 struct Interlock {
     enum class Kind {
@@ -24,6 +24,6 @@ struct Interlock {
     Reason reason;
 };
 /// The first one that bars the drive. Nothing: it may drive.
-std::optional<Interlock> interlock(const FleetState& fleet, const VehicleRun& run);
+std::optional<Interlock> interlock(const FleetState& fleet, const LiveVehicle& live);
 
 }  // namespace pulseline::fleet

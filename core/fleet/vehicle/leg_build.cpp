@@ -50,9 +50,9 @@ vda5050::StopTarget stop_target(const plant::Plant& plant, const plant::Station&
     return target;
 }
 
-bool announces(const VehicleRun& run, const std::string& action) {
-    if (!run.factsheet) return true;  // not heard yet: our own agents announce it at once
-    const auto& actions = run.factsheet->actions;
+bool announces(const LiveVehicle& live, const std::string& action) {
+    if (!live.factsheet) return true;  // not heard yet: our own agents announce it at once
+    const auto& actions = live.factsheet->actions;
     return std::find(actions.begin(), actions.end(), action) != actions.end();
 }
 
@@ -79,12 +79,12 @@ void widen_nodes(Leg& leg) {
     }
 }
 
-std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const VehicleRun& run,
+std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const LiveVehicle& live,
                                           const plant::Station& station, const LegId& leg) {
     std::vector<vda5050::Action> actions;
     if (station.markers.empty()) return actions;
     for (const char* type : {vda5050::kAdjustToMarker, vda5050::kMeasureStop}) {
-        if (!announces(run, type)) continue;
+        if (!announces(live, type)) continue;
         vda5050::Action action;
         action.type = type;
         action.id = leg.str() + "-" + type;
@@ -94,9 +94,9 @@ std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const Vehicle
     return actions;
 }
 
-std::vector<vda5050::Action> rest_actions(const FleetState& fleet, const VehicleRun& run,
+std::vector<vda5050::Action> rest_actions(const FleetState& fleet, const LiveVehicle& live,
                                           const plant::Station& station, const Leg& leg) {
-    std::vector<vda5050::Action> actions = stop_actions(fleet, run, station, leg.id);
+    std::vector<vda5050::Action> actions = stop_actions(fleet, live, station, leg.id);
     // It is no stop to keep.
     std::erase_if(actions, [](const vda5050::Action& action) {
         return action.type == vda5050::kMeasureStop;
@@ -110,19 +110,6 @@ std::vector<vda5050::Action> rest_actions(const FleetState& fleet, const Vehicle
     return actions;
 }
 
-planning::LegRequest leg_request(const FleetState& fleet, const VehicleRun& run, const Pose2& start,
-                                 const plant::StationId& target, plant::MotionMode mode) {
-    planning::LegRequest request;
-    request.type = run.type;
-    request.loaded = is_loaded(run);
-    request.hall = plant::HallId(hall_of(fleet, run));
-    request.start = start;
-    request.from_station = station_at(fleet, run, start);
-    request.target = target;
-    request.mode = mode;
-    return request;
-}
-
 vda5050::OrderNode start_node(const Pose2& pose, const std::string& hall) {
     vda5050::OrderNode node = node_at("start", 0, pose, hall);
     node.released = true;
@@ -131,18 +118,18 @@ vda5050::OrderNode start_node(const Pose2& pose, const std::string& hall) {
     return node;
 }
 
-Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::LegPlan& plan,
+Leg build_leg(const FleetState& fleet, const LiveVehicle& live, const planning::LegPlan& plan,
               const plant::Station& station, const Pose2& start, LegId id) {
     Leg leg;
     leg.id = id;
-    leg.vehicle = run.record.id;
+    leg.vehicle = live.record.id;
     leg.station = station.id;
     leg.mode = plan.mode;
     leg.hall = station.hall.str();
     leg.duration_s = plan.duration_s;
     leg.nodes.push_back(start_node(start, leg.hall));
     for (std::size_t i = 0; i < plan.segments.size(); ++i) {
-        for (const auto& piece : split(*run.type, plan.segments[i])) {
+        for (const auto& piece : split(*live.type, plan.segments[i])) {
             const std::size_t index = leg.nodes.size();
             vda5050::OrderEdge edge;
             edge.edge_id = "e" + std::to_string(index);
@@ -156,22 +143,22 @@ Leg build_leg(const FleetState& fleet, const VehicleRun& run, const planning::Le
     }
     auto& last = leg.nodes.back();
     last.node_id = station.id.str();
-    last.actions = stop_actions(fleet, run, station, id);
+    last.actions = stop_actions(fleet, live, station, id);
     widen_nodes(leg);
     return leg;
 }
 
-Leg build_adjust_leg(const FleetState& fleet, const VehicleRun& run, const plant::Station& station,
-                     const Pose2& pose, LegId id) {
+Leg build_adjust_leg(const FleetState& fleet, const LiveVehicle& live,
+                     const plant::Station& station, const Pose2& pose, LegId id) {
     Leg leg;
     leg.id = id;
-    leg.vehicle = run.record.id;
+    leg.vehicle = live.record.id;
     leg.station = station.id;
     leg.mode = plant::MotionMode::kLinear;
     leg.hall = station.hall.str();
     leg.nodes.push_back(start_node(pose, leg.hall));
     leg.nodes.front().node_id = station.id.str();
-    leg.nodes.front().actions = stop_actions(fleet, run, station, id);
+    leg.nodes.front().actions = stop_actions(fleet, live, station, id);
     return leg;
 }
 

@@ -16,48 +16,48 @@ Link link_after(Duration silent) {
     return Link::kLive;
 }
 
-void set_link(FleetState& fleet, VehicleRun& run, Link to, Time now) {
-    if (run.link == to) return;
-    add_event(fleet, now, event::kVehicleLink, {}, {}, run.record.id, {},
-              {{"from", to_string(run.link)}, {"to", to_string(to)}});
-    run.link = to;
-    fleet.changed_vehicles.insert(run.record.id);
+void set_link(FleetState& fleet, LiveVehicle& live, Link to, Time now) {
+    if (live.link == to) return;
+    add_event(fleet, now, event::kVehicleLink, {}, {}, live.record.id, {},
+              {{"from", to_string(live.link)}, {"to", to_string(to)}});
+    live.link = to;
+    fleet.changed_vehicles.insert(live.record.id);
 }
 
 }  // namespace
 
-void hear(FleetState& fleet, VehicleRun& run, Time now) {
-    run.last_heard = now;
-    set_link(fleet, run, Link::kLive, now);
+void note_heard(FleetState& fleet, LiveVehicle& live, Time now) {
+    live.last_heard = now;
+    set_link(fleet, live, Link::kLive, now);
 }
 
-void connect(FleetState& fleet, VehicleRun& run, Time now) {
-    run.connected = true;
-    run.reconciled = false;
-    run.newest_header = 0;
-    run.delivery.reconnected();
-    add_event(fleet, now, event::kVehicleConnected, {}, {}, run.record.id, {});
-    hear(fleet, run, now);
+void connect(FleetState& fleet, LiveVehicle& live, Time now) {
+    live.connected = true;
+    live.reconciled = false;
+    live.newest_header = 0;
+    live.delivery.reconnected();
+    add_event(fleet, now, event::kVehicleConnected, {}, {}, live.record.id, {});
+    note_heard(fleet, live, now);
     // Without order and pose, nothing tells a cut line from a vehicle that was switched off and on.
-    if (run.delivery.lost()) require_person(fleet, run, {reasons::kVehicleLostOrder, {}}, now);
+    if (live.delivery.lost()) require_person(fleet, live, {reasons::kVehicleLostOrder, {}}, now);
 }
 
-void disconnect(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.connected) return;
-    run.connected = false;
-    run.reconciled = false;
-    add_event(fleet, now, event::kVehicleDisconnected, {}, {}, run.record.id, {});
-    fleet.changed_vehicles.insert(run.record.id);
+void disconnect(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!live.connected) return;
+    live.connected = false;
+    live.reconciled = false;
+    add_event(fleet, now, event::kVehicleDisconnected, {}, {}, live.record.id, {});
+    fleet.changed_vehicles.insert(live.record.id);
 }
 
 void update_links(FleetState& fleet, Time now) {
-    for (auto& [id, run] : fleet.vehicles) {
-        if (!run.last_heard) continue;
-        const Link to = link_after(now - *run.last_heard);
-        if (to == run.link) continue;
-        set_link(fleet, run, to, now);
-        if (to == Link::kLost && run.has_leg()) {
-            require_person(fleet, run, {reasons::kVehicleWasLost, {}}, now);
+    for (auto& [id, live] : fleet.vehicles) {
+        if (!live.last_heard) continue;
+        const Link to = link_after(now - *live.last_heard);
+        if (to == live.link) continue;
+        set_link(fleet, live, to, now);
+        if (to == Link::kLost && live.has_leg()) {
+            require_person(fleet, live, {reasons::kVehicleWasLost, {}}, now);
         }
     }
 }

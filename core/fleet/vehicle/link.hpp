@@ -10,9 +10,9 @@ constexpr Duration kLateAfter = std::chrono::seconds(2);
 constexpr Duration kLostAfter = std::chrono::seconds(10);
 constexpr Duration kGoneAfter = std::chrono::seconds(60);
 
-void connect(FleetState& fleet, VehicleRun& run, Time now);
-void disconnect(FleetState& fleet, VehicleRun& run, Time now);
-void hear(FleetState& fleet, VehicleRun& run, Time now);
+void connect(FleetState& fleet, LiveVehicle& live, Time now);
+void disconnect(FleetState& fleet, LiveVehicle& live, Time now);
+void note_heard(FleetState& fleet, LiveVehicle& live, Time now);
 void update_links(FleetState& fleet, Time now);
 
 }  // namespace pulseline::fleet

@@ -11,9 +11,9 @@
 namespace pulseline::fleet {
 namespace {
 
-Params battery_params(const VehicleRun& run, double limit_percent) {
-    return {{"vehicle", run.record.id.str()},
-            {"percent", run.state.battery_percent},
+Params battery_params(const LiveVehicle& live, double limit_percent) {
+    return {{"vehicle", live.record.id.str()},
+            {"percent", live.state.battery_percent},
             {"limit_percent", limit_percent}};
 }
 
@@ -65,52 +65,53 @@ constexpr Condition kConditions[] = {
     // clang-format on
 };
 
-const vda5050::VehicleError* fatal_error(const VehicleRun& run) {
-    const auto& errors = run.state.errors;
+const vda5050::VehicleError* fatal_error(const LiveVehicle& live) {
+    const auto& errors = live.state.errors;
     const auto found = std::find_if(errors.begin(), errors.end(),
                                     [](const vda5050::VehicleError& error) { return error.fatal; });
     return found == errors.end() ? nullptr : &*found;
 }
 
-bool order_is_paused(const FleetState& fleet, const VehicleRun& run) {
-    const JobOrder* order = fleet.orders.of(run.record.id);
+bool order_is_paused(const FleetState& fleet, const LiveVehicle& live) {
+    const JobOrder* order = fleet.orders.of(live.record.id);
     return order && order->pause_requested;
 }
 
-bool bars(Bar bar, const FleetState& fleet, const VehicleRun& run, Time now) {
+bool bars(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time now) {
     switch (bar) {
         case Bar::kNotIntegrated:
-            return run.record.integration != Integration::kUtilise;
+            return live.record.integration != Integration::kUtilise;
         case Bar::kLost:
-            return run.link == Link::kNever || run.link == Link::kLost || run.link == Link::kGone;
+            return live.link == Link::kNever || live.link == Link::kLost ||
+                   live.link == Link::kGone;
         case Bar::kSilent:
-            return !run.connected || run.link != Link::kLive;
+            return !live.connected || live.link != Link::kLive;
         case Bar::kNotReported:
-            return !run.reconciled;
+            return !live.reconciled;
         case Bar::kNeedsPerson:
-            return run.record.needs_resume;
+            return live.record.needs_resume;
         case Bar::kPaused:
-            return run.record.paused.has_value();
+            return live.record.paused.has_value();
         case Bar::kOrderPaused:
-            return order_is_paused(fleet, run);
+            return order_is_paused(fleet, live);
         case Bar::kPoseUnknown:
-            return !run.record.pose_known;
+            return !live.record.pose_known;
         case Bar::kPoseOld:
-            return !run.state_at || (run.state.driving && now - *run.state_at > kPoseTooOld);
+            return !live.state_at || (live.state.driving && now - *live.state_at > kPoseTooOld);
         case Bar::kNotAutomatic:
-            return !is_automatic(run);
+            return !is_automatic(live);
         case Bar::kSafetyStop:
-            return run.state.e_stop != "NONE" && !run.state.e_stop.empty();
+            return live.state.e_stop != "NONE" && !live.state.e_stop.empty();
         case Bar::kFieldViolation:
-            return run.state.field_violation;
+            return live.state.field_violation;
         case Bar::kFatalError:
-            return fatal_error(run) != nullptr;
+            return fatal_error(live) != nullptr;
         case Bar::kPausesItself:
-            return run.state.paused;
+            return live.state.paused;
         case Bar::kForeignOrder:
-            return has_foreign_order(run);
+            return has_foreign_order(live);
         case Bar::kBusy:
-            return run.delivery.cancelling() || run.state.driving;
+            return live.delivery.cancelling() || live.state.driving;
         case Bar::kFeetDown:
         case Bar::kLoad:
         case Bar::kWheelFault:
@@ -121,38 +122,38 @@ bool bars(Bar bar, const FleetState& fleet, const VehicleRun& run, Time now) {
 }
 
 /// What people are told of what bars a start.
-Reason reason_of(Bar bar, const FleetState& fleet, const VehicleRun& run, Time now) {
+Reason reason_of(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time now) {
     const auto because = [&](const char* code, Params more = {}) {
-        Reason reason{code, {{"vehicle", run.record.id.str()}}};
+        Reason reason{code, {{"vehicle", live.record.id.str()}}};
         reason.params.insert(reason.params.end(), more.begin(), more.end());
         return reason;
     };
     switch (bar) {
         case Bar::kNotIntegrated:
-            return because("not_integrated", {{"level", to_string(run.record.integration)}});
+            return because("not_integrated", {{"level", to_string(live.record.integration)}});
         case Bar::kSilent:
-            return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}});
+            return because("vehicle_silent", {{"silent_s", seconds(silence(fleet, live, now))}});
         case Bar::kNotReported:
             return because("vehicle_not_reported");
         case Bar::kNeedsPerson:
-            return because("needs_person", {{"cause", run.record.needs_resume_reason.code}});
+            return because("needs_person", {{"cause", live.record.needs_resume_reason.code}});
         case Bar::kPaused:
-            if (run.record.paused->actor.empty()) return because(reasons::kVehiclePaused);
-            return because(reasons::kVehiclePaused, {{"actor", run.record.paused->actor}});
+            if (live.record.paused->actor.empty()) return because(reasons::kVehiclePaused);
+            return because(reasons::kVehiclePaused, {{"actor", live.record.paused->actor}});
         case Bar::kPoseUnknown:
             return because("pose_unknown");
         case Bar::kNotAutomatic:
-            return because("not_automatic", {{"operating_mode", run.state.operating_mode}});
+            return because("not_automatic", {{"operating_mode", live.state.operating_mode}});
         case Bar::kSafetyStop:
-            return because("vehicle_safety_stop", {{"e_stop", run.state.e_stop}});
+            return because("vehicle_safety_stop", {{"e_stop", live.state.e_stop}});
         case Bar::kFieldViolation:
             return because("field_violation");
         case Bar::kFatalError:
-            return because("vehicle_error", {{"type", fatal_error(run)->type}});
+            return because("vehicle_error", {{"type", fatal_error(live)->type}});
         case Bar::kPausesItself:
             return because(reasons::kVehiclePaused);
         case Bar::kForeignOrder:
-            return because(reasons::kForeignOrder, {{"order", run.state.order_id}});
+            return because(reasons::kForeignOrder, {{"order", live.state.order_id}});
         case Bar::kBusy:
             return because("vehicle_busy");
         case Bar::kLost:
@@ -184,59 +185,59 @@ Bar bar_of(Interlock::Kind kind) {
 
 }  // namespace
 
-Duration silence(const FleetState& fleet, const VehicleRun& run, Time now) {
-    return now - run.last_heard.value_or(fleet.started);
+Duration silence(const FleetState& fleet, const LiveVehicle& live, Time now) {
+    return now - live.last_heard.value_or(fleet.started);
 }
 
-bool charges_on(const VehicleRun& run) {
-    return run.state.charging && run.state.battery_percent < run.type->battery.enough_percent;
+bool charges_on(const LiveVehicle& live) {
+    return live.state.charging && live.state.battery_percent < live.type->battery.enough_percent;
 }
 
-std::optional<Reason> battery_bar(const VehicleRun& run) {
-    if (!run.state_at) return std::nullopt;
-    const plant::BatteryLimits& limits = run.type->battery;
-    if (charges_on(run)) {
-        return Reason{"battery_charging", battery_params(run, limits.enough_percent)};
+std::optional<Reason> battery_bar(const LiveVehicle& live) {
+    if (!live.state_at) return std::nullopt;
+    const plant::BatteryLimits& limits = live.type->battery;
+    if (charges_on(live)) {
+        return Reason{"battery_charging", battery_params(live, limits.enough_percent)};
     }
-    if (run.state.battery_percent < limits.critical_percent) {
-        return Reason{"battery_low", battery_params(run, limits.critical_percent)};
+    if (live.state.battery_percent < limits.critical_percent) {
+        return Reason{"battery_low", battery_params(live, limits.critical_percent)};
     }
     return std::nullopt;
 }
 
-std::optional<Barred> not_ready(const FleetState& fleet, const VehicleRun& run, Time now) {
+std::optional<Barred> not_ready(const FleetState& fleet, const LiveVehicle& live, Time now) {
     for (const Condition& condition : kConditions) {
-        if (!condition.bars_start || !bars(condition.bar, fleet, run, now)) continue;
-        return Barred{condition.bar, reason_of(condition.bar, fleet, run, now)};
+        if (!condition.bars_start || !bars(condition.bar, fleet, live, now)) continue;
+        return Barred{condition.bar, reason_of(condition.bar, fleet, live, now)};
     }
-    const auto lock = interlock(fleet, run);
+    const auto lock = interlock(fleet, live);
     if (!lock) return std::nullopt;
-    Reason reason{lock->reason.code, {{"vehicle", run.record.id.str()}}};
+    Reason reason{lock->reason.code, {{"vehicle", live.record.id.str()}}};
     const Params& more = lock->reason.params;
     reason.params.insert(reason.params.end(), more.begin(), more.end());
     return Barred{bar_of(lock->kind), std::move(reason)};
 }
 
 std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
-                                    const VehicleRun& run, Time now) {
-    auto barred = not_ready(fleet, run, now);
+                                    const LiveVehicle& live, Time now) {
+    auto barred = not_ready(fleet, live, now);
     if (barred && barred->by == Bar::kFeetDown && raises_feet_first(order)) return std::nullopt;
     return barred;
 }
 
-bool cannot_move(const FleetState& fleet, const VehicleRun& run) {
+bool cannot_move(const FleetState& fleet, const LiveVehicle& live) {
     for (const Condition& condition : kConditions) {
-        if (condition.bars_release && bars(condition.bar, fleet, run, {})) return true;
+        if (condition.bars_release && bars(condition.bar, fleet, live, {})) return true;
     }
     // On its way a platform loses sight of the codes, and forces shift: what bars a start does not
     // stop a drive, but for a broken wheel.
-    const auto lock = interlock(fleet, run);
-    return lock && (!run.has_leg() || lock->kind == Interlock::Kind::kWheelFault);
+    const auto lock = interlock(fleet, live);
+    return lock && (!live.has_leg() || lock->kind == Interlock::Kind::kWheelFault);
 }
 
-bool bars_extension(const FleetState& fleet, const VehicleRun& run, Time now) {
+bool bars_extension(const FleetState& fleet, const LiveVehicle& live, Time now) {
     return std::any_of(std::begin(kConditions), std::end(kConditions), [&](const Condition& one) {
-        return one.bars_extension && bars(one.bar, fleet, run, now);
+        return one.bars_extension && bars(one.bar, fleet, live, now);
     });
 }
 
@@ -249,27 +250,27 @@ bool has_nothing_left(const vda5050::StateMessage& state) {
                [](const auto& action) { return action.status == vda5050::ActionStatus::kRunning; });
 }
 
-bool is_automatic(const VehicleRun& run) { return run.state.operating_mode == "AUTOMATIC"; }
+bool is_automatic(const LiveVehicle& live) { return live.state.operating_mode == "AUTOMATIC"; }
 
-bool has_foreign_order(const VehicleRun& run) {
-    const vda5050::StateMessage& state = run.state;
-    return !run.has_leg() && run.reconciled && !state.order_id.empty() &&
+bool has_foreign_order(const LiveVehicle& live) {
+    const vda5050::StateMessage& state = live.state;
+    return !live.has_leg() && live.reconciled && !state.order_id.empty() &&
            !(state.node_states.empty() && state.edge_states.empty());
 }
 
-bool is_on_its_way(const VehicleRun& run) {
-    const auto sent = run.delivery.on_this_connection();
-    if (run.delivery.seen() || !sent) return false;
+bool is_on_its_way(const LiveVehicle& live) {
+    const auto sent = live.delivery.on_this_connection();
+    if (live.delivery.seen() || !sent) return false;
     // One that fell silent may have got it, and have driven all of its base since.
-    return !run.state_at || *run.state_at - *sent < kLongestWay;
+    return !live.state_at || *live.state_at - *sent < kLongestWay;
 }
 
-bool waits_for_person(const VehicleRun& run) {
-    return run.record.needs_resume || run.record.paused;
+bool waits_for_person(const LiveVehicle& live) {
+    return live.record.needs_resume || live.record.paused;
 }
 
-bool is_asked(const VehicleRun& run, const char* action_type) {
-    return std::any_of(run.actions.begin(), run.actions.end(),
+bool is_asked(const LiveVehicle& live, const char* action_type) {
+    return std::any_of(live.actions.begin(), live.actions.end(),
                        [&](const auto& pending) { return pending.action.type == action_type; });
 }
 

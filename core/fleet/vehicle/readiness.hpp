@@ -7,20 +7,20 @@
 /// Whether a vehicle may begin something, or go on.
 namespace pulseline::fleet {
 
-Duration silence(const FleetState& fleet, const VehicleRun& run, Time now);
+Duration silence(const FleetState& fleet, const LiveVehicle& live, Time now);
 /// Until a person lets it go on, no order and no update of one goes to it, new or again.
-bool waits_for_person(const VehicleRun& run);
+bool waits_for_person(const LiveVehicle& live);
 /// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
 /// forgotten.
-bool is_on_its_way(const VehicleRun& run);
+bool is_on_its_way(const LiveVehicle& live);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
-bool is_automatic(const VehicleRun& run);
+bool is_automatic(const LiveVehicle& live);
 /// It has given up its order, or done all of it.
 bool has_nothing_left(const vda5050::StateMessage& state);
 /// It carries out an order that this server has not given, or has forgotten.
-bool has_foreign_order(const VehicleRun& run);
+bool has_foreign_order(const LiveVehicle& live);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
-bool is_asked(const VehicleRun& run, const char* action_type);
+bool is_asked(const LiveVehicle& live, const char* action_type);
 
 /// What may bar a vehicle; readiness.cpp has the table of which bars what, in the order in which
 /// people are told.
@@ -51,18 +51,18 @@ struct Barred {
     Reason reason;
 };
 /// Why this vehicle may not start a move now; nullopt: it may.
-std::optional<Barred> not_ready(const FleetState& fleet, const VehicleRun& run, Time now);
+std::optional<Barred> not_ready(const FleetState& fleet, const LiveVehicle& live, Time now);
 /// The same for an order's next step: feet that are down do not bar what raises them.
 std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
-                                    const VehicleRun& run, Time now);
+                                    const LiveVehicle& live, Time now);
 /// It would not obey a release of floor, whatever its order; others are planned around it.
-bool cannot_move(const FleetState& fleet, const VehicleRun& run);
+bool cannot_move(const FleetState& fleet, const LiveVehicle& live);
 /// It gets no longer base now, whatever of its leg it has.
-bool bars_extension(const FleetState& fleet, const VehicleRun& run, Time now);
+bool bars_extension(const FleetState& fleet, const LiveVehicle& live, Time now);
 
 /// Whether it stays on its charger, whoever waits.
-bool charges_on(const VehicleRun& run);
+bool charges_on(const LiveVehicle& live);
 /// Why its battery bars it from new orders; none: it does not.
-std::optional<Reason> battery_bar(const VehicleRun& run);
+std::optional<Reason> battery_bar(const LiveVehicle& live);
 
 }  // namespace pulseline::fleet

@@ -20,74 +20,75 @@ constexpr Duration kEscalateAfter = std::chrono::seconds(10);
 
 }  // namespace
 
-void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now) {
-    const Leg& leg = run.leg();
+void send_order_update(FleetState& fleet, LiveVehicle& live, std::size_t from, Time now) {
+    const Leg& leg = live.leg();
     vda5050::OrderMessage message;
     message.order_id = leg.id.str();
     message.order_update_id = leg.update_id;
     const auto offset = static_cast<std::ptrdiff_t>(from);
     message.nodes.assign(leg.nodes.begin() + offset, leg.nodes.end());
     message.edges.assign(leg.edges.begin() + offset, leg.edges.end());
-    fleet.out.messages.push_back({run.record.id, std::move(message), std::nullopt});
-    run.delivery.sent(from, run.connected, now);
+    fleet.out.messages.push_back({live.record.id, std::move(message), std::nullopt});
+    live.delivery.sent(from, live.connected, now);
 }
 
-void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now) {
-    if (is_asked(run, vda5050::kCancelOrder)) return;
+void cancel_foreign_order(FleetState& fleet, LiveVehicle& live, const std::string& actor,
+                          Time now) {
+    if (is_asked(live, vda5050::kCancelOrder)) return;
     vda5050::Action action;
     action.type = vda5050::kCancelOrder;
-    add_event(fleet, now, event::kVehicleForeignOrderCancelled, {}, {}, run.record.id, actor,
-              {{"order", run.state.order_id}});
-    send_action(fleet, run, std::move(action), now);
+    add_event(fleet, now, event::kVehicleForeignOrderCancelled, {}, {}, live.record.id, actor,
+              {{"order", live.state.order_id}});
+    send_action(fleet, live, std::move(action), now);
 }
 
-void cancel_leg(FleetState& fleet, VehicleRun& run, Time now) {
-    if (!run.has_leg() || run.delivery.cancelling()) return;
-    run.delivery.cancel();
+void cancel_leg(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!live.has_leg() || live.delivery.cancelling()) return;
+    live.delivery.cancel();
     vda5050::Action action;
     action.type = vda5050::kCancelOrder;
-    add_event(fleet, now, event::kLegCancelRequested, run.leg().order, run.leg().id, run.record.id,
-              {});
-    send_action(fleet, run, std::move(action), now);
+    add_event(fleet, now, event::kLegCancelRequested, live.leg().order, live.leg().id,
+              live.record.id, {});
+    send_action(fleet, live, std::move(action), now);
 }
 
-void send_action(FleetState& fleet, VehicleRun& run, vda5050::Action action, Time now) {
+void send_action(FleetState& fleet, LiveVehicle& live, vda5050::Action action, Time now) {
     if (action.id.empty()) action.id = to_string(fleet.ids.next(now));
     PendingAction pending{std::move(action), now, std::nullopt, 0, false};
-    if (run.connected && run.reconciled) {
+    if (live.connected && live.reconciled) {
         fleet.out.messages.push_back(
-            {run.record.id, std::nullopt, vda5050::InstantActionsMessage{{pending.action}}});
+            {live.record.id, std::nullopt, vda5050::InstantActionsMessage{{pending.action}}});
         pending.last_sent = now;
         pending.sends = 1;
     }
-    run.actions.push_back(std::move(pending));
+    live.actions.push_back(std::move(pending));
 }
 
-void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now) {
+void pause_motion(FleetState& fleet, LiveVehicle& live, const char* action_type, Time now) {
     // The newest wish counts: an older pause or unpause still on its way is not sent again.
-    std::erase_if(run.actions, [](const PendingAction& pending) {
+    std::erase_if(live.actions, [](const PendingAction& pending) {
         return pending.action.type == vda5050::kStartPause ||
                pending.action.type == vda5050::kStopPause;
     });
     vda5050::Action action;
     action.type = action_type;
-    send_action(fleet, run, std::move(action), now);
+    send_action(fleet, live, std::move(action), now);
 }
 
 void resend(FleetState& fleet, Time now) {
-    for (auto& [id, run] : fleet.vehicles) {
-        if (!run.connected || !run.reconciled) continue;
-        const auto since = run.delivery.unconfirmed_since();
-        const bool unconfirmed = run.has_leg() && since && !waits_for_person(run);
+    for (auto& [id, live] : fleet.vehicles) {
+        if (!live.connected || !live.reconciled) continue;
+        const auto since = live.delivery.unconfirmed_since();
+        const bool unconfirmed = live.has_leg() && since && !waits_for_person(live);
         if (unconfirmed && now - *since >= kResendEvery) {
-            if (run.delivery.sends() >= kOrderSends) {
-                run.delivery.unanswered();
-                require_person(fleet, run, {reasons::kOrderNotAccepted, {}}, now);
+            if (live.delivery.sends() >= kOrderSends) {
+                live.delivery.unanswered();
+                require_person(fleet, live, {reasons::kOrderNotAccepted, {}}, now);
             } else {
-                send_order_update(fleet, run, run.delivery.sent_from(), now);
+                send_order_update(fleet, live, live.delivery.sent_from(), now);
             }
         }
-        for (auto& pending : run.actions) {
+        for (auto& pending : live.actions) {
             if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
             fleet.out.messages.push_back(
                 {id, std::nullopt, vda5050::InstantActionsMessage{{pending.action}}});
@@ -95,7 +96,7 @@ void resend(FleetState& fleet, Time now) {
             ++pending.sends;
             if (!pending.escalated && now - pending.first_sent >= kEscalateAfter) {
                 pending.escalated = true;
-                add_event(fleet, now, event::kVehicleActionUnconfirmed, {}, run.record.leg, id, {},
+                add_event(fleet, now, event::kVehicleActionUnconfirmed, {}, live.record.leg, id, {},
                           {{"action", pending.action.type}, {"action_id", pending.action.id}});
             }
         }

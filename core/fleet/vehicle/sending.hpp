@@ -7,14 +7,14 @@
 /// What is sent to a vehicle, again until it has shown that it has it.
 namespace pulseline::fleet {
 
-void send_order_update(FleetState& fleet, VehicleRun& run, std::size_t from, Time now);
+void send_order_update(FleetState& fleet, LiveVehicle& live, std::size_t from, Time now);
 /// Asks the vehicle to give up its leg; the leg is dropped when it has confirmed and stands.
-void cancel_leg(FleetState& fleet, VehicleRun& run, Time now);
+void cancel_leg(FleetState& fleet, LiveVehicle& live, Time now);
 /// Sends startPause or stopPause; the newest wish counts.
-void pause_motion(FleetState& fleet, VehicleRun& run, const char* action_type, Time now);
+void pause_motion(FleetState& fleet, LiveVehicle& live, const char* action_type, Time now);
 /// After a person's act; the vehicle is not ready until that order is gone.
-void cancel_foreign_order(FleetState& fleet, VehicleRun& run, const std::string& actor, Time now);
-void send_action(FleetState& fleet, VehicleRun& run, vda5050::Action action, Time now);
+void cancel_foreign_order(FleetState& fleet, LiveVehicle& live, const std::string& actor, Time now);
+void send_action(FleetState& fleet, LiveVehicle& live, vda5050::Action action, Time now);
 void resend(FleetState& fleet, Time now);
 
 }  // namespace pulseline::fleet

@@ -18,12 +18,12 @@ bool has_stood(const VehicleRecord& record) {
     return record.pose_known || !record.at_station.empty() || !(record.pose == Pose2{});
 }
 
-std::string hall_of(const FleetState& fleet, const VehicleRun& run) {
-    if (run.has_leg()) return run.leg().hall;
+std::string hall_of(const FleetState& fleet, const LiveVehicle& live) {
+    if (live.has_leg()) return live.leg().hall;
     // Of a plant that had other halls it may not be one any more.
-    const plant::HallId known(run.record.hall);
+    const plant::HallId known(live.record.hall);
     if (plant::find_hall(fleet.plant, known)) return known.str();
-    const auto* home = plant::find_station(fleet.plant, run.vehicle->home);
+    const auto* home = plant::find_station(fleet.plant, live.vehicle->home);
     if (home) return home->hall.str();
     return fleet.plant.halls.empty() ? std::string{} : fleet.plant.halls.front().id.str();
 }
@@ -32,8 +32,8 @@ std::size_t hall_index(const FleetState& fleet, const std::string& hall) {
     return hall_index(fleet.plant, plant::HallId(hall));
 }
 
-plant::StationId station_at(const FleetState& fleet, const VehicleRun& run, const Pose2& pose) {
-    const std::string hall = hall_of(fleet, run);
+plant::StationId station_at(const FleetState& fleet, const LiveVehicle& live, const Pose2& pose) {
+    const std::string hall = hall_of(fleet, live);
     for (const auto& station : fleet.plant.stations) {
         if (station.hall.str() != hall) continue;
         if (geometry::distance(pose.position(), station.pose.position()) < kAtStation_m &&
@@ -48,20 +48,20 @@ std::vector<planning::StandingBody> standing_bodies(const FleetState& fleet,
                                                     const plant::HallId& hall,
                                                     const plant::VehicleId& except) {
     std::vector<planning::StandingBody> bodies;
-    for (const auto& [id, run] : fleet.vehicles) {
-        const auto& claim = run.record.claim;
-        if (id == except || !(run.record.pose_known || claim)) continue;
-        if (run.record.integration < Integration::kRespect) continue;
+    for (const auto& [id, live] : fleet.vehicles) {
+        const auto& claim = live.record.claim;
+        if (id == except || !(live.record.pose_known || claim)) continue;
+        if (live.record.integration < Integration::kRespect) continue;
         if (claim && claim->hall == hall.str()) {
-            bodies.push_back({id, outline_at(run, claim->pose)});
+            bodies.push_back({id, outline_at(live, claim->pose)});
         }
-        if (hall_of(fleet, run) != hall.str() || !has_stood(run.record)) continue;
-        bodies.push_back({id, outline_at(run, run.record.pose)});
+        if (hall_of(fleet, live) != hall.str() || !has_stood(live.record)) continue;
+        bodies.push_back({id, outline_at(live, live.record.pose)});
     }
     return bodies;
 }
 
-bool is_in_doubt(const VehicleRun& run) { return run.record.claim.has_value(); }
+bool is_in_doubt(const LiveVehicle& live) { return live.record.claim.has_value(); }
 
 bool is_in_hall(const FleetState& fleet, const Whereabouts& where) {
     const auto* hall = plant::find_hall(fleet.plant, plant::HallId(where.hall));

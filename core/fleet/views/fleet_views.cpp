@@ -12,14 +12,14 @@ std::vector<JobOrder> Fleet::orders() const {
 
 std::optional<VehicleView> Fleet::vehicle(const plant::VehicleId& id, Time now,
                                           bool with_leg) const {
-    const VehicleRun* run = state_->find(id);
-    if (!run) return std::nullopt;
-    return view_of(*state_, *run, now, with_leg);
+    const LiveVehicle* live = state_->find(id);
+    if (!live) return std::nullopt;
+    return view_of(*state_, *live, now, with_leg);
 }
 
 std::vector<VehicleView> Fleet::vehicles(Time now) const {
     std::vector<VehicleView> views;
-    for (const auto& [id, run] : state_->vehicles) views.push_back(view_of(*state_, run, now));
+    for (const auto& [id, live] : state_->vehicles) views.push_back(view_of(*state_, live, now));
     return views;
 }
 
@@ -40,11 +40,11 @@ FleetView Fleet::view(Time) const {
     view.last_event_seq = state_->store_fault ? state_->stored_seq : state_->event_seq;
     view.started = state_->started;
     view.paused = !state_->vehicles.empty();
-    for (const auto& [id, run] : state_->vehicles) {
+    for (const auto& [id, live] : state_->vehicles) {
         ++view.vehicles_total;
-        if (run.link == Link::kLive) ++view.vehicles_live;
-        if (run.record.needs_resume) view.needs_resume.push_back(id);
-        const auto& pause = run.record.paused;
+        if (live.link == Link::kLive) ++view.vehicles_live;
+        if (live.record.needs_resume) view.needs_resume.push_back(id);
+        const auto& pause = live.record.paused;
         if (!pause) view.paused = false;
         if (pause && pause->with_fleet && (!view.pause || view.pause->at < pause->at)) {
             view.pause = pause;

@@ -5,7 +5,7 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor/closures.hpp"
 #include "core/fleet/state/fleet_state.hpp"
-#include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 
 namespace pulseline::fleet {
@@ -37,8 +37,8 @@ Status check_inside(const plant::Hall& hall, const Pose2& pose, const char* fiel
 
 /// The hall of the move, with what is said of it being so.
 Result<const plant::Hall*> hall_for(const MotionQuestion& question, const FleetState& fleet,
-                                    const VehicleRun& run) {
-    const std::string present = hall_of(fleet, run);
+                                    const LiveVehicle& live) {
+    const std::string present = hall_of(fleet, live);
     const plant::HallId wanted = question.hall.empty() ? plant::HallId(present) : question.hall;
     const auto* hall = plant::find_hall(fleet.plant, wanted);
     if (!hall) {
@@ -59,8 +59,8 @@ Result<const plant::Hall*> hall_for(const MotionQuestion& question, const FleetS
 
 Result<MotionTask> Fleet::motion_task(const MotionQuestion& question) const {
     const FleetState& fleet = *state_;
-    const VehicleRun* run = fleet.find(question.vehicle);
-    if (!run) {
+    const LiveVehicle* live = fleet.find(question.vehicle);
+    if (!live) {
         return fail(Errc::kUnreachable, "unknown_vehicle",
                     "There is no vehicle " + question.vehicle.str() +
                         ". GET /api/v1/vehicles lists the vehicles.",
@@ -74,14 +74,14 @@ Result<MotionTask> Fleet::motion_task(const MotionQuestion& question) const {
                         ". GET /api/v1/stations lists the stations.",
                     "/station", {{"station", std::int64_t{*question.station}}});
     }
-    const auto hall = hall_for(question, fleet, *run);
+    const auto hall = hall_for(question, fleet, *live);
     if (!hall) return fail(hall.error());
-    if (!question.start && !run->record.pose_known) {
+    if (!question.start && !live->record.pose_known) {
         return fail(Errc::kConflict, "pose_unknown",
                     "The vehicle does not know where it stands. Say where it starts.", "/start",
                     {{"vehicle", question.vehicle.str()}});
     }
-    const Pose2 start = question.start.value_or(run->record.pose);
+    const Pose2 start = question.start.value_or(live->record.pose);
     if (question.start) {
         if (const auto ok = check_inside(**hall, start, "/start"); !ok) return fail(ok.error());
     }
@@ -90,7 +90,7 @@ Result<MotionTask> Fleet::motion_task(const MotionQuestion& question) const {
         if (!ok) return fail(ok.error());
     }
     MotionTask task;
-    task.request = leg_request(fleet, *run, start, station ? station->id : plant::StationId{},
+    task.request = leg_request(fleet, *live, start, station ? station->id : plant::StationId{},
                                MotionMode::kAuto);
     if (task.request.hall != (*hall)->id) {
         task.request.hall = (*hall)->id;
@@ -100,7 +100,7 @@ Result<MotionTask> Fleet::motion_task(const MotionQuestion& question) const {
     task.request.target_pose = question.target;
     task.target = station ? station->pose : question.target.value_or(start);
     task.modes = question.modes;
-    task.standing = standing_bodies(fleet, (*hall)->id, run->record.id);
+    task.standing = standing_bodies(fleet, (*hall)->id, live->record.id);
     task.closures = closed_floors();
     task.tables = fleet.tables;
     return task;

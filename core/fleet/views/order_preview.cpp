@@ -7,7 +7,7 @@
 #include "core/fleet/floor/closures.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/state/fleet_state.hpp"
-#include "core/fleet/vehicle/leg_build.hpp"
+#include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/start_checks.hpp"
 
@@ -17,7 +17,7 @@ struct PreviewState {
     const plant::Plant& plant;
     std::shared_ptr<const PlantTables> tables;
     Time started;
-    std::vector<VehicleRun> vehicles;
+    std::vector<LiveVehicle> vehicles;
     std::vector<JobOrder> orders;
     std::vector<planning::ClosedFloor> closures;
 };
@@ -26,19 +26,19 @@ namespace {
 constexpr int kAlternatives = 3;
 
 /// Without its floor and what is only worked out of the rest.
-VehicleRun known_of(const VehicleRun& run) {
-    VehicleRun copy;
-    copy.vehicle = run.vehicle;
-    copy.type = run.type;
-    copy.record = run.record;
-    copy.connected = run.connected;
-    copy.reconciled = run.reconciled;
-    copy.link = run.link;
-    copy.last_heard = run.last_heard;
-    copy.state = run.state;
-    copy.state_at = run.state_at;
-    copy.factsheet = run.factsheet;
-    copy.delivery = run.delivery;
+LiveVehicle known_of(const LiveVehicle& live) {
+    LiveVehicle copy;
+    copy.vehicle = live.vehicle;
+    copy.type = live.type;
+    copy.record = live.record;
+    copy.connected = live.connected;
+    copy.reconciled = live.reconciled;
+    copy.link = live.link;
+    copy.last_heard = live.last_heard;
+    copy.state = live.state;
+    copy.state_at = live.state_at;
+    copy.factsheet = live.factsheet;
+    copy.delivery = live.delivery;
     return copy;
 }
 
@@ -49,15 +49,15 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
     preview.accepted = plan.has_value();
     if (!plan) preview.problem = plan.error();
     if (plan) preview.vehicle = plan->vehicle;
-    const VehicleRun* run = fleet.find(preview.vehicle);
-    if (!run) return preview;
+    const LiveVehicle* live = fleet.find(preview.vehicle);
+    if (!live) return preview;
 
     const plant::Station* first = nullptr;
     std::optional<planning::LegPlan> first_plan;
     std::optional<Pose2> pose;
-    if (run->record.pose_known) pose = run->record.pose;
+    if (live->record.pose_known) pose = live->record.pose;
     const auto standing =
-        standing_bodies(fleet, plant::HallId(hall_of(fleet, *run)), run->record.id);
+        standing_bodies(fleet, plant::HallId(hall_of(fleet, *live)), live->record.id);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const auto* station = plant::find_station(fleet.plant, order.steps[i].station_number);
         if (!station) break;
@@ -65,7 +65,8 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
         step.station = station->id;
         step.number = station->number;
         step.start = plan ? plan->starts[i] : pose.value_or(Pose2{});
-        const auto request = leg_request(fleet, *run, step.start, station->id, order.steps[i].mode);
+        const auto request =
+            leg_request(fleet, *live, step.start, station->id, order.steps[i].mode);
         if (plan || pose) step.options = fleet.planner.assess_modes(request, standing);
         for (const auto& option : step.options) {
             const bool wanted = order.steps[i].mode == plant::MotionMode::kAuto
@@ -81,7 +82,7 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
         pose = station->pose;
         preview.steps.push_back(std::move(step));
     }
-    preview.checks = start_checks(fleet, *run, first, first_plan, now);
+    preview.checks = start_checks(fleet, *live, first, first_plan, now);
     return preview;
 }
 
@@ -95,7 +96,7 @@ OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now) const {
     const FleetState& fleet = *state_;
     auto known = std::make_shared<PreviewState>(
         PreviewState{fleet.plant, fleet.tables, fleet.started, {}, {}, closed_floors()});
-    for (const auto& [id, run] : fleet.vehicles) known->vehicles.push_back(known_of(run));
+    for (const auto& [id, live] : fleet.vehicles) known->vehicles.push_back(known_of(live));
     for (const JobOrderId& id : fleet.orders.open()) {
         const JobOrder& open = *fleet.find(id);
         // The rest says nothing of where a vehicle will be, nor of who may have the order.
@@ -118,7 +119,7 @@ void OrderPreviewer::know(const PreviewState& known) {
     }
     fleet_->started = known.started;
     fleet_->vehicles.clear();
-    for (const auto& run : known.vehicles) fleet_->vehicles.emplace(run.record.id, run);
+    for (const auto& live : known.vehicles) fleet_->vehicles.emplace(live.record.id, live);
     fleet_->orders = {};
     for (const auto& order : known.orders) fleet_->orders.add(order);
     fleet_->planner.set_closures(known.closures);

@@ -8,7 +8,7 @@
 namespace pulseline::fleet {
 
 struct FleetState;
-struct VehicleRun;
+struct LiveVehicle;
 
 /// Which stations look different since dashboards were told last. A station is shown by what the
 /// vehicles mean for it (station_view), so only a vehicle that has changed can change it.
@@ -31,7 +31,7 @@ private:
         bool has_leg = false;
         friend bool operator==(const Meaning&, const Meaning&) = default;
     };
-    static Meaning meaning_of(const VehicleRun& run);
+    static Meaning meaning_of(const LiveVehicle& live);
 
     std::map<plant::VehicleId, Meaning> told_;
 };

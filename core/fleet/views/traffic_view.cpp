@@ -33,17 +33,17 @@ TrafficView Fleet::traffic(Time now) const {
     for (const auto& wait : floor.traffic.waits()) {
         const plant::VehicleId vehicle(floor.traffic.name(wait.vehicle));
         // Who has nothing to do may have a way to rest planned, and waits for nobody.
-        const VehicleRun* run = state_->find(vehicle);
-        if (!run || !run->has_leg()) continue;
+        const LiveVehicle* live = state_->find(vehicle);
+        if (!live || !live->has_leg()) continue;
         view.waits.push_back(shown(*state_, vehicle, wait.block));
         if (wait.until_s < traffic::kBlocked_s / 2 + seconds(state_->started.time_since_epoch())) {
             view.waits.back().until = std::max(now, Time{} + from_seconds(wait.until_s));
         }
     }
     // Who has an order but found no plan for it waits, too.
-    for (const auto& [id, run] : state_->vehicles) {
-        const auto block = floor.traffic.blocked_by(run.floor.vehicle);
-        if (tries_in_vain(*state_, run) && block) {
+    for (const auto& [id, live] : state_->vehicles) {
+        const auto block = floor.traffic.blocked_by(live.floor.vehicle);
+        if (tries_in_vain(*state_, live) && block) {
             view.waits.push_back(shown(*state_, id, *block));
         }
     }

@@ -22,16 +22,16 @@ namespace {
 
 constexpr double kArcSample_rad = 6.0 * kPi / 180.0;
 
-void update_areas(const VehicleRun& run) {
-    const Leg& leg = run.leg();
-    auto& areas = run.areas;
+void update_areas(const LiveVehicle& live) {
+    const Leg& leg = live.leg();
+    auto& areas = live.areas;
     if (areas.leg == leg.id && areas.passed == leg.passed_nodes &&
         areas.released == leg.released_nodes) {
         return;
     }
     std::vector<geometry::Polygon> granted;
     std::vector<geometry::Polygon> horizon;
-    const auto body = plant::outline_with_load(*run.type, is_loaded(run));
+    const auto body = plant::outline_with_load(*live.type, is_loaded(live));
     for (std::size_t i = leg.passed_nodes - 1; i < leg.edges.size(); ++i) {
         auto floor = floor_along(body, leg.edges[i].segment, leg.edges[i].corridor,
                                  kinematics::kOutlineDetail);
@@ -46,16 +46,16 @@ void update_areas(const VehicleRun& run) {
     areas.released = leg.released_nodes;
 }
 
-LegView leg_view(const VehicleRun& run, Time now) {
-    const Leg& leg = run.leg();
-    update_areas(run);
+LegView leg_view(const LiveVehicle& live, Time now) {
+    const Leg& leg = live.leg();
+    update_areas(live);
     LegView view;
     view.id = leg.id;
     view.station = leg.station;
     view.mode = leg.mode;
-    view.duration_s = leg.duration_s / speed_share(run);
-    view.granted_area = run.areas.granted;
-    view.horizon_area = run.areas.horizon;
+    view.duration_s = leg.duration_s / speed_share(live);
+    view.granted_area = live.areas.granted;
+    view.horizon_area = live.areas.horizon;
     view.path.push_back(leg.nodes.front().pose.position());
     double total_s = 0;
     double passed_s = 0;
@@ -77,34 +77,34 @@ LegView leg_view(const VehicleRun& run, Time now) {
     }
     if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
     view.progress = total_s > 0 ? passed_s / total_s : 1.0;
-    view.started = run.delivery.started();
+    view.started = live.delivery.started();
     if (view.started) {
-        const Time left = now + from_seconds((total_s - passed_s) / speed_share(run));
+        const Time left = now + from_seconds((total_s - passed_s) / speed_share(live));
         view.expected = std::max(*view.started + from_seconds(view.duration_s), left);
     }
     return view;
 }
 
 /// A report of before the pause, or of one that is still braking, does not count.
-bool stands_paused(const VehicleRun& run) {
-    return run.record.paused && run.state.paused && !run.state.driving &&
-           !is_asked(run, vda5050::kStartPause);
+bool stands_paused(const LiveVehicle& live) {
+    return live.record.paused && live.state.paused && !live.state.driving &&
+           !is_asked(live, vda5050::kStartPause);
 }
 
 /// Beside its line it says why.
-std::optional<Reason> detour(const VehicleRun& run) {
+std::optional<Reason> detour(const LiveVehicle& live) {
     const bool goes_round =
-        std::any_of(run.state.errors.begin(), run.state.errors.end(),
+        std::any_of(live.state.errors.begin(), live.state.errors.end(),
                     [](const vda5050::VehicleError& error) { return error.type == "going_round"; });
     return goes_round ? std::optional(Reason{"going_round", {}}) : std::nullopt;
 }
 
 /// Ready: it stands there and its last stop, measured here, was inside tolerance.
-void show_standing(StationView& view, const VehicleRun& run) {
-    view.occupied_by = run.record.id;
-    const bool measured_here = run.record.last_stop_station == view.id;
-    view.ready = run.record.last_stop_inside && measured_here && !run.has_leg();
-    if (measured_here) view.last_stop = run.record.last_stop;
+void show_standing(StationView& view, const LiveVehicle& live) {
+    view.occupied_by = live.record.id;
+    const bool measured_here = live.record.last_stop_station == view.id;
+    view.ready = live.record.last_stop_inside && measured_here && !live.has_leg();
+    if (measured_here) view.last_stop = live.record.last_stop;
 }
 
 Activity activity_of(Bar bar) {
@@ -131,87 +131,88 @@ struct Doing {
     std::optional<Reason> reason;
 };
 
-Doing doing(const FleetState& fleet, const VehicleRun& run, Time now) {
-    const JobOrder* order = fleet.orders.of(run.record.id);
-    if (run.record.integration == Integration::kIgnore) {
-        const auto barred = not_ready(fleet, run, now);
+Doing doing(const FleetState& fleet, const LiveVehicle& live, Time now) {
+    const JobOrder* order = fleet.orders.of(live.record.id);
+    if (live.record.integration == Integration::kIgnore) {
+        const auto barred = not_ready(fleet, live, now);
         return {Activity::kUnknown, barred ? std::optional(barred->reason) : std::nullopt};
     }
-    if (run.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
-    if (run.link == Link::kLost || run.link == Link::kGone) {
+    if (live.link == Link::kNever) return {Activity::kUnknown, Reason{"never_heard", {}}};
+    if (live.link == Link::kLost || live.link == Link::kGone) {
         return {Activity::kUnknown,
-                Reason{"vehicle_silent", {{"silent_s", seconds(silence(fleet, run, now))}}}};
+                Reason{"vehicle_silent", {{"silent_s", seconds(silence(fleet, live, now))}}}};
     }
-    const bool moving = run.has_leg() && run.state.driving;
-    if (moving && run.link == Link::kLive) return {Activity::kMoving, detour(run)};
-    if (const auto barred = not_ready(fleet, run, now); barred && barred->by != Bar::kBusy) {
+    const bool moving = live.has_leg() && live.state.driving;
+    if (moving && live.link == Link::kLive) return {Activity::kMoving, detour(live)};
+    if (const auto barred = not_ready(fleet, live, now); barred && barred->by != Bar::kBusy) {
         return {activity_of(barred->by), barred->reason};
     }
-    if (run.has_leg()) {
+    if (live.has_leg()) {
         const bool measuring = order && order->current_step < order->steps.size() &&
                                order->steps[order->current_step].state == StepState::kMeasuring;
         if (measuring) return {Activity::kMeasuring, std::nullopt};
-        if (run.delivery.cancelling()) return {Activity::kWaiting, Reason{"cancelling", {}}};
+        if (live.delivery.cancelling()) return {Activity::kWaiting, Reason{"cancelling", {}}};
         if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
-        if (!run.delivery.seen()) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
-        if (run.leg().order.empty()) {
-            if (auto wait = floor_wait(fleet, run); wait && !moving) {
+        if (!live.delivery.seen()) return {Activity::kWaiting, Reason{"order_on_its_way", {}}};
+        if (live.leg().order.empty()) {
+            if (auto wait = floor_wait(fleet, live); wait && !moving) {
                 return {Activity::kWaiting, std::move(wait)};
             }
-            const char* code = run.leg().charges ? "goes_charging" : "makes_way";
-            return {Activity::kMoving, Reason{code, {{"station", run.leg().station.str()}}}};
+            const char* code = live.leg().charges ? "goes_charging" : "makes_way";
+            return {Activity::kMoving, Reason{code, {{"station", live.leg().station.str()}}}};
         }
-        return {Activity::kMoving, detour(run)};
+        return {Activity::kMoving, detour(live)};
     }
     if (order && !order->reason.code.empty()) return {Activity::kWaiting, order->reason};
-    if (run.state.charging) return {Activity::kCharging, std::nullopt};
-    if (run.charge_wait) return {Activity::kStanding, run.charge_wait};
+    if (live.state.charging) return {Activity::kCharging, std::nullopt};
+    if (live.charge_wait) return {Activity::kStanding, live.charge_wait};
     return {Activity::kStanding, Reason{"no_order", {}}};
 }
 
 }  // namespace
 
-VehicleView view_of(const FleetState& fleet, const VehicleRun& run, Time now, bool with_leg) {
+VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, bool with_leg) {
     VehicleView view;
-    view.id = run.record.id;
-    view.link = run.link;
-    Doing what = doing(fleet, run, now);
+    view.id = live.record.id;
+    view.link = live.link;
+    Doing what = doing(fleet, live, now);
     view.activity = what.activity;
     view.reason = std::move(what.reason);
-    view.last_heard = run.last_heard;
-    view.pose_known = run.record.pose_known;
-    if (run.record.pose_known) view.pose_basis = run.record.basis;
-    if (run.record.claim) {
-        view.claimed_pose = run.record.claim->pose;
-        if (has_stood(run.record)) view.pose = run.record.pose;
-    } else if (run.record.pose_known || run.state_at) {
-        view.pose = run.record.pose_known ? std::optional<Pose2>(run.record.pose) : run.state.pose;
+    view.last_heard = live.last_heard;
+    view.pose_known = live.record.pose_known;
+    if (live.record.pose_known) view.pose_basis = live.record.basis;
+    if (live.record.claim) {
+        view.claimed_pose = live.record.claim->pose;
+        if (has_stood(live.record)) view.pose = live.record.pose;
+    } else if (live.record.pose_known || live.state_at) {
+        view.pose =
+            live.record.pose_known ? std::optional<Pose2>(live.record.pose) : live.state.pose;
     }
-    view.pose_at = run.state_at;
-    view.hall = hall_of(fleet, run);
-    view.at_station = run.record.at_station;
-    if (const auto* order = fleet.orders.of(run.record.id)) {
+    view.pose_at = live.state_at;
+    view.hall = hall_of(fleet, live);
+    view.at_station = live.record.at_station;
+    if (const auto* order = fleet.orders.of(live.record.id)) {
         view.order = order->id;
     }
-    if (with_leg && run.has_leg()) view.leg = leg_view(run, now);
-    view.worst_bracket = worst_bracket(run);
-    view.paused = run.record.paused;
-    view.stands_paused = stands_paused(run);
-    view.integration = run.record.integration;
-    view.needs_resume = run.record.needs_resume;
-    view.needs_resume_reason = run.record.needs_resume_reason;
-    view.made_way = run.made_way;
-    view.state = run.state;
+    if (with_leg && live.has_leg()) view.leg = leg_view(live, now);
+    view.worst_bracket = worst_bracket(live);
+    view.paused = live.record.paused;
+    view.stands_paused = stands_paused(live);
+    view.integration = live.record.integration;
+    view.needs_resume = live.record.needs_resume;
+    view.needs_resume_reason = live.record.needs_resume_reason;
+    view.made_way = live.made_way;
+    view.state = live.state;
     return view;
 }
 
 StationView station_view(const FleetState& fleet, const plant::Station& station) {
     StationView view{station.id, station.number, {}, {}, false, {}};
-    for (const auto& [id, run] : fleet.vehicles) {
-        if (!run.record.at_station.empty() && run.record.at_station == station.id) {
-            show_standing(view, run);
+    for (const auto& [id, live] : fleet.vehicles) {
+        if (!live.record.at_station.empty() && live.record.at_station == station.id) {
+            show_standing(view, live);
         }
-        if (run.has_leg() && run.leg().station == station.id) view.reserved_by = id;
+        if (live.has_leg() && live.leg().station == station.id) view.reserved_by = id;
     }
     return view;
 }
@@ -223,11 +224,11 @@ std::vector<StationView> station_views(const FleetState& fleet) {
         index.emplace(station.id.str(), views.size());
         views.push_back({station.id, station.number, {}, {}, false, {}});
     }
-    for (const auto& [id, run] : fleet.vehicles) {
-        const auto at = index.find(run.record.at_station.str());
-        if (at != index.end()) show_standing(views[at->second], run);
-        if (!run.has_leg()) continue;
-        const auto to = index.find(run.leg().station.str());
+    for (const auto& [id, live] : fleet.vehicles) {
+        const auto at = index.find(live.record.at_station.str());
+        if (at != index.end()) show_standing(views[at->second], live);
+        if (!live.has_leg()) continue;
+        const auto to = index.find(live.leg().station.str());
         if (to != index.end()) views[to->second].reserved_by = id;
     }
     return views;

@@ -1,32 +1,12 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "core/planning/roads/closed_floor.hpp"
 #include "core/planning/roads/road_router.hpp"
 #include "core/planning/roads/roadmap_index.hpp"
 
 namespace pulseline::planning {
-
-/// Floor that people have closed for a while.
-struct ClosedFloor {
-    std::string id;
-    std::string name;
-    plant::HallId hall;
-    std::vector<geometry::Polygon> pieces;  // convex, hall frame
-    double margin_m = 0;                    // bodies keep this far away
-};
-
-/// The closures that a motion of the body would drive over, by their place in `closures`.
-std::vector<std::size_t> driven_over(const std::vector<ClosedFloor>& closures,
-                                     const plant::HallId& hall,
-                                     const std::vector<geometry::Polygon>& swept);
-
-/// By arc the closures that the body would drive over on it, by their place in `closures`; none for
-/// arcs that it cannot use anyway.
-std::vector<std::vector<std::size_t>> closures_over_arcs(const RoadmapIndex& roads,
-                                                         const Passage& passage,
-                                                         const std::vector<ClosedFloor>& closures);
 
 /// The roadmap as the legs of one body search it: which arcs lead over closed floor, and exact
 /// costs of what is left to a node. Tables are built when a node is first driven to and follow

@@ -5,7 +5,7 @@
 namespace pulseline::server {
 
 /// Runs the handler of an admitted route where the table says and gives its answer.
-net::awaitable<api::Response> dispatch(Context& context, const api::Route& route,
-                                       const api::Request& request);
+net::awaitable<api::Response> run_handler(Context& context, const api::Route& route,
+                                          const api::Request& request);
 
 }  // namespace pulseline::server

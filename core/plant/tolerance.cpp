@@ -1,4 +1,4 @@
-#include "core/plant/deviation.hpp"
+#include "core/plant/tolerance.hpp"
 
 #include <cmath>
 

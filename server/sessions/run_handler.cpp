@@ -1,4 +1,4 @@
-#include "server/sessions/dispatch.hpp"
+#include "server/sessions/run_handler.hpp"
 
 #include "api/http/session/sign_in_request.hpp"
 #include "api/http/wire/problem.hpp"
@@ -10,7 +10,7 @@ using api::Request;
 using api::Response;
 
 Response refused(const Error& error, const Request& request) {
-    if (error.reason.code == "internal") return api::internal_error(request);
+    if (error.code == Errc::kInternal) return api::internal_error(request);
     return api::problem(error, request);
 }
 
@@ -130,8 +130,8 @@ net::awaitable<Response> on_worker(Context& context, const api::Route& route,
 
 }  // namespace
 
-net::awaitable<Response> dispatch(Context& context, const api::Route& route,
-                                  const Request& request) {
+net::awaitable<Response> run_handler(Context& context, const api::Route& route,
+                                     const Request& request) {
     if (const auto* handler = std::get_if<api::InlineHandler>(&route.handler)) {
         try {
             const api::InlineContext with{context.plant, context.documents, context.images,

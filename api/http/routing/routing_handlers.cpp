@@ -1,4 +1,4 @@
-#include "api/http/routing/route_handlers.hpp"
+#include "api/http/routing/routing_handlers.hpp"
 
 #include "api/http/routing/routing_requests.hpp"
 #include "api/http/wire/common_json.hpp"
