@@ -22,7 +22,7 @@ constexpr Duration kStoreUse = std::chrono::minutes(1);
 constexpr Duration kNothingStored = std::chrono::minutes(65);
 
 tl::unexpected<Error> wrong_credentials() {
-    return fail(Errc::kForbidden, "wrong_credentials",
+    return fail(Errc::kUnauthenticated, "wrong_credentials",
                 "Name or password is wrong; check both and try again.");
 }
 
@@ -193,7 +193,7 @@ Result<SignedIn> AccessControl::sign_in(const std::string& name, const std::stri
         const std::lock_guard lock(impl_->mutex);
         if (const auto wait = impl_->sign_ins.attempt(name, peer, now)) {
             const auto wait_s = static_cast<std::int64_t>(std::ceil(seconds(*wait)));
-            return fail(Errc::kUnavailable, "too_many_sign_ins",
+            return fail(Errc::kTooMany, "too_many_sign_ins",
                         "Too many attempts to sign in; wait and try again.", {},
                         {{"retry_after_s", std::max<std::int64_t>(1, wait_s)}});
         }

@@ -48,14 +48,9 @@ std::set<Print> prints_of(const plant::Plant& plant) {
     return prints;
 }
 
-/// One that saw a marker and refused it tells more than one that saw nothing.
-bool tells_more(const Error& a, const Error& b) {
-    return b.reason.code == "no_code" && a.reason.code != "no_code";
-}
-
 Result<MarkerReading> read_any(const cv::Mat& grey, const plant::Camera& camera,
                                const std::set<Print>& prints) {
-    Result<MarkerReading> best = refuse("no_code");
+    Result<MarkerReading> best = refuse(kNoCode);
     for (const Print& print : prints) {
         ReaderOptions options;
         options.size_m = print.size_m;

@@ -12,12 +12,16 @@ enum class Errc {
     kInvalid,      // the request itself is wrong
     kNotFound,     // it names something that does not exist
     kConflict,     // it does not fit the present state
+    kStale,        // it was decided by what has changed meanwhile
     kUnreachable,  // no route or motion leads there
     kTimeout,
-    kUnavailable,  // the store or a vehicle cannot answer now
+    kUnavailable,      // the store or a vehicle cannot answer now
+    kUnauthenticated,  // nobody knows who asks
     kForbidden,
-    kNeedsPlan,  // only a plan made beside the fleet can tell
-    kInternal,   // a fault of the program's own
+    kTooMany,     // whoever asks asks for too much at once
+    kOverloaded,  // all together do
+    kNeedsPlan,   // only a plan made beside the fleet can tell
+    kInternal,    // a fault of the program's own
 };
 
 /// One named value that explains an error, a wait or an event. Screens translate `reason` codes and

@@ -14,6 +14,13 @@ namespace pulseline::onboard {
 
 using geometry::Pose2;
 
+/// Why a drive has stopped of itself (Drive::stop_cause).
+namespace stop_causes {
+inline constexpr const char* kWheelFault = "wheel_fault";  // {wheel}
+inline constexpr const char* kSlip = "slip";               // {share}
+inline constexpr const char* kOffPath = "off_path";        // {distance_m}
+}  // namespace stop_causes
+
 /// Port: a vehicle's motion as its executor, its stops and its reports need it. It drives a queue
 /// of segments and never past the queue's end, and knows the pose that its odometry believes.
 /// Thread safety: none. No clock: time passes by step().
@@ -72,8 +79,7 @@ public:
     /// One a wheel of the type, in its order; empty when the model has no wheels.
     virtual std::vector<kinematics::WheelMotion> wheels() const = 0;
 
-    /// Why it has stopped of itself and stays: wheel_fault {wheel}, slip {share}, off_path
-    /// {distance_m}. nullopt: it has not.
+    /// Why it has stopped of itself and stays, one of stop_causes. nullopt: it has not.
     virtual std::optional<Reason> stop_cause() const = 0;
     /// Somebody has looked: it drives on, unless what stopped it is still there.
     virtual void acknowledge() = 0;

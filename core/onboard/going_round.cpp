@@ -24,14 +24,6 @@ std::string words_of(const planning::Detour& detour) {
     return words;
 }
 
-std::string words_of(const Error& error) {
-    const std::string& code = error.reason.code;
-    if (code == "no_corridor") return "this way has no corridor";
-    if (code == "nothing_in_the_way") return "nothing that it sees stands on its line";
-    if (code == "ends_too_near") return "the corridor or the order ends too near behind it";
-    return "there is no room in the corridor";
-}
-
 }  // namespace
 
 void GoingRound::step(double dt_s) {
@@ -102,7 +94,7 @@ void GoingRound::plan() {
         const auto with_horizon = executor_.way_ahead().stretch(true);
         const bool asks = with_horizon.size() > base.size() && plan(with_horizon);
         executor_.ask_for_base(asks);
-        tell(going_, asks ? "its base is too short; it asks for more" : words_of(detour.error()));
+        tell(going_, asks ? "its base is too short; it asks for more" : detour.error().what);
     }
 }
 

@@ -243,7 +243,7 @@ void check_ways(const std::vector<LayoutClass>& classes, std::size_t c, const Cr
         }
     }
     for (const auto& [crossing, group] : by_crossing) {
-        Reason reason{"unreachable",
+        Reason reason{kLayoutUnreachable,
                       {{"class", of_class.name},
                        {"from", place_name(of_class, group.from)},
                        {"to", place_name(of_class, group.to)},

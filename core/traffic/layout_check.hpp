@@ -17,6 +17,8 @@ struct LayoutClass {
     std::vector<std::string> place_names;  // for the reasons; empty: numbers
 };
 
+inline constexpr const char* kLayoutUnreachable = "unreachable";
+
 struct LayoutViolation {
     Reason reason;
 };

@@ -49,8 +49,8 @@
 /// 2019; Cap et al., "Complete decentralized method for on-line multi-robot trajectory planning in
 /// well-formed infrastructures", ICAPS 2015; Phillips, Likhachev, "SIPP", ICRA 2011.)
 ///
-/// Its functions stand in a file a section: admission.cpp (tasks; making_way.cpp where others have to
-/// leave for them), grants.cpp, disturbances.cpp, improvement.cpp and improvement_steps.cpp,
+/// Its functions stand in a file a section: admission.cpp (tasks; making_way.cpp where others have
+/// to leave for them), grants.cpp, disturbances.cpp, improvement.cpp and improvement_steps.cpp,
 /// prediction.cpp and waits.cpp (views), rebuild.cpp (records).
 ///
 /// Deterministic: the same calls give the same state. No clock, thread or random source inside.

@@ -18,7 +18,7 @@ ReadResult read_marker(plant::MarkerKind kind, const cv::Mat& grey, const plant:
         case plant::MarkerKind::kLandmark:
             return read_landmark(grey, camera, options);
     }
-    return refuse("no_code");
+    return refuse(kNoCode);
 }
 
 namespace {

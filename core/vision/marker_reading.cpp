@@ -15,7 +15,7 @@ struct Refusal {
 };
 constexpr std::array<Refusal, 7> kRefusals{{
     {"bad_image", "The image is not 8-bit grey of the camera's size. Check the camera file."},
-    {"no_code", "No code can be read. Clean the code and the lens, check the light."},
+    {kNoCode, "No code can be read. Clean the code and the lens, check the light."},
     {"mirrored", "The code is mirrored. Print it again; do not copy it through film."},
     {"ambiguous_code", "Glare or dirt hides part of the code. Clean it and check the light."},
     {"scale_off", "The code has not the expected size. Check print and camera height."},
@@ -30,6 +30,10 @@ tl::unexpected<Error> refuse(const char* reason, Params params) {
         kRefusals, [&](const Refusal& r) { return std::strcmp(r.reason, reason) == 0; });
     return fail(std::strcmp(reason, "bad_image") == 0 ? Errc::kInvalid : Errc::kNotFound, reason,
                 known == kRefusals.end() ? "" : known->what, {}, std::move(params));
+}
+
+bool tells_more(const Error& a, const Error& b) {
+    return b.reason.code == kNoCode && a.reason.code != kNoCode;
 }
 
 bool is_image_of(const cv::Mat& grey, const plant::Camera& camera) {

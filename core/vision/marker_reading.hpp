@@ -67,6 +67,9 @@ using ReadResult = Result<MarkerReading>;
 /// - tilt_off {tilt_rad}: the borders show a keystone no mounted camera has
 /// - fit_poor {inlier_share, rms_px, sigma_px}: the borders do not agree on one place
 tl::unexpected<Error> refuse(const char* reason, Params params = {});
+inline constexpr const char* kNoCode = "no_code";
+/// Of two refusals: one that saw a marker and refused it tells more than one that saw nothing.
+bool tells_more(const Error& a, const Error& b);
 
 /// The reading that a fit gives, or why it is refused. `units` are marker units per metre.
 ReadResult accept(plant::MarkerKind kind, const std::string& payload,

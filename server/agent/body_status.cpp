@@ -22,7 +22,7 @@ std::string text_of(const Param& param) {
 vda5050::VehicleError stopped_error(const Reason& cause) {
     vda5050::VehicleError error;
     error.fatal = true;
-    if (cause.code == "slip") {
+    if (cause.code == onboard::stop_causes::kSlip) {
         error.type = "wheelSlip";
         error.description =
             "wheels and floor differ by the share " + text_of(cause.params.at(0)) + " of the speed";
@@ -61,7 +61,8 @@ std::vector<kinematics::WheelMotion> BodyStatus::wheel_motions() const {
 /// The wheel that the drive itself has found at fault; empty: none.
 std::string BodyStatus::faulty_wheel() const {
     const auto cause = motion_.stop_cause();
-    return cause && cause->code == "wheel_fault" ? text_of(cause->params.at(0)) : "";
+    return cause && cause->code == onboard::stop_causes::kWheelFault ? text_of(cause->params.at(0))
+                                                                     : "";
 }
 
 void BodyStatus::step(double dt_s) {
@@ -91,7 +92,8 @@ void BodyStatus::write_state(vda5050::StateMessage& state) const {
                                 {{"wheel", at_fault}}});
     }
     const auto cause = motion_.stop_cause();
-    if (cause && cause->code != "wheel_fault") state.errors.push_back(stopped_error(*cause));
+    if (cause && cause->code != onboard::stop_causes::kWheelFault)
+        state.errors.push_back(stopped_error(*cause));
 }
 
 }  // namespace pulseline::agent

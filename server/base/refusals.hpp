@@ -6,7 +6,7 @@
 namespace pulseline::server {
 
 inline Error overloaded() {
-    return {Errc::kUnavailable,
+    return {Errc::kOverloaded,
             {"overloaded", {{"retry_after_s", std::int64_t{1}}}},
             "Too many commands wait. Try again in a second.",
             {}};

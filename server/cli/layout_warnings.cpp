@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/traffic/layout_check.hpp"
 
 namespace pulseline::server::cli {
 namespace {
@@ -62,8 +63,9 @@ plant::Fault too_few_resting_places(const Reason& reason) {
 std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
     std::vector<plant::Fault> warnings;
     for (const Reason& reason : fleet::check_layout(plant)) {
-        warnings.push_back(reason.code == "unreachable" ? unreachable(plant, reason)
-                                                        : too_few_resting_places(reason));
+        warnings.push_back(reason.code == traffic::kLayoutUnreachable
+                               ? unreachable(plant, reason)
+                               : too_few_resting_places(reason));
     }
     return warnings;
 }

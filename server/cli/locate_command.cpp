@@ -61,11 +61,6 @@ void print_refused(const std::string& image, const Error& why, bool as_json, std
     }
 }
 
-/// A reader that saw its marker and refused it tells more than one that saw nothing.
-bool tells_more(const Error& a, const Error& b) {
-    return b.reason.code == "no_code" && a.reason.code != "no_code";
-}
-
 void locate_in(const std::string& name, const cv::Mat& image, const plant::Camera& camera,
                const LocateInput& input, std::ostream& out) {
     std::optional<Error> why;
@@ -77,7 +72,7 @@ void locate_in(const std::string& name, const cv::Mat& image, const plant::Camer
         const std::chrono::duration<double, std::milli> took =
             std::chrono::steady_clock::now() - begin;
         if (!first) {
-            if (!why || tells_more(first.error(), *why)) why = first.error();
+            if (!why || vision::tells_more(first.error(), *why)) why = first.error();
             continue;
         }
         found_any = true;

@@ -34,10 +34,12 @@ int unreadable(const PlanInput& input, const std::string& what, std::ostream& ou
 /// Text of a file, parsed; errors name the file.
 template <class Parse>
 auto read(const std::string& file, Parse parse) {
-    return plant::read_file(file).and_then(parse).map_error([&](Error error) {
-        if (error.reason.code != "file_unreadable") error.what = file + ": " + error.what;
+    const auto name_file = [&](Error error) {
+        error.what = file + ": " + error.what;
         return error;
-    });
+    };
+    return plant::read_file(file).and_then(
+        [&](const auto& text) { return parse(text).map_error(name_file); });
 }
 
 Result<Algorithm> algorithm_named(const std::string& name) {

@@ -26,8 +26,7 @@ constexpr int kHeaps = 2;
 
 int failed(const Error& error) {
     fmt::print(stderr, "pulseline: {}\n", error.what);
-    const bool usage = error.code == Errc::kInvalid || error.reason.code == "address_in_use";
-    return usage ? kUsage : kFailed;
+    return error.code == Errc::kInvalid ? kUsage : kFailed;
 }
 
 /// The stored plant; into an empty database the plant file is imported first.

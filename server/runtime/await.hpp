@@ -31,13 +31,13 @@ net::awaitable<Result<R>> callback(std::function<void(Done<R>)> start) {
 /// Why a lane did not run a job. The words tell the caller what to do about it.
 inline Error not_run(Lane::Taken why) {
     if (why == Lane::Taken::kShareIsUsed) {
-        return {Errc::kUnavailable,
+        return {Errc::kTooMany,
                 {"too_many_requests", {{"retry_after_s", std::int64_t{1}}}},
                 "Too many requests of this account wait; wait for their answers first.",
                 {}};
     }
     if (why == Lane::Taken::kFull) {
-        return {Errc::kUnavailable,
+        return {Errc::kOverloaded,
                 {"overloaded", {{"retry_after_s", std::int64_t{2}}}},
                 "Too many requests of this kind wait. Try again in 2 seconds.",
                 {}};

@@ -111,7 +111,7 @@ Result<tcp::acceptor> open_acceptor(net::io_context& io, const Address& address)
     if (!ec) acceptor.listen(net::socket_base::max_listen_connections, ec);
     if (!ec) return acceptor;
     if (ec == net::error::address_in_use) {
-        return fail(Errc::kConflict, "address_in_use",
+        return fail(Errc::kInvalid, "address_in_use",
                     address.text() +
                         " is in use by another program; stop that program or choose another "
                         "address with --listen");

@@ -87,7 +87,7 @@ net::awaitable<Response> refuse_sign_in(Context& context, const Request& request
     StopList::Entry stop(context.stops, [&] { timer.cancel(); });
     error_code ec;
     co_await timer.async_wait(into(ec));
-    co_return api::problem(Error{Errc::kUnavailable,
+    co_return api::problem(Error{Errc::kTooMany,
                                  {"too_many_sign_ins", {{"retry_after_s", std::int64_t{6}}}},
                                  "Too many sign-ins are being checked. Try again in 6 seconds.",
                                  {}},
@@ -108,7 +108,7 @@ net::awaitable<Response> on_sign_in(Context& context, const api::WorkerHandler h
     };
     auto result = co_await on<Response>(known ? context.known_sign_ins : context.stranger_sign_ins,
                                         context.io, job);
-    if (!result && result.error().reason.code == "overloaded") {
+    if (!result && result.error().code == Errc::kOverloaded) {
         co_return co_await refuse_sign_in(context, request);
     }
     if (result && result->status == 200) context.gate.succeeded(sent->name, peer, now);

@@ -73,7 +73,7 @@ net::awaitable<tl::expected<plant::VehicleId, api::Response>> VehicleGateway::ad
                                                           path->manufacturer, path->serial);
     if (!identity) {
         if (request.identity.kind == access::Identity::Kind::kAnonymous) {
-            co_return refuse(request, 401, Errc::kForbidden, "not_signed_in",
+            co_return refuse(request, 401, Errc::kUnauthenticated, "not_signed_in",
                              "Send the vehicle's token as Authorization: Bearer; `pulseline token "
                              "create --vehicle MAKER/SERIAL` makes one.");
         }

@@ -81,7 +81,7 @@ TEST(Http, RefusesAHeaderOverTheLimit) {
 
 TEST(Http, NamesWhatItCouldNotReadByOneRequestId) {
     TestServer server;
-    for (const std::string text :
+    for (const std::string& text :
          {"GET /healthz HTTP/1.1\r\nHost: x\r\nX-Long: " + std::string(9000, 'a') + "\r\n\r\n",
           std::string("GET /%zz HTTP/1.1\r\nHost: x\r\n\r\n"),
           std::string("POST /api/v1/session HTTP/1.1\r\nHost: x\r\nContent-Length: 4\r\n"

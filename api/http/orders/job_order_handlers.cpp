@@ -58,7 +58,7 @@ using Change = Result<fleet::JobOrder> (fleet::Fleet::*)(fleet::JobOrderId,
                                                          const std::string&, Time);
 
 Response stale(const Request& request, std::int64_t revision) {
-    Response refusal = problem(Error{Errc::kConflict,
+    Response refusal = problem(Error{Errc::kStale,
                                      {"stale_revision", {{"revision", revision}}},
                                      "The order has changed meanwhile; read it again, then decide.",
                                      "If-Match"},

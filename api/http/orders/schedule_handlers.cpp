@@ -32,7 +32,7 @@ Result<fleet::Schedule> for_change(const FleetContext& context, const Request& r
     const auto present = named(context, request);
     if (!present) return fail(Errc::kNotFound, "unknown_schedule", "");
     if (if_match_allows(request, etag_of(present->revision))) return *present;
-    return fail(Errc::kConflict, "stale_revision",
+    return fail(Errc::kStale, "stale_revision",
                 "The schedule has changed meanwhile; read it again, then decide.", "If-Match",
                 {{"revision", present->revision}});
 }

@@ -34,12 +34,6 @@ std::string shortened(const std::string& field) {
 }  // namespace
 
 int http_status(const Error& error) {
-    if (error.reason.code == "stale_revision") return 412;
-    if (error.reason.code == "idempotency_key_reused") return 422;
-    if (error.reason.code == "too_many_sign_ins" || error.reason.code == "too_many_requests") {
-        return 429;
-    }
-    if (error.reason.code == "wrong_credentials") return 401;
     switch (error.code) {
         case Errc::kInvalid:
             return 422;
@@ -47,15 +41,22 @@ int http_status(const Error& error) {
             return 404;
         case Errc::kConflict:
             return 409;
+        case Errc::kStale:
+            return 412;
         case Errc::kUnreachable:
             return 422;
         case Errc::kTimeout:
             return 504;
         case Errc::kUnavailable:
+        case Errc::kOverloaded:
         case Errc::kNeedsPlan:
             return 503;
+        case Errc::kUnauthenticated:
+            return 401;
         case Errc::kForbidden:
             return 403;
+        case Errc::kTooMany:
+            return 429;
         case Errc::kInternal:
             return 500;
     }

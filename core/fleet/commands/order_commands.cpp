@@ -4,6 +4,7 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/legs/ending.hpp"
+#include "core/fleet/orders/idempotency.hpp"
 #include "core/fleet/orders/orders.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
@@ -41,7 +42,7 @@ Result<JobOrder*> find_for_change(FleetState& fleet, JobOrderId id,
     JobOrder* order = fleet.find(id);
     if (!order) return no_such_order(id);
     if (if_revision && *if_revision != order->revision) {
-        return fail(Errc::kConflict, "stale_revision",
+        return fail(Errc::kStale, "stale_revision",
                     "The order has changed meanwhile. Read it again, then decide.", {},
                     {{"revision", order->revision}});
     }

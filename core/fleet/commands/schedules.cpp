@@ -44,7 +44,7 @@ Result<Schedule*> find_for_change(FleetState& fleet, ScheduleId id,
                     {{"schedule", id.str()}});
     }
     if (if_revision && *if_revision != it->second.revision) {
-        return fail(Errc::kConflict, "stale_revision",
+        return fail(Errc::kStale, "stale_revision",
                     "The schedule has changed meanwhile. Read it again, then decide.", {},
                     {{"revision", it->second.revision}});
     }
@@ -52,9 +52,10 @@ Result<Schedule*> find_for_change(FleetState& fleet, ScheduleId id,
 }
 
 /// Its order, checked as if it were to be made now. A silent vehicle is no fault of a schedule.
-Status check_order(const FleetState& fleet, const NewOrder& order, Time now) {
-    if (auto fields = resolve_fields(fleet, order, {}); !fields) return fail(fields.error());
-    const auto plan = plan_order(fleet, order, now);
+Status check_for_later(const FleetState& fleet, const NewOrder& order, Time now) {
+    const auto checked = check_order(fleet, order, {});
+    if (!checked) return fail(checked.error());
+    const auto plan = plan_order(fleet, order, checked->stations, now);
     if (plan || plan.error().reason.code == reasons::kVehicleGone ||
         plan.error().reason.code == reasons::kNoVehicle) {
         return {};
@@ -181,7 +182,7 @@ Result<Schedule> Fleet::create_schedule(const NewSchedule& wanted, Time now) {
         return fail(Errc::kConflict, "too_many_schedules",
                     "There are 1000 schedules. Delete one that nobody uses, then repeat.", "/name");
     }
-    if (auto possible = check_order(fleet, wanted.order, now); !possible) {
+    if (auto possible = check_for_later(fleet, wanted.order, now); !possible) {
         Error error = possible.error();
         error.field = "/order" + error.field;
         return fail(std::move(error));

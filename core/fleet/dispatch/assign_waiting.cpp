@@ -42,17 +42,22 @@ bool is_free(const FleetState& fleet, const LiveVehicle& live) {
     return fleet.orders.of(live.record.id) == nullptr;
 }
 
-NewOrder as_request(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
-    NewOrder request;
-    request.vehicle = live.record.id;
-    request.planned_beside = true;
+/// How the vehicle would do the rest of the order. A station that is gone with the plant that the
+/// order was made in ends it when its turn comes (start_step).
+Result<OrderPlan> plan_rest_of(const FleetState& fleet, const JobOrder& order,
+                               const LiveVehicle& live, Time now) {
+    NewOrder rest;
+    rest.vehicle = live.record.id;
+    rest.planned_beside = true;
+    Stations stations;
     for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
         const Step& step = order.steps[i];
         if (const auto* station = plant::find_station(fleet.plant, step.station)) {
-            request.steps.push_back({station->number, step.mode});
+            rest.steps.push_back({station->number, step.mode});
+            stations.push_back(station);
         }
     }
-    return request;
+    return plan_order(fleet, rest, stations, now);
 }
 
 /// Time to the order's first station on an empty floor; infinity: the vehicle cannot serve it.
@@ -144,7 +149,7 @@ void assign_waiting(FleetState& fleet, Time now) {
             }
             continue;
         }
-        if (const auto plan = plan_order(fleet, as_request(fleet, order, *live), now); !plan) {
+        if (const auto plan = plan_rest_of(fleet, order, *live, now); !plan) {
             set_order_reason(fleet, order, plan.error().reason, now);
             continue;
         }

@@ -4,6 +4,7 @@
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/orders/planning.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
 
@@ -40,7 +41,7 @@ Result<StepLeg> leg_of_step(FleetState& fleet, JobOrder& order, LiveVehicle& liv
 
 void name_what_cuts_off(FleetState& fleet, LiveVehicle& live, const Step& step, Reason& reason,
                         Time now) {
-    if (reason.code != "floor_closed") return;
+    if (reason.code != reasons::kFloorClosed) return;
     const auto plan = plan_step(fleet, live, step, now);
     if (plan) name_closures(fleet, plan->closures, reason);
 }

@@ -4,6 +4,7 @@
 
 #include "core/fleet/floor/closures.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -82,7 +83,7 @@ Reason floor_reason(const FleetState& fleet, const traffic::Block& block) {
         reason.code = "floor_held";
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
     } else if (block.cause == traffic::BlockCause::kClosed) {
-        reason.code = "floor_closed";
+        reason.code = reasons::kFloorClosed;
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
         if (const Closure* closure = block.tile ? closure_at(fleet, *block.tile) : nullptr) {
             name_closures(fleet, {closure->id.str()}, reason);

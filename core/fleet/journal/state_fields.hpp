@@ -107,8 +107,8 @@ requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
     auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
            keys_swept, event_seq, order_number, questions, standing, stored_seq, store_fault,
-           clock_difference, out, stored_vehicles, stored_orders, changed_vehicles,
-           plans_wanted] = it;
+           clock_difference, out, stored_vehicles, stored_orders, changed_vehicles, plans_wanted] =
+        it;
     visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
           questions, standing, stored_seq, store_fault, clock_difference);
 }

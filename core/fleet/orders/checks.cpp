@@ -10,6 +10,7 @@
 namespace pulseline::fleet {
 namespace {
 
+constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kMaxDependencies = 100;
 
 // The server sends these itself; as a step's action they would defeat its own bookkeeping.
@@ -137,8 +138,26 @@ bool may_have(const FleetState& fleet, const NewOrder& order, const LiveVehicle&
                        [&](const PlacedAction& p) { return announces_at_node(live, *p.action); });
 }
 
-Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const NewOrder& order,
-                                               JobOrderId self) {
+Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order) {
+    if (order.steps.empty() || order.steps.size() > kMaxSteps) {
+        return fail(Errc::kInvalid, "bad_step_count", "An order has 1 to 100 steps.", "/steps",
+                    {{"steps", static_cast<std::int64_t>(order.steps.size())}});
+    }
+    Stations stations;
+    for (std::size_t i = 0; i < order.steps.size(); ++i) {
+        stations.push_back(plant::find_station(fleet.plant, order.steps[i].station_number));
+        if (!stations.back()) {
+            return fail(Errc::kUnreachable, "unknown_station",
+                        "There is no station " + std::to_string(order.steps[i].station_number) +
+                            ". GET /api/v1/stations lists the stations.",
+                        "/steps/" + std::to_string(i) + "/station",
+                        {{"station", std::int64_t{order.steps[i].station_number}}});
+        }
+    }
+    return stations;
+}
+
+Result<CheckedOrder> check_order(const FleetState& fleet, const NewOrder& order, JobOrderId self) {
     if (order.earliest_start && order.due && *order.due <= *order.earliest_start) {
         return fail(Errc::kInvalid, "due_before_start",
                     "The order would be due before it may start. Set due after earliest_start.",
@@ -189,7 +208,9 @@ Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const Ne
                          is_final(other->state) ? std::optional(other->state) : std::nullopt});
     }
     if (auto actions = check_actions(fleet, order); !actions) return fail(actions.error());
-    return after;
+    auto stations = stations_of(fleet, order);
+    if (!stations) return fail(stations.error());
+    return CheckedOrder{std::move(*stations), std::move(after)};
 }
 
 }  // namespace pulseline::fleet

@@ -11,9 +11,16 @@ namespace pulseline::fleet {
 Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order);
 /// Whether the order may be given to this vehicle, by type, sequence and actions.
 bool may_have(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live);
-/// Checks times, dependencies and actions too, and finds the orders that `after` names.
-/// `self`: the order that is to be updated; empty: a new one.
-Result<std::vector<Dependency>> resolve_fields(const FleetState& fleet, const NewOrder& order,
-                                               JobOrderId self);
+/// What the numbers of the steps mean, one a step.
+using Stations = std::vector<const plant::Station*>;
+Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order);
+
+/// All that an order names, found: from here on nobody looks it up again.
+struct CheckedOrder {
+    Stations stations;
+    std::vector<Dependency> after;
+};
+/// Checks every field. `self`: the order that is to be updated; empty: a new one.
+Result<CheckedOrder> check_order(const FleetState& fleet, const NewOrder& order, JobOrderId self);
 
 }  // namespace pulseline::fleet

@@ -1,6 +1,7 @@
 #include "core/fleet/orders/orders.hpp"
 
 #include "core/fleet/orders/checks.hpp"
+#include "core/fleet/orders/idempotency.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/state/event_types.hpp"
@@ -14,18 +15,18 @@ namespace {
 constexpr std::size_t kMostOpenOrders = 5000;
 
 /// Puts into the order what a request may set at its creation and by Update.
-void fill(JobOrder& order, const NewOrder& request, std::vector<Dependency> after,
+void fill(JobOrder& order, const NewOrder& request, const CheckedOrder& checked,
           const OrderPlan& plan) {
     order.wanted_vehicle = request.vehicle;
     order.wanted_type = request.vehicle_type;
     order.priority = request.priority;
     order.earliest_start = request.earliest_start;
     order.due = request.due;
-    order.after = std::move(after);
+    order.after = checked.after;
     order.steps.clear();
     for (std::size_t i = 0; i < request.steps.size(); ++i) {
         Step made;
-        made.station = plan.stations[i];
+        made.station = checked.stations[i]->id;
         made.mode = request.steps[i].mode;
         made.before = request.steps[i].before;
         made.after = request.steps[i].after;
@@ -35,25 +36,6 @@ void fill(JobOrder& order, const NewOrder& request, std::vector<Dependency> afte
 }
 
 }  // namespace
-
-Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
-                                               const std::string& key,
-                                               const std::string& body_sha256) {
-    if (key.empty()) return std::optional<JobOrder>();
-    const auto it = fleet.idempotency.find({client, key});
-    if (it == fleet.idempotency.end()) return std::optional<JobOrder>();
-    if (it->second.body_sha256 != body_sha256) {
-        return fail(Errc::kInvalid, "idempotency_key_reused",
-                    "This Idempotency-Key was used with another body. Use a new key.");
-    }
-    return fleet.orders.look_up(it->second.order);
-}
-
-void keep_answer(FleetState& fleet, const IdempotencyRecord& record) {
-    if (record.key.empty()) return;
-    fleet.idempotency[{record.client, record.key}] = record;
-    fleet.out.records.idempotency.push_back(record);
-}
 
 Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
     const auto earlier = earlier_answer(fleet, request.idempotency_client, request.idempotency_key,
@@ -75,9 +57,9 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
                         "needs; then repeat.",
                     {}, {{"open", static_cast<std::int64_t>(kMostOpenOrders)}});
     }
-    auto fields = resolve_fields(fleet, request, {});
-    if (!fields) return fail(fields.error());
-    const auto plan = plan_order(fleet, request, now);
+    const auto checked = check_order(fleet, request, {});
+    if (!checked) return fail(checked.error());
+    const auto plan = plan_order(fleet, request, checked->stations, now);
     if (!plan) return fail(plan.error());
     // The vehicle begins by what was planned for it, if nothing has changed until then.
     if (plan->legs.front()) fleet.find(plan->vehicle)->newest_plan = plan->legs.front();
@@ -91,7 +73,7 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     order.from_schedule = request.from_schedule;
     order.created_by = request.actor;
     order.created = now;
-    fill(order, request, std::move(*fields), *plan);
+    fill(order, request, *checked, *plan);
     if (!request.start) {
         order.state = JobState::kNotAllowedToStart;
         order.reason = {"waits_for_start", {}};
@@ -110,12 +92,12 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
 
 Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
                     const std::string& actor, Time now) {
-    auto fields = resolve_fields(fleet, request, order.id);
-    if (!fields) return fail(fields.error());
-    const auto plan = plan_order(fleet, request, now);
+    const auto checked = check_order(fleet, request, order.id);
+    if (!checked) return fail(checked.error());
+    const auto plan = plan_order(fleet, request, checked->stations, now);
     if (!plan) return fail(plan.error());
     JobOrder changed = order;
-    fill(changed, request, std::move(*fields), *plan);
+    fill(changed, request, *checked, *plan);
     changed.sequence = request.sequence;
     if (depends_on(fleet, changed, order.id, &changed)) {
         return fail(Errc::kConflict, "dependency_cycle",

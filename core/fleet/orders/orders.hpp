@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "core/fleet/state/fleet_state.hpp"
@@ -12,9 +11,5 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& order, Time now)
 /// Gives an order that has not started all that `request` may set.
 Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
                     const std::string& actor, Time now);
-Result<std::optional<JobOrder>> earlier_answer(const FleetState& fleet, const std::string& client,
-                                               const std::string& key,
-                                               const std::string& body_sha256);
-void keep_answer(FleetState& fleet, const IdempotencyRecord& record);
 
 }  // namespace pulseline::fleet

@@ -20,7 +20,6 @@ namespace {
 // would be asked for again and again, where a leg gets there.
 constexpr double kNearlyThere_m = 0.06;
 constexpr double kNearlyThere_rad = radians(0.8);
-constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kPlannedOfType = 8;  // vehicles that may be given an order nobody is named in
 constexpr double kUnknownAway_m = 1e6;     // of one whose place is not known: behind all others
 
@@ -60,8 +59,6 @@ std::optional<Pose2> future_pose(const FleetState& fleet, const LiveVehicle& liv
     return live.record.pose_known ? std::optional(live.record.pose) : std::nullopt;
 }
 
-using Stations = std::vector<const plant::Station*>;  // one per step
-
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
                             const Stations& stations, const LiveVehicle& live,
                             std::optional<Pose2> pose, FreeManoeuvres free) {
@@ -77,7 +74,6 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
                 step_field(i, "station"),
                 {{"station", std::int64_t{station->number}}, {"vehicle_type", live.type->name}});
         }
-        plan.stations.push_back(station->id);
         plan.starts.push_back(pose.value_or(Pose2{}));
         plan.legs.emplace_back();
         plan.durations_s.push_back(0);
@@ -142,26 +138,6 @@ std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOr
     return nearest;
 }
 
-/// What the numbers of the steps mean; from here on nobody looks them up again.
-Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order) {
-    if (order.steps.empty() || order.steps.size() > kMaxSteps) {
-        return fail(Errc::kInvalid, "bad_step_count", "An order has 1 to 100 steps.", "/steps",
-                    {{"steps", static_cast<std::int64_t>(order.steps.size())}});
-    }
-    Stations stations;
-    for (std::size_t i = 0; i < order.steps.size(); ++i) {
-        stations.push_back(plant::find_station(fleet.plant, order.steps[i].station_number));
-        if (!stations.back()) {
-            return fail(Errc::kUnreachable, "unknown_station",
-                        "There is no station " + std::to_string(order.steps[i].station_number) +
-                            ". GET /api/v1/stations lists the stations.",
-                        step_field(i, "station"),
-                        {{"station", std::int64_t{order.steps[i].station_number}}});
-        }
-    }
-    return stations;
-}
-
 }  // namespace
 
 bool nearly_there(const LiveVehicle& live, const Pose2& pose, const plant::Station& station) {
@@ -176,13 +152,8 @@ double least_drive_s(const LiveVehicle& live, const Pose2& from, const plant::St
     return geometry::distance(from.position(), to.pose.position()) / live.type->max_speed_mps;
 }
 
-Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
-                             FreeManoeuvres free) {
-    const auto stations = stations_of(fleet, order);
-    if (!stations) return fail(stations.error());
-    if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
-        return fail(vehicles.error());
-    }
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order,
+                             const Stations& stations, Time now, FreeManoeuvres free) {
     if (!order.vehicle.empty()) {
         const LiveVehicle* live = fleet.find(order.vehicle);
         if (is_gone(fleet, *live, now)) {
@@ -202,7 +173,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
                 "/vehicle",
                 {{"vehicle", order.vehicle.str()}, {"level", to_string(live->record.integration)}});
         }
-        return plan_with(fleet, order, *stations, *live,
+        return plan_with(fleet, order, stations, *live,
                          future_pose(fleet, *live, last_stations(fleet)), free);
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
@@ -210,8 +181,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Tim
     double best_s = 0;
     std::optional<Error> why_not;
     for (const auto& [live, pose] :
-         nearest_of_each_type(fleet, order, stations->front()->pose, now)) {
-        auto plan = plan_with(fleet, order, *stations, *live, pose, free);
+         nearest_of_each_type(fleet, order, stations.front()->pose, now)) {
+        auto plan = plan_with(fleet, order, stations, *live, pose, free);
         if (!plan) {
             // One that only a plan beside the fleet can judge is not refused for another's reason.
             if (!why_not || plan.error().code == Errc::kNeedsPlan) why_not = plan.error();

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/fleet/orders/checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
 /// Which vehicle would serve an order, and how it would drive.
@@ -11,8 +12,7 @@ namespace pulseline::fleet {
 /// The vehicle that would serve the order and the plan of each step from where it will stand.
 struct OrderPlan {
     plant::VehicleId vehicle;
-    std::vector<plant::StationId> stations;  // one per step: what its number means
-    std::vector<Pose2> starts;               // one per step
+    std::vector<Pose2> starts;  // one per step
     /// Absent: the start is unknown or in place, or the leg is estimated.
     std::vector<std::optional<PlannedLeg>> legs;
     std::vector<double> durations_s;  // 0: start unknown or in place
@@ -21,7 +21,9 @@ struct OrderPlan {
 /// Free manoeuvres take too long to be planned on the fleet's own thread (legs/leg_plans.hpp).
 enum class FreeManoeuvres { kEstimated, kPlanned };
 
-Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order, Time now,
+/// `order` is checked (checks.hpp), `stations` are its steps'.
+Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order,
+                             const Stations& stations, Time now,
                              FreeManoeuvres free = FreeManoeuvres::kEstimated);
 /// As the crow flies, at top speed.
 double least_drive_s(const LiveVehicle& live, const Pose2& from, const plant::Station& to);

@@ -17,6 +17,7 @@ inline constexpr const char* kLoadOnWithdrawnVehicle = "load_on_withdrawn_vehicl
 inline constexpr const char* kDrivenByHand = "driven_by_hand";
 inline constexpr const char* kPoseJumped = "pose_jumped";
 inline constexpr const char* kCommandExpired = "command_expired";
+inline constexpr const char* kFloorClosed = "floor_closed";
 inline constexpr const char* kGoesFirst = "goes_first";
 inline constexpr const char* kVehicleGone = "vehicle_gone";
 inline constexpr const char* kNoVehicle = "no_vehicle";

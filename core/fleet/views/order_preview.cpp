@@ -5,6 +5,7 @@
 
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor/closures.hpp"
+#include "core/fleet/orders/checks.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
@@ -42,10 +43,19 @@ LiveVehicle known_of(const LiveVehicle& live) {
     return copy;
 }
 
+Result<OrderPlan> plan_of(const FleetState& fleet, const NewOrder& order, Time now) {
+    const auto stations = stations_of(fleet, order);
+    if (!stations) return fail(stations.error());
+    if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
+        return fail(vehicles.error());
+    }
+    return plan_order(fleet, order, *stations, now, FreeManoeuvres::kPlanned);
+}
+
 Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
     Preview preview;
     preview.vehicle = order.vehicle;
-    auto plan = plan_order(fleet, order, now, FreeManoeuvres::kPlanned);
+    auto plan = plan_of(fleet, order, now);
     preview.accepted = plan.has_value();
     if (!plan) preview.problem = plan.error();
     if (plan) preview.vehicle = plan->vehicle;
@@ -132,7 +142,7 @@ Preview OrderPreviewer::preview(const OrderPreviewTask& task) {
 
 Status OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
     know(*task.state);
-    const auto plan = plan_order(*fleet_, task.order, task.asked, FreeManoeuvres::kPlanned);
+    const auto plan = plan_of(*fleet_, task.order, task.asked);
     return plan ? Status() : fail(plan.error());
 }
 

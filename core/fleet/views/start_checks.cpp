@@ -163,8 +163,14 @@ std::vector<Check> start_checks(const FleetState& fleet, const LiveVehicle& live
     std::vector<Check> checks{link_check(fleet, live, now)};
     checks.push_back(pose_check(fleet, live));
     if (!live.state_at) return checks;
+    // What the vehicle's report says is as old as the report; what the plant and the plan say is
+    // not.
+    const double age_s = seconds(now - *live.state_at);
+    for (auto& check : checks) check.age_s = age_s;
     const auto add = [&](std::optional<Check> found) {
-        if (found) checks.push_back(std::move(*found));
+        if (!found) return;
+        found->age_s = age_s;
+        checks.push_back(std::move(*found));
     };
     add(load_check(live));
     add(feet_check(live));
@@ -172,13 +178,9 @@ std::vector<Check> start_checks(const FleetState& fleet, const LiveVehicle& live
     if (target) checks.push_back(station_check(fleet, live, *target));
     if (plan) checks.push_back(clearance_check(live, *plan));
     add(wheels_check(live));
-    checks.push_back(battery_check(live));
-    checks.push_back(safety_check(live));
-    checks.push_back(mode_check(fleet, live, now));
-    const double age_s = seconds(now - *live.state_at);
-    for (auto& found : checks) {
-        if (found.code != "station" && found.code != "clearance") found.age_s = age_s;
-    }
+    add(battery_check(live));
+    add(safety_check(live));
+    add(mode_check(fleet, live, now));
     return checks;
 }
 

@@ -87,12 +87,11 @@ public:
     Result<Detour> run() {
         const auto barred_m = ground_.first_barred_m(ground_.start().x_m);
         if (!barred_m && std::abs(ground_.start().y_m) < kOnLine_m) {
-            return none("nothing_in_the_way", "Nothing that is seen stands on the line.");
+            return none("nothing_in_the_way", "nothing that it sees stands on its line");
         }
         const auto goals = goals_behind(barred_m.value_or(ground_.start().x_m));
         if (goals.empty()) {
-            return none("ends_too_near",
-                        "The stretch ends before there is room on the line behind the thing.");
+            return none("ends_too_near", "the corridor or the order ends too near behind it");
         }
         if (moves_sideways(ground_.type())) {
             for (const std::size_t goal : goals) {
@@ -100,7 +99,7 @@ public:
             }
         }
         if (auto found = by_manoeuvre(goals)) return answer(*found);
-        return none("no_room", "There is no room in the corridor to go round.");
+        return none("no_room", "there is no room in the corridor");
     }
 
 private:
@@ -219,7 +218,7 @@ private:
 Result<Detour> plan_detour(const DetourRequest& request) {
     assert(request.type);
     if (request.stretch.empty()) {
-        return none("no_corridor", "The edge being driven has no corridor.");
+        return none("no_corridor", "this way has no corridor");
     }
     return Planning(request).run();
 }

@@ -131,7 +131,8 @@ void ServoDrive::step(double dt_s) {
 void ServoDrive::cycle() {
     in_phase_s_ += kCycle_s;
     if (!cause_) {
-        if (auto wheel = wheels_.fault()) stop_for({"wheel_fault", {{"wheel", *wheel}}});
+        if (auto wheel = wheels_.fault())
+            stop_for({onboard::stop_causes::kWheelFault, {{"wheel", *wheel}}});
     }
     const bool stays = held_ || cause_ || speed_share_ == 0;
     switch (phase_) {
@@ -288,7 +289,7 @@ void ServoDrive::watch_path() {
     const double off_m = distance(goal_.position(), believed_.position());
     const double off_rad = std::abs(wrap(goal_.heading_rad - believed_.heading_rad));
     if (off_m > limits_.path_m || off_rad > limits_.path_rad) {
-        stop_for({"off_path", {{"distance_m", off_m}}});
+        stop_for({onboard::stop_causes::kOffPath, {{"distance_m", off_m}}});
     }
 }
 
@@ -303,9 +304,9 @@ void ServoDrive::watch_slip() {
     if (slipping_s_ <= limits_.slip_time_s) return;
     if (auto wheel = wheels_.lagging()) {
         wheels_.switch_off(*wheel);
-        return stop_for({"wheel_fault", {{"wheel", *wheel}}});
+        return stop_for({onboard::stop_causes::kWheelFault, {{"wheel", *wheel}}});
     }
-    stop_for({"slip", {{"share", share}}});
+    stop_for({onboard::stop_causes::kSlip, {{"share", share}}});
 }
 
 /// The first cause stays: what follows comes of it.

@@ -143,7 +143,7 @@ ReadResult read_apriltag(const cv::Mat& grey, const plant::Camera& camera,
     if (!is_image_of(grey, camera)) return refuse("bad_image");
     const double units_per_m = kTagCells / size_m(plant::MarkerKind::kAprilTag, options);
     const auto located = locate(grey, camera, options, pixels_per_metre(camera) / units_per_m);
-    if (!located) return refuse("no_code");
+    if (!located) return refuse(kNoCode);
     if (located->code.mirrored) return refuse("mirrored");
     const auto sites = cell_borders(kTagCells, kProfilesPerCell, [&](int row, int column) {
         return TagFamily::instance().dark(located->code.id, row, column);

@@ -41,7 +41,7 @@ ReadResult read_landmark(const cv::Mat& grey, const plant::Camera& camera,
     };
     const double dot_px = landmark::kDot_m * unit_px;
     if (auto found = search(grey, camera, options, dot_px, reach_px, try_in)) return *found;
-    return refuse(ambiguous ? "ambiguous_code" : "no_code");
+    return refuse(ambiguous ? "ambiguous_code" : kNoCode);
 }
 
 }  // namespace pulseline::vision

@@ -54,7 +54,7 @@ ReadResult read_qr(const cv::Mat& grey, const plant::Camera& camera, const Reade
     if (!is_image_of(grey, camera)) return refuse("bad_image");
     const double units_per_m = kQrModules / size_m(plant::MarkerKind::kQr, options);
     const auto located = locate(grey, camera, options, pixels_per_metre(camera) / units_per_m);
-    if (!located) return refuse("no_code");
+    if (!located) return refuse(kNoCode);
     if (located->text.mirrored) return refuse("mirrored");
     const auto sites = cell_borders(kQrModules, kProfilesPerModule, [&](int row, int column) {
         return row >= 0 && column >= 0 && row < kQrModules && column < kQrModules &&

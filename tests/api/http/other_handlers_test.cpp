@@ -227,6 +227,10 @@ TEST(Problem, StatusFollowsFromTheKindOfError) {
     EXPECT_EQ(status(Errc::kTimeout), 504);
     EXPECT_EQ(status(Errc::kUnavailable), 503);
     EXPECT_EQ(status(Errc::kForbidden), 403);
+    EXPECT_EQ(status(Errc::kUnauthenticated), 401);
+    EXPECT_EQ(status(Errc::kStale), 412);
+    EXPECT_EQ(status(Errc::kTooMany), 429);
+    EXPECT_EQ(status(Errc::kOverloaded), 503);
     Request request;
     EXPECT_EQ(internal_error(request).status, 500);
     EXPECT_EQ(unavailable(request).status, 503);
