@@ -55,7 +55,7 @@ Result<Schedule*> find_for_change(FleetState& fleet, ScheduleId id,
 Status check_for_later(const FleetState& fleet, const NewOrder& order, Time now) {
     const auto checked = check_order(fleet, order, {});
     if (!checked) return fail(checked.error());
-    const auto plan = plan_order(fleet, order, checked->stations, now);
+    const auto plan = plan_order(fleet, order, checked->stations, {}, now);
     if (plan || plan.error().reason.code == reasons::kVehicleGone ||
         plan.error().reason.code == reasons::kNoVehicle) {
         return {};

@@ -57,7 +57,7 @@ Result<OrderPlan> plan_rest_of(const FleetState& fleet, const JobOrder& order,
             stations.push_back(station);
         }
     }
-    return plan_order(fleet, rest, stations, now);
+    return plan_order(fleet, rest, stations, order.id, now);
 }
 
 /// Time to the order's first station on an empty floor; infinity: the vehicle cannot serve it.

@@ -3,7 +3,6 @@
 #include "core/fleet/floor/closures.hpp"
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/legs/step_actions.hpp"
-#include "core/fleet/orders/planning.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_build.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"

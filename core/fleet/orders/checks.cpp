@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/fleet/orders/candidates.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/vda5050/actions.hpp"
@@ -38,14 +39,6 @@ std::vector<PlacedAction> actions_of(const NewOrder& order) {
         }
     }
     return placed;
-}
-
-/// By vehicle, type and sequence; not by its actions.
-bool is_candidate(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live) {
-    if (!order.vehicle.empty() && order.vehicle != live.record.id) return false;
-    if (!order.vehicle_type.empty() && order.vehicle_type != live.type->id) return false;
-    const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
-    return bound.empty() || bound == live.record.id;
 }
 
 Status check_actions(const FleetState& fleet, const NewOrder& order) {
@@ -129,13 +122,6 @@ Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order) {
                     {{"sequence", order.sequence}, {"vehicle", bound.str()}});
     }
     return {};
-}
-
-bool may_have(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live) {
-    if (!is_candidate(fleet, order, live)) return false;
-    const auto placed = actions_of(order);
-    return std::all_of(placed.begin(), placed.end(),
-                       [&](const PlacedAction& p) { return announces_at_node(live, *p.action); });
 }
 
 Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order) {

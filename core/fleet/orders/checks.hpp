@@ -9,8 +9,6 @@ namespace pulseline::fleet {
 
 /// Vehicle, vehicle type and sequence know each other.
 Status check_vehicle_fields(const FleetState& fleet, const NewOrder& order);
-/// Whether the order may be given to this vehicle, by type, sequence and actions.
-bool may_have(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live);
 /// What the numbers of the steps mean, one a step.
 using Stations = std::vector<const plant::Station*>;
 Result<Stations> stations_of(const FleetState& fleet, const NewOrder& order);

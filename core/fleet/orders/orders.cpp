@@ -59,7 +59,7 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     }
     const auto checked = check_order(fleet, request, {});
     if (!checked) return fail(checked.error());
-    const auto plan = plan_order(fleet, request, checked->stations, now);
+    const auto plan = plan_order(fleet, request, checked->stations, {}, now);
     if (!plan) return fail(plan.error());
     // The vehicle begins by what was planned for it, if nothing has changed until then.
     if (plan->legs.front()) fleet.find(plan->vehicle)->newest_plan = plan->legs.front();
@@ -94,7 +94,7 @@ Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
                     const std::string& actor, Time now) {
     const auto checked = check_order(fleet, request, order.id);
     if (!checked) return fail(checked.error());
-    const auto plan = plan_order(fleet, request, checked->stations, now);
+    const auto plan = plan_order(fleet, request, checked->stations, order.id, now);
     if (!plan) return fail(plan.error());
     JobOrder changed = order;
     fill(changed, request, *checked, *plan);

@@ -21,13 +21,10 @@ struct OrderPlan {
 /// Free manoeuvres take too long to be planned on the fleet's own thread (legs/leg_plans.hpp).
 enum class FreeManoeuvres { kEstimated, kPlanned };
 
-/// `order` is checked (checks.hpp), `stations` are its steps'.
+/// `order` is checked (checks.hpp), `stations` are its steps'. `self`: the order that is planned
+/// anew, so that its own end does not count as where a vehicle will stand; empty: a new one.
 Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order,
-                             const Stations& stations, Time now,
+                             const Stations& stations, JobOrderId self, Time now,
                              FreeManoeuvres free = FreeManoeuvres::kEstimated);
-/// As the crow flies, at top speed.
-double least_drive_s(const LiveVehicle& live, const Pose2& from, const plant::Station& to);
-/// Whether the vehicle stands so near the station's pose that only the stop has to be corrected.
-bool nearly_there(const LiveVehicle& live, const Pose2& pose, const plant::Station& station);
 
 }  // namespace pulseline::fleet

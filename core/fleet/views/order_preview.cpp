@@ -49,7 +49,7 @@ Result<OrderPlan> plan_of(const FleetState& fleet, const NewOrder& order, Time n
     if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
         return fail(vehicles.error());
     }
-    return plan_order(fleet, order, *stations, now, FreeManoeuvres::kPlanned);
+    return plan_order(fleet, order, *stations, {}, now, FreeManoeuvres::kPlanned);
 }
 
 Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {

@@ -408,6 +408,21 @@ TEST(JobMethods, ARemovedOrderTakesNoMethod) {
     EXPECT_TRUE(world.stored(id).removed) << "the row stays";
 }
 
+// It is the only order: where it used to end is not where its vehicle will come from.
+TEST(JobMethods, AnUpdateIsPlannedFromWhereTheVehicleIs) {
+    World world;
+    NewOrder wanted = to_station(3);
+    wanted.earliest_start = world.now + from_seconds(3600);
+    const JobOrderId id = world.order(wanted)->order.id;
+    const double planned_s = world.stored(id).steps.front().planned_s;
+    ASSERT_GT(planned_s, 0);
+    ControlRequest again = asks(JobMethod::kUpdate);
+    again.update = wanted;
+    ASSERT_TRUE(world.fleet->control_order(id, again, world.now));
+    world.settle();
+    EXPECT_EQ(world.stored(id).steps.front().planned_s, planned_s);
+}
+
 TEST(JobMethods, ABadUpdateNamesTheFieldAndChangesNothing) {
     World world;
     world.connect_all();
