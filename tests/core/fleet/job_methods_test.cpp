@@ -411,6 +411,8 @@ TEST(JobMethods, ARemovedOrderTakesNoMethod) {
 // It is the only order: where it used to end is not where its vehicle will come from.
 TEST(JobMethods, AnUpdateIsPlannedFromWhereTheVehicleIs) {
     World world;
+    world.connect_all();
+    world.run(1);  // until the vehicle has said where it stands
     NewOrder wanted = to_station(3);
     wanted.earliest_start = world.now + from_seconds(3600);
     const JobOrderId id = world.order(wanted)->order.id;
