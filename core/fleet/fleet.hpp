@@ -157,8 +157,9 @@ public:
 
     // Views.
     Preview preview(const NewOrder& order, Time now) const;
-    /// What OrderPreviewer needs of the fleet to give the same.
-    OrderPreviewTask preview_task(const NewOrder& order, Time now) const;
+    /// What OrderPreviewer needs of the fleet to give the same. `self`: the order that is to be
+    /// updated, which is no part of what it is planned in; empty: a new one.
+    OrderPreviewTask preview_task(const NewOrder& order, Time now, JobOrderId self = {}) const;
     /// What MotionPreviewer needs of the fleet. Errors: unknown_vehicle, unknown_station,
     /// unknown_hall, other_hall, pose_unknown, outside_hall.
     Result<MotionTask> motion_task(const MotionQuestion& question) const;

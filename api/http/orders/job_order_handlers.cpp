@@ -147,30 +147,33 @@ FleetAnswer create_planned(FleetContext& context, const Request& request,
 }
 
 FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,
-                          const std::string& field, const Act& act, const Refuse& refuse) {
+                          const std::string& field, const Act& act, const Refuse& refuse,
+                          fleet::JobOrderId self) {
     if (order.steps.size() <= kPlannedByTheFleet) {
         auto done = act(context, order);
         if (done) return {std::move(*done)};
         if (done.error().code != Errc::kNeedsPlan) return {refuse(context, done.error())};
     }
     FleetAnswer answer;
-    answer.plan = [order, field, act, refuse,
-                   task = context.fleet.preview_task(order, context.now)](const PlanContext& with) {
-        const Status plan = with.orders.plan_ahead(task);
-        FleetAnswer planned;
-        planned.again = [order, field, act, refuse, plan](FleetContext& then) -> FleetAnswer {
-            fleet::NewOrder known = order;
-            known.planned_beside = plan.has_value();
-            auto done = act(then, known);
-            if (done) return {std::move(*done)};
-            // All but free manoeuvres the fleet judges itself, by what it knows now.
-            if (done.error().code != Errc::kNeedsPlan || plan) return {refuse(then, done.error())};
-            Error error = plan.error();
-            error.field = field + error.field;
-            return {refuse(then, error)};
+    answer.plan =
+        [order, field, act, refuse,
+         task = context.fleet.preview_task(order, context.now, self)](const PlanContext& with) {
+            const Status plan = with.orders.plan_ahead(task);
+            FleetAnswer planned;
+            planned.again = [order, field, act, refuse, plan](FleetContext& then) -> FleetAnswer {
+                fleet::NewOrder known = order;
+                known.planned_beside = plan.has_value();
+                auto done = act(then, known);
+                if (done) return {std::move(*done)};
+                // All but free manoeuvres the fleet judges itself, by what it knows now.
+                if (done.error().code != Errc::kNeedsPlan || plan)
+                    return {refuse(then, done.error())};
+                Error error = plan.error();
+                error.field = field + error.field;
+                return {refuse(then, error)};
+            };
+            return planned;
         };
-        return planned;
-    };
     return answer;
 }
 
@@ -190,7 +193,9 @@ FleetAnswer control_job_order(FleetContext& context, const Request& request) {
         changed.update = order;
         return control(with, request, changed);
     };
-    return planned_ahead(context, *wanted->update, "/order", update, refuse);
+    const auto self = fleet::JobOrderId::parse(request.param("id"));
+    return planned_ahead(context, *wanted->update, "/order", update, refuse,
+                         self.value_or(fleet::JobOrderId()));
 }
 
 FleetAnswer pause_job_order(FleetContext& context, const Request& request) {

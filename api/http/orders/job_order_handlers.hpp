@@ -11,9 +11,10 @@ namespace pulseline::api {
 using Act = std::function<Result<Response>(FleetContext&, const fleet::NewOrder&)>;
 using Refuse = std::function<Response(const FleetContext&, const Error&)>;
 /// Acts; when the order takes long to plan, after that was done beside the fleet. `field`: where
-/// the order stands in the body.
+/// the order stands in the body; `self`: the order that is to be updated.
 FleetAnswer planned_ahead(FleetContext& context, const fleet::NewOrder& order,
-                          const std::string& field, const Act& act, const Refuse& refuse);
+                          const std::string& field, const Act& act, const Refuse& refuse,
+                          fleet::JobOrderId self = {});
 
 /// An error as whoever asked can understand it.
 using InTheirTerms = std::function<Error(const Error&)>;

@@ -102,12 +102,13 @@ Preview Fleet::preview(const NewOrder& order, Time now) const {
     return preview_of(*state_, order, now);
 }
 
-OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now) const {
+OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now, JobOrderId self) const {
     const FleetState& fleet = *state_;
     auto known = std::make_shared<PreviewState>(
         PreviewState{fleet.plant, fleet.tables, fleet.started, {}, {}, closed_floors()});
     for (const auto& [id, live] : fleet.vehicles) known->vehicles.push_back(known_of(live));
     for (const JobOrderId& id : fleet.orders.open()) {
+        if (id == self) continue;
         const JobOrder& open = *fleet.find(id);
         // The rest says nothing of where a vehicle will be, nor of who may have the order.
         const bool bound = !open.assigned_vehicle.empty() || !open.wanted_vehicle.empty();

@@ -60,8 +60,9 @@ constexpr double kBandMargin_m = 0.1;
 /// does not do, and for all others, a free manoeuvre is planned. Of a thing only the front is seen
 /// at first: it is taken to be some way deeper.
 /// The same request gives the same answer; work is bounded (some hundred ms at most).
-/// Errors (Errc::kUnreachable): no_corridor (empty stretch), nothing_in_the_way, ends_too_near (the
-/// stretch ends before there is a free place on the line behind the thing), no_room.
+/// Errors (Errc::kUnreachable), `what` being a clause for "it does not go round it: ...":
+/// no_corridor (empty stretch), nothing_in_the_way, ends_too_near (the stretch ends before there is
+/// a free place on the line behind the thing), no_room.
 /// REQUIRES: request.type; outlines as plant::outline_with_load gives them.
 Result<Detour> plan_detour(const DetourRequest& request);
 

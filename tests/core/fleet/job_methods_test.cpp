@@ -408,36 +408,5 @@ TEST(JobMethods, ARemovedOrderTakesNoMethod) {
     EXPECT_TRUE(world.stored(id).removed) << "the row stays";
 }
 
-// It is the only order: where it used to end is not where its vehicle will come from.
-TEST(JobMethods, AnUpdateIsPlannedFromWhereTheVehicleIs) {
-    World world;
-    world.connect_all();
-    world.run(1);  // until the vehicle has said where it stands
-    NewOrder wanted = to_station(3);
-    wanted.earliest_start = world.now + from_seconds(3600);
-    const JobOrderId id = world.order(wanted)->order.id;
-    const double planned_s = world.stored(id).steps.front().planned_s;
-    ASSERT_GT(planned_s, 0);
-    ControlRequest again = asks(JobMethod::kUpdate);
-    again.update = wanted;
-    ASSERT_TRUE(world.fleet->control_order(id, again, world.now));
-    world.settle();
-    EXPECT_EQ(world.stored(id).steps.front().planned_s, planned_s);
-}
-
-TEST(JobMethods, ABadUpdateNamesTheFieldAndChangesNothing) {
-    World world;
-    world.connect_all();
-    const JobOrderId id = order_in(world, JobState::kNotAllowedToStart);
-    ControlRequest request = asks(JobMethod::kUpdate);
-    request.update = to_station(99);
-
-    const auto answer = world.fleet->control_order(id, request, world.now);
-
-    ASSERT_FALSE(answer);
-    EXPECT_EQ(answer.error().field, "/order/steps/0/station");
-    EXPECT_EQ(world.fleet->order(id)->steps.at(0).station.str(), "s3");
-}
-
 }  // namespace
 }  // namespace pulseline::fleet::testing
