@@ -8,6 +8,7 @@
 
 #include "server/cli/access_commands.hpp"
 #include "server/cli/calibrate_command.hpp"
+#include "server/cli/exit_code.hpp"
 #include "server/cli/journal_command.hpp"
 #include "server/cli/locate_command.hpp"
 #include "server/cli/markers_commands.hpp"

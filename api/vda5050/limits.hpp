@@ -9,6 +9,9 @@ namespace pulseline::vda5050::limits {
 
 inline constexpr json::NumberLimits kPlace_m{-1e6, 1e6};  // in the hall
 inline constexpr json::NumberLimits kAngle_rad{-100, 100};
+/// Half a turn as the official schemas write it, a little more than pi: what is sent is at most
+/// this.
+inline constexpr double kSchemaPi = 3.14159265359;
 inline constexpr json::NumberLimits kSigma_m{0, 100};
 inline constexpr json::NumberLimits kSigma_rad{0, 4};
 inline constexpr json::NumberLimits kLength_m{0, 1e3};        // of bodies and widths of ways

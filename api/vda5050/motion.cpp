@@ -15,7 +15,6 @@ using geometry::Pose2;
 using kinematics::Segment;
 using Kind = Segment::Kind;
 
-constexpr double kMaxAngle = 3.14159265359;  // of the schema
 constexpr double kSamePlace_m = 1e-4;
 constexpr double kHalfTurn_rad = 0.01;  // nearer to a half turn its sense must be said
 constexpr double kArcWeight = 1e-3;
@@ -156,19 +155,19 @@ void encode_motion(Json& edge, const Segment& segment) {
             return;
         case Kind::kStraight:
             edge["rotationAllowed"] = false;
-            edge["orientation"] =
-                std::clamp(wrap(-finite(segment.direction_rad)), -kMaxAngle, kMaxAngle);
+            edge["orientation"] = std::clamp(wrap(-finite(segment.direction_rad)),
+                                             -limits::kSchemaPi, limits::kSchemaPi);
             return;
         case Kind::kArc:
             edge["rotationAllowed"] = false;
-            edge["orientation"] = segment.length_m < 0 ? kMaxAngle : 0.0;
+            edge["orientation"] = segment.length_m < 0 ? limits::kSchemaPi : 0.0;
             edge["trajectory"] = encode_arc(segment);
             return;
         case Kind::kCombined:
             edge["rotationAllowed"] = true;
             edge["orientationType"] = "GLOBAL";
             edge["orientation"] =
-                std::clamp(finite(segment.end.heading_rad), -kMaxAngle, kMaxAngle);
+                std::clamp(finite(segment.end.heading_rad), -limits::kSchemaPi, limits::kSchemaPi);
             return;
     }
 }

@@ -11,7 +11,6 @@
 namespace pulseline::vda5050 {
 namespace {
 
-constexpr double kMaxAngle = 3.14159265359;  // of the schema
 constexpr std::size_t kMaxNodes = 2000;
 constexpr json::IntegerLimits kSequence{0, std::numeric_limits<std::int32_t>::max()};
 
@@ -27,7 +26,8 @@ Json encode_node(const OrderNode& node) {
                   {"allowedDeviationXY", finite(node.allowed_deviation_xy_m)},
                   {"mapId", node.map_id}};
     if (node.has_heading) {
-        position["theta"] = std::clamp(wrap(finite(node.pose.heading_rad)), -kMaxAngle, kMaxAngle);
+        position["theta"] =
+            std::clamp(wrap(finite(node.pose.heading_rad)), -limits::kSchemaPi, limits::kSchemaPi);
         position["allowedDeviationTheta"] = finite(node.allowed_deviation_theta_rad);
     }
     return {{"nodeId", node.node_id},

@@ -18,7 +18,6 @@ constexpr double kCorridorSpacing_m = 0.02;
 constexpr double kEnter = 0.7;
 constexpr double kStill_mps = 1e-3;
 constexpr double kStill_radps = 1e-3;
-constexpr double kRounding = 1e-9;
 
 /// Brings a term of the samples to [0, 1]; all alike: 0.
 class Spread {

@@ -76,6 +76,8 @@ public:
     bool is_in_window(const Twist& from, const Twist& to, double dt_s) const;
 
 private:
+    static constexpr double kRounding = 1e-9;
+
     struct Sample {
         Twist twist;
         Pose2 rest;  // where it would come to rest, in the present body frame

@@ -10,7 +10,6 @@ namespace {
 
 // A differential vehicle drives while the target lies ahead more than so many times aside.
 constexpr double kAheadOfAside = 2;
-constexpr double kRounding = 1e-9;
 
 /// Candidate values of one axis: evenly over the window, and special ones where they lie in it.
 class Axis {

@@ -26,11 +26,6 @@ double limit_at(const std::vector<double>& limits, std::size_t i) {
     return i < limits.size() ? limits[i] : 0.0;
 }
 
-double size_of(const Segment& segment) {
-    return segment.kind == Segment::Kind::kRotate ? std::abs(segment.turn_rad)
-                                                  : std::abs(segment.length_m);
-}
-
 /// The steered wheels of a vehicle that stood with them straight: they turn before each run.
 class Steering {
 public:
@@ -64,6 +59,11 @@ Segment cut(const Segment& segment, double s0, double s1) {
 }
 
 }  // namespace
+
+double size_of(const Segment& segment) {
+    return segment.kind == Segment::Kind::kRotate ? std::abs(segment.turn_rad)
+                                                  : std::abs(segment.length_m);
+}
 
 double profile_duration_s(double distance, double max_rate, double max_accel) {
     if (distance <= 0) return 0;

@@ -29,6 +29,9 @@ void append_arc(std::vector<Segment>& segments, const Pose2& from, Point2 centre
 void append_combined(std::vector<Segment>& segments, const Pose2& from, Point2 target,
                      double turn_rad);
 
+/// Way of a segment by which it is driven: metres (Rotate: radians), never negative.
+double size_of(const Segment& segment);
+
 /// Motion of the body frame at share s of the way, per metre of it (Rotate: per radian).
 Twist twist_along(const Segment& segment, double s);
 /// Fastest that a segment may be driven, metres per second (Rotate: radians per second): body,

@@ -9,11 +9,6 @@
 namespace pulseline::kinematics {
 namespace {
 
-double size_of(const Segment& segment) {
-    return segment.kind == Segment::Kind::kRotate ? std::abs(segment.turn_rad)
-                                                  : std::abs(segment.length_m);
-}
-
 /// Way and speed of a trapezoidal profile from rest to rest.
 struct Progress {
     double way = 0;

@@ -6,12 +6,11 @@
 namespace pulseline::traffic {
 namespace {
 
-constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kNoLabel = std::numeric_limits<std::uint32_t>::max();
 // Weighted A* (Pohl 1970): the plan takes at most this times the soonest one's time from here on.
 // Without it every short wait for somebody makes all ways of nearly equal length worth a look.
 constexpr double kGreed = 1.25;
 constexpr std::size_t kPatience = 1'000;  // labels; then twice as greedy, at twice as many again
-constexpr double kEver_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -123,7 +122,7 @@ void WindowSearch::start(const JointPlan& joint, const SearchTask& task) {
     for (std::uint32_t i = 0; i < windows.count; ++i) {
         const Window window = pool_[windows.begin + i];
         if (window.from_s <= task.start_s && task.start_s < window.to_s) {
-            add(place, 0, kNone, -1, task.start_s, task.start_s, window.to_s);
+            add(place, 0, kNoLabel, -1, task.start_s, task.start_s, window.to_s);
         }
     }
     if (labels_.empty()) {
@@ -201,11 +200,11 @@ void WindowSearch::add(PlaceIndex place, std::size_t stage, std::uint32_t parent
     const std::size_t slot = stage * places_ + place;
     if (head_stamps_[slot] != stamp_) {
         head_stamps_[slot] = stamp_;
-        heads_[slot] = kNone;
+        heads_[slot] = kNoLabel;
     }
     // Intervals of one place do not overlap, so their ends tell them apart. Who can be in an
     // interval earlier can wait there for everything the later one can do.
-    for (std::uint32_t i = heads_[slot]; i != kNone; i = labels_[i].next) {
+    for (std::uint32_t i = heads_[slot]; i != kNoLabel; i = labels_[i].next) {
         if (labels_[i].until_s != until_s) continue;
         if (labels_[i].arrive_s <= arrive_s) return;
         labels_[i].closed = true;
@@ -299,7 +298,7 @@ SearchResult WindowSearch::result_from(std::uint32_t last) const {
     SearchResult result;
     result.found = true;
     result.labels = labels_.size();
-    for (std::uint32_t i = last; labels_[i].parent != kNone; i = labels_[i].parent) {
+    for (std::uint32_t i = last; labels_[i].parent != kNoLabel; i = labels_[i].parent) {
         const Label& label = labels_[i];
         PlannedMove move;
         move.place = label.place < graph_places_ ? label.place : kNoPlace;

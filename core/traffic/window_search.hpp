@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -72,6 +73,8 @@ public:
     SearchResult find(const JointPlan& joint, const SearchTask& task);
 
 private:
+    static constexpr double kEver_s = std::numeric_limits<double>::infinity();
+
     struct Window {
         double from_s;
         double to_s;

@@ -8,7 +8,6 @@ namespace pulseline::traffic {
 namespace {
 
 constexpr std::ptrdiff_t kRecent = 12;  // stays looked back at; more costs more than it saves
-constexpr double kEver_s = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

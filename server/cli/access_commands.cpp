@@ -7,13 +7,13 @@
 
 #include "api/access/access_control.hpp"
 #include "server/base/server_clock.hpp"
-#include "server/cli/serve_command.hpp"
+#include "server/cli/exit_code.hpp"
 #include "server/cli/storage.hpp"
 
 namespace pulseline::server::cli {
 namespace {
 
-struct Input {
+struct AccessInput {
     std::string database;
     std::string name;
     std::string role;
@@ -26,16 +26,11 @@ struct Input {
     bool json = false;
 };
 
-int failed(const Error& error) {
-    fmt::print(stderr, "pulseline: {}\n", error.what);
-    return error.code == Errc::kInvalid ? kUsage : kFailed;
-}
-
 Error wrong(std::string what) { return {Errc::kInvalid, {"bad_option", {}}, std::move(what), {}}; }
 
 /// Runs `act` on the access data of a database that no server holds.
 template <class F>
-int with_access(const Input& input, F act) {
+int with_access(const AccessInput& input, F act) {
     auto storage = open_storage(input.database);
     if (!storage) return failed(storage.error());
     const Time now = ServerClock(Time{}).now();
@@ -45,7 +40,7 @@ int with_access(const Input& input, F act) {
     return act(control, now);
 }
 
-int add_user(const Input& input) {
+int add_user(const AccessInput& input) {
     const auto role = access::parse_role(input.role);
     if (!role) return failed(wrong("--role is viewer, operator, engineer or admin"));
     if (!input.password_stdin) {
@@ -63,7 +58,7 @@ int add_user(const Input& input) {
     });
 }
 
-int list_users(const Input& input) {
+int list_users(const AccessInput& input) {
     return with_access(input, [](access::AccessControl& control, Time) {
         for (const auto& user : control.users()) {
             fmt::print("{}\t{}{}\n", user.name, to_string(user.role),
@@ -74,7 +69,7 @@ int list_users(const Input& input) {
 }
 
 /// A line "MAKER/SERIAL secret" for each vehicle of the plant, as agents read them.
-int create_tokens_of_all_vehicles(const Input& input) {
+int create_tokens_of_all_vehicles(const AccessInput& input) {
     auto storage = open_storage(input.database);
     if (!storage) return failed(storage.error());
     const auto plant = (*storage)->plant();
@@ -92,7 +87,7 @@ int create_tokens_of_all_vehicles(const Input& input) {
     return 0;
 }
 
-int create_token(const Input& input) {
+int create_token(const AccessInput& input) {
     const int owners = (input.vehicle.empty() ? 0 : 1) + (input.role.empty() ? 0 : 1);
     if (owners + (input.all_vehicles ? 1 : 0) != 1) {
         return failed(wrong("give one of --vehicle MAKER/SERIAL, --all-vehicles and --role ROLE"));
@@ -120,7 +115,7 @@ int create_token(const Input& input) {
     });
 }
 
-int list_tokens(const Input& input) {
+int list_tokens(const AccessInput& input) {
     return with_access(input, [](access::AccessControl& control, Time) {
         for (const auto& token : control.tokens()) {
             const std::string owner =
@@ -133,7 +128,7 @@ int list_tokens(const Input& input) {
     });
 }
 
-int revoke_token(const Input& input) {
+int revoke_token(const AccessInput& input) {
     return with_access(input, [&](access::AccessControl& control, Time) {
         const auto done = control.revoke_token(input.id);
         if (!done) return failed(done.error());
@@ -142,8 +137,8 @@ int revoke_token(const Input& input) {
     });
 }
 
-CLI::App* command(CLI::App* parent, const std::shared_ptr<Input>& input, const char* name,
-                  const char* help, int& exit_code, int (*run)(const Input&)) {
+CLI::App* command(CLI::App* parent, const std::shared_ptr<AccessInput>& input, const char* name,
+                  const char* help, int& exit_code, int (*run)(const AccessInput&)) {
     auto* made = parent->add_subcommand(name, help);
     made->add_option("--db", input->database, "Database file")->required();
     made->callback([input, &exit_code, run] { exit_code = run(*input); });
@@ -153,7 +148,7 @@ CLI::App* command(CLI::App* parent, const std::shared_ptr<Input>& input, const c
 }  // namespace
 
 void add_access_commands(CLI::App& app, int& exit_code) {
-    const auto input = std::make_shared<Input>();
+    const auto input = std::make_shared<AccessInput>();
     auto* user = app.add_subcommand("user", "People who sign in")->require_subcommand(1);
     auto* add = command(user, input, "add", "Add a user, or give one a new role and password",
                         exit_code, add_user);

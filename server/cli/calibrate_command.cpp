@@ -19,8 +19,8 @@
 #include "core/calibration/camera_calibration.hpp"
 #include "core/printing/sheet_list.hpp"
 #include "core/vision/marker_reader.hpp"
+#include "server/cli/exit_code.hpp"
 #include "server/cli/output_file.hpp"
-#include "server/cli/serve_command.hpp"
 
 namespace pulseline::server::cli {
 namespace {

@@ -13,15 +13,15 @@ namespace pulseline::server::cli {
 namespace {
 
 void print_json(const JournalReport& report, std::ostream& out) {
-    nlohmann::ordered_json json = {
+    nlohmann::ordered_json object = {
         {"snapshots", report.snapshots}, {"rows", report.rows},
         {"inputs", report.inputs},       {"steps", report.steps},
         {"events", report.events},       {"passed_over", report.passed_over},
         {"difference", nullptr}};
     if (const auto& found = report.difference) {
-        json["difference"] = {{"journal_seq", found->journal_seq}, {"what", found->what}};
+        object["difference"] = {{"journal_seq", found->journal_seq}, {"what", found->what}};
     }
-    out << json.dump() << '\n';
+    out << object.dump() << '\n';
 }
 
 void print_text(const JournalReport& report, std::ostream& out) {

@@ -7,8 +7,8 @@
 
 #include "core/printing/sheet_list.hpp"
 #include "db/plant/plant_store.hpp"
+#include "server/cli/exit_code.hpp"
 #include "server/cli/output_file.hpp"
-#include "server/cli/serve_command.hpp"
 
 namespace pulseline::server::cli {
 namespace {

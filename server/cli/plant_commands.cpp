@@ -67,7 +67,7 @@ int read_sound_plant(const std::string& file, bool as_json, std::ostream& out,
     return faults.empty() ? kPlantSound : kPlantFaults;
 }
 
-struct Input {
+struct PlantInput {
     std::string database;
     std::string file;
     bool json = false;
@@ -121,7 +121,7 @@ int plant_export(const std::string& database, const std::string& plant_file, std
 }
 
 void add_plant_commands(CLI::App& app, int& exit_code) {
-    const auto input = std::make_shared<Input>();
+    const auto input = std::make_shared<PlantInput>();
     auto* plant = app.add_subcommand("plant", "Check, import and export plant files");
     plant->require_subcommand(1);
 

@@ -12,6 +12,7 @@
 #include "server/base/config_file.hpp"
 #include "server/base/descriptors.hpp"
 #include "server/base/log.hpp"
+#include "server/cli/exit_code.hpp"
 #include "server/cli/storage.hpp"
 #include "server/server.hpp"
 
@@ -23,11 +24,6 @@ constexpr std::size_t kDescriptorsBesides = 256;  // the database, the log, thre
 /// leaves holes there that nobody fills: the process grew by megabytes an hour though it held no
 /// more. Two heaps cost no measurable time (tests/load), one does.
 constexpr int kHeaps = 2;
-
-int failed(const Error& error) {
-    fmt::print(stderr, "pulseline: {}\n", error.what);
-    return error.code == Errc::kInvalid ? kUsage : kFailed;
-}
 
 /// The stored plant; into an empty database the plant file is imported first.
 Result<plant::Plant> load_plant(Storage& storage, const Options& options) {

@@ -42,15 +42,15 @@ private:
     Clock::time_point asked_{};
 };
 
-struct Session {
-    Session(Context& c, ByteStream s, access::Identity who)
+struct Stream {
+    Stream(Context& c, ByteStream s, access::Identity who)
         : context(c),
           socket(std::move(s), {.most_bytes = c.options.limits.stream_message_bytes,
                                 .idle = c.options.limits.stream_dead,
                                 .pings = true}),
           identity(std::move(who)),
           signal(c.io) {}
-    ~Session() { context.hub.remove(client); }
+    ~Stream() { context.hub.remove(client); }
 
     Context& context;
     WebSocket socket;
@@ -75,7 +75,7 @@ struct Session {
     }
 };
 
-net::awaitable<void> close_socket(std::shared_ptr<Session> session) {
+net::awaitable<void> close_socket(std::shared_ptr<Stream> session) {
     // A reader that never reads would never answer either.
     net::steady_timer timer(session->context.io, kCloseTime);
     timer.async_wait([session](const error_code& ec) {
@@ -87,7 +87,7 @@ net::awaitable<void> close_socket(std::shared_ptr<Session> session) {
 }
 
 /// The next piece of the frame that is being written, and a ping behind it when one is due.
-net::awaitable<error_code> write_piece(std::shared_ptr<Session> session) {
+net::awaitable<error_code> write_piece(std::shared_ptr<Stream> session) {
     auto& [frame, at] = session->writing;
     Pace& pace = session->pace;
     const std::size_t bytes = std::min(pace.piece_bytes(), frame->size() - at);
@@ -102,7 +102,7 @@ net::awaitable<error_code> write_piece(std::shared_ptr<Session> session) {
     co_return ec;
 }
 
-net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
+net::awaitable<void> write_loop(std::shared_ptr<Stream> session) {
     auto& context = session->context;
     while (!session->ended) {
         if (session->client.overflowed) session->close(1013, "too slow, come back");
@@ -130,7 +130,7 @@ net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
 }
 
 /// Dashboards have nothing to say; what they send is only counted.
-net::awaitable<void> read_loop(std::shared_ptr<Session> session) {
+net::awaitable<void> read_loop(std::shared_ptr<Stream> session) {
     const auto& limits = session->context.options.limits;
     auto window = std::chrono::steady_clock::now();
     int count = 0;
@@ -157,14 +157,14 @@ void rethrow(const std::exception_ptr& error) {
 
 /// The WebSocket, or none when the other side did not see it through. What only the greeting needs
 /// ends with it: a dashboard stays for days.
-net::awaitable<std::shared_ptr<Session>> accept(Context& context, ByteStream stream,
-                                                Upgrade upgrade, api::Request request) {
+net::awaitable<std::shared_ptr<Stream>> accept(Context& context, ByteStream stream, Upgrade upgrade,
+                                               api::Request request) {
     error_code ec;
     // Old poses in a long kernel queue would look new.
     stream.lowest().socket().set_option(net::socket_base::send_buffer_size(65536), ec);
     stream.lowest().rate_policy().read_limit(context.options.limits.stream_bytes_per_second);
     auto session =
-        std::make_shared<Session>(context, std::move(stream), std::move(request.identity));
+        std::make_shared<Stream>(context, std::move(stream), std::move(request.identity));
     auto& socket = session->socket;
     socket.on_control([raw = session.get()](WebSocket::Control kind, std::string_view payload) {
         if (kind != WebSocket::Control::kPong || payload != Pace::kMark) return;

@@ -6,11 +6,11 @@ namespace {
 
 constexpr auto kPing = std::chrono::seconds(1);
 constexpr auto kDead = std::chrono::seconds(25);  // of a socket; the fleet counts silence itself
-constexpr auto kCloseTime = std::chrono::seconds(1);
+constexpr auto kLinkCloseTime = std::chrono::seconds(1);
 
-class Session : public VehicleSocket, public std::enable_shared_from_this<Session> {
+class VehicleLink : public VehicleSocket, public std::enable_shared_from_this<VehicleLink> {
 public:
-    Session(Context& c, ByteStream stream, plant::VehicleId vehicle)
+    VehicleLink(Context& c, ByteStream stream, plant::VehicleId vehicle)
         : context(c),
           id(std::move(vehicle)),
           socket(std::move(stream),
@@ -44,7 +44,7 @@ public:
     const char* close_reason = "";
 };
 
-net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
+net::awaitable<void> write_loop(std::shared_ptr<VehicleLink> session) {
     while (!session->ended && session->close_with == 0) {
         if (session->outbox.empty()) {
             co_await session->signal.wait(std::chrono::hours(1));
@@ -55,7 +55,7 @@ net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
         if (co_await session->socket.write(frame)) break;
     }
     if (session->close_with != 0 && !session->ended) {
-        net::steady_timer timer(session->context.io, kCloseTime);
+        net::steady_timer timer(session->context.io, kLinkCloseTime);
         timer.async_wait([session](const error_code& failed) {
             if (!failed) session->socket.cancel();
         });
@@ -65,7 +65,7 @@ net::awaitable<void> write_loop(std::shared_ptr<Session> session) {
     session->socket.close_now();
 }
 
-net::awaitable<void> ping_loop(std::shared_ptr<Session> session) {
+net::awaitable<void> ping_loop(std::shared_ptr<VehicleLink> session) {
     net::steady_timer timer(session->context.io);
     while (!session->ended && session->close_with == 0) {
         if (co_await session->socket.ping()) break;
@@ -76,7 +76,7 @@ net::awaitable<void> ping_loop(std::shared_ptr<Session> session) {
     }
 }
 
-net::awaitable<void> read_loop(std::shared_ptr<Session> session) {
+net::awaitable<void> read_loop(std::shared_ptr<VehicleLink> session) {
     auto& context = session->context;
     const Limits& limits = context.options.limits;
     while (session->close_with == 0) {
@@ -110,7 +110,7 @@ void log_end(const std::exception_ptr& error) {
 net::awaitable<void> vehicle_session(Context& context, ByteStream stream, Upgrade upgrade,
                                      plant::VehicleId vehicle) {
     stream.lowest().rate_policy().read_limit(context.options.limits.link_bytes_per_second);
-    auto session = std::make_shared<Session>(context, std::move(stream), vehicle);
+    auto session = std::make_shared<VehicleLink>(context, std::move(stream), vehicle);
     auto& socket = session->socket;
     const WebSocket::Headers headers{{"Sec-WebSocket-Protocol", "vda5050.v2.json"}};
     if (co_await socket.accept(upgrade, headers)) co_return;
@@ -120,7 +120,7 @@ net::awaitable<void> vehicle_session(Context& context, ByteStream stream, Upgrad
         raw->context.gateway.heard(raw->id, raw);
     });
     struct Closer {
-        Session& session;
+        VehicleLink& session;
         ~Closer() {
             session.socket.on_control({});
             session.context.gateway.closed(session.id, &session);

@@ -21,7 +21,6 @@ constexpr auto kTakeoverWindow = std::chrono::seconds(60);
 constexpr std::size_t kMostTakeovers = 3;
 // Silence is counted in seconds, so the fleet need not hear of every frame.
 constexpr auto kTellHeard = std::chrono::milliseconds(500);
-constexpr auto kShowRefused = std::chrono::seconds(60);
 
 bool offers_subprotocol(const std::string& header) {
     std::size_t at = 0;

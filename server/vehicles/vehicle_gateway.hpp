@@ -73,6 +73,8 @@ public:
 
 private:
     using Steady = std::chrono::steady_clock;
+    /// So long a refused message is shown with the vehicle's own errors.
+    static constexpr auto kShowRefused = std::chrono::seconds(60);
     /// Newest state on its way to the fleet: one waits at most, a newer one takes its place.
     struct StateSlot {
         std::mutex mutex;

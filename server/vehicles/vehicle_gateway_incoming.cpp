@@ -14,7 +14,6 @@
 namespace pulseline::server {
 namespace {
 
-constexpr auto kShowRefused = std::chrono::seconds(60);
 constexpr auto kLogRefusedEvery = std::chrono::seconds(10);
 constexpr std::size_t kMostFieldLogged = 128;
 

@@ -1,4 +1,5 @@
 #include "api/http/orders/order_body.hpp"
+#include "api/http/wire/body.hpp"
 #include "api/http/wire/query.hpp"
 
 namespace pulseline::api {
@@ -9,9 +10,8 @@ using json::ObjectReader;
 
 constexpr std::size_t kMaxSteps = 100;
 constexpr std::size_t kMaxActions = 20;
-constexpr std::size_t kMaxParameters = 50;
+constexpr std::size_t kMaxActionParameters = 50;
 constexpr std::size_t kMaxDependencies = 100;
-constexpr json::TextLimits kName{1, 64};
 
 /// A plain value; nothing and an error kept when it is none.
 std::optional<ParamValue> read_value(const Json& value, const std::string& pointer,
@@ -33,11 +33,12 @@ fleet::StepAction read_action(const Json& item, const std::string& pointer, Fiel
     if (parameters != nullptr && !parameters->is_object()) {
         errors.add(pointer + "/parameters", {"wrong_type", {{"expected", std::string("object")}}},
                    "Expected object here.");
-    } else if (parameters != nullptr && parameters->size() > kMaxParameters) {
-        errors.add(pointer + "/parameters",
-                   {"wrong_count",
-                    {{"min", std::int64_t{0}}, {"max", static_cast<std::int64_t>(kMaxParameters)}}},
-                   "An action has at most 50 parameters.");
+    } else if (parameters != nullptr && parameters->size() > kMaxActionParameters) {
+        errors.add(
+            pointer + "/parameters",
+            {"wrong_count",
+             {{"min", std::int64_t{0}}, {"max", static_cast<std::int64_t>(kMaxActionParameters)}}},
+            "An action has at most 50 parameters.");
     } else if (parameters != nullptr) {
         for (const auto& [name, value] : parameters->items()) {
             const std::string at = json::child_pointer(pointer + "/parameters", name);

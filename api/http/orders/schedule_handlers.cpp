@@ -14,7 +14,7 @@ Response schedule_response(int status, const fleet::Schedule& schedule) {
     return response;
 }
 
-Response unknown(const Request& request) {
+Response unknown_schedule(const Request& request) {
     return problem(Error{Errc::kNotFound,
                          {"unknown_schedule", {{"schedule", request.param("id").substr(0, 64)}}},
                          "There is no such schedule; GET /api/v1/job-order-schedules lists them.",
@@ -38,7 +38,7 @@ Result<fleet::Schedule> for_change(const FleetContext& context, const Request& r
 }
 
 Response refusal(const Error& error, const Request& request) {
-    return error.code == Errc::kNotFound ? unknown(request) : problem(error, request);
+    return error.code == Errc::kNotFound ? unknown_schedule(request) : problem(error, request);
 }
 
 FleetAnswer set_paused(FleetContext& context, const Request& request, bool paused) {
@@ -77,7 +77,7 @@ FleetAnswer create_schedule(FleetContext& context, const Request& request) {
 
 FleetAnswer get_schedule(FleetContext& context, const Request& request) {
     const auto found = named(context, request);
-    return {found ? schedule_response(200, *found) : unknown(request)};
+    return {found ? schedule_response(200, *found) : unknown_schedule(request)};
 }
 
 FleetAnswer delete_schedule(FleetContext& context, const Request& request) {

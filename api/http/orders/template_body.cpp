@@ -14,7 +14,6 @@ using json::FieldErrors;
 using json::ObjectReader;
 
 constexpr std::size_t kMaxParameters = 50;
-constexpr json::TextLimits kName{1, 64};
 constexpr const char* kOrder = "/order";
 
 using Places = std::map<std::string, std::string>;  // pointer -> parameter

@@ -9,7 +9,7 @@
 namespace pulseline::api {
 namespace {
 
-Response unknown(const Request& request) {
+Response unknown_template(const Request& request) {
     return problem(Error{Errc::kNotFound,
                          {"unknown_template", {{"template", request.param("name").substr(0, 64)}}},
                          "There is no such template; GET /api/v1/job-order-templates lists them.",
@@ -34,20 +34,20 @@ FleetAnswer create_template(FleetContext& context, const Request& request) {
 
 FleetAnswer get_template(FleetContext& context, const Request& request) {
     const auto found = context.fleet.order_template(request.param("name"));
-    if (!found) return {unknown(request)};
+    if (!found) return {unknown_template(request)};
     return {json_response(200, template_json(*found))};
 }
 
 FleetAnswer delete_template(FleetContext& context, const Request& request) {
     const auto gone =
         context.fleet.delete_template(request.param("name"), request.identity.name, context.now);
-    if (!gone) return {unknown(request)};
+    if (!gone) return {unknown_template(request)};
     return {Response{204, "", {}, ""}};
 }
 
 FleetAnswer create_job_order_of_template(FleetContext& context, const Request& request) {
     const auto found = context.fleet.order_template(request.param("name"));
-    if (!found) return {unknown(request)};
+    if (!found) return {unknown_template(request)};
     auto instance = read_instance(*found, request);
     if (!instance) return {problem(400, instance.error(), request)};
     if (auto asker = read_asker_of_instance(request, instance->order); !asker) {

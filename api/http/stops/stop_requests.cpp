@@ -15,7 +15,6 @@ using json::ObjectReader;
 
 constexpr std::size_t kMaxImages = 2;
 constexpr std::size_t kMaxImageText = 6'000'000;
-constexpr json::TextLimits kName{1, 64};
 
 /// Which stops a page is of, measured or not, and how many.
 template <class Query>

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "api/http/wire/body.hpp"
 #include "api/http/wire/query.hpp"
 #include "core/base/angle.hpp"
 
@@ -16,7 +17,6 @@ using plant::MotionMode;
 
 constexpr double kMaxCoordinate_m = 1e5;  // no hall is larger
 constexpr double kMaxHeading_rad = 6.2832;
-constexpr json::TextLimits kName{1, 64};
 
 std::optional<geometry::Pose2> read_pose_if_any(ObjectReader& in, const char* name) {
     auto member = in.object_if_any(name);

@@ -11,6 +11,9 @@
 /// them are answered with 400.
 namespace pulseline::api {
 
+/// Names of the plant's things and ids of a client's own.
+inline constexpr json::TextLimits kName{1, 64};
+
 /// The body as it is; an empty one is an error.
 Result<nlohmann::json> read_body(const Request& request);
 

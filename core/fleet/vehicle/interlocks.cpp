@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/gravity.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
 namespace pulseline::fleet {
@@ -13,7 +14,6 @@ namespace {
 
 using Kind = Interlock::Kind;
 
-constexpr double kGravity_mps2 = 9.80665;
 constexpr double kEmpty = 0.01;  // of the largest load: bracket forces below it are noise
 
 struct Load {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/gravity.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -12,7 +13,6 @@ namespace pulseline::fleet {
 namespace {
 
 constexpr double kWarmWheel_c = 65;
-constexpr double kGravity = 9.80665;
 
 Check check(std::string code, Check::Result result, Params params) {
     return {std::move(code), result, std::move(params), std::nullopt};
@@ -48,7 +48,7 @@ std::optional<Check> load_check(const LiveVehicle& live) {
         total_n += bracket.force_a_n + bracket.force_b_n;
     const auto bracket = worst_bracket(live);
     const double worst = bracket ? std::abs(bracket->share) : 0;
-    const bool too_heavy = total_n > live.type->max_load_kg * kGravity;
+    const bool too_heavy = total_n > live.type->max_load_kg * kGravity_mps2;
     const auto result =
         too_heavy || worst > kBracketBalance ? Check::Result::kFail : Check::Result::kPass;
     return check("load", result,

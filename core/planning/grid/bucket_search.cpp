@@ -5,13 +5,6 @@
 #include "core/planning/grid/grid_trace.hpp"
 
 namespace pulseline::planning {
-namespace {
-
-constexpr std::uint32_t kNoRoute = SmallCost::kMost;
-constexpr std::int64_t kCancelEvery = 1'000;
-
-}  // namespace
-
 template <class Label>
 void BucketSearch<Label>::prepare(const GridMap& map) {
     const std::size_t states = map.padded_cells() * kDirections;
@@ -42,7 +35,7 @@ void BucketSearch<Label>::begin(const GridMap& map, const GridRequest& request,
                  static_cast<std::uint32_t>(dearest));
     most_ = (1u << kCostBits) - 1 -
             std::min((1u << kCostBits) - 1, static_cast<std::uint32_t>(dearest));
-    best_ = kNoRoute;
+    best_ = SmallCost::kNoRoute;
     expanded_ = 0;
 }
 
@@ -149,7 +142,7 @@ SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& reques
         if (cancelled || expanded_ > most_work_) return SearchEnd::kCancelled;
     }
     route.expanded = expanded_;
-    if (best_ == kNoRoute) return SearchEnd::kNoRoute;
+    if (best_ == SmallCost::kNoRoute) return SearchEnd::kNoRoute;
     route.cost = std::int64_t{best_} * cost->unit;
     trace(map, request, route);
     return SearchEnd::kFound;

@@ -19,6 +19,12 @@ struct Cell {
 /// By direction; north is towards greater rows.
 constexpr std::array<Cell, kDirections> kStep{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
 
+/// The neighbour in direction d.
+constexpr Cell next_to(Cell cell, int d) {
+    const Cell step = kStep[static_cast<std::size_t>(d)];
+    return {cell.col + step.col, cell.row + step.row};
+}
+
 /// A box of cells, both ends included; empty when last < first.
 struct CellBox {
     Cell first{0, 0};

@@ -5,15 +5,6 @@
 #include "core/planning/grid/search_choice.hpp"
 
 namespace pulseline::planning {
-namespace {
-
-Cell next_to(Cell cell, int d) {
-    const Cell step = kStep[static_cast<std::size_t>(d)];
-    return {cell.col + step.col, cell.row + step.row};
-}
-
-}  // namespace
-
 GridMap::GridMap(GridLayers layers)
     : layers_(std::move(layers)), stride_(static_cast<std::size_t>(layers_.width) + 2) {
     moves_.assign(stride_ * (static_cast<std::size_t>(layers_.height) + 2), 0);

@@ -28,8 +28,10 @@ struct GridRequest {
     Cell goal;
     std::optional<Direction> start_heading = std::nullopt;  // none: free
     GridCost cost = {};
-    const std::atomic<bool>* cancel = nullptr;  // set by anyone, looked at every 1,000 expansions
+    const std::atomic<bool>* cancel =
+        nullptr;  // set by anyone, looked at every kCancelEvery expansions
 };
+constexpr std::int64_t kCancelEvery = 1'000;
 
 struct GridRoute {
     std::int64_t cost = 0;  // thousandths of k

@@ -9,7 +9,6 @@ namespace {
 
 constexpr std::uint8_t kFirstStep = OctileSearch::kHeadings;  // out of the start, heading free
 constexpr std::uint8_t kStart = kFirstStep + 1;
-constexpr std::int64_t kCancelEvery = 1'000;
 
 bool is_free(const GridMap& map, Cell cell) {
     return map.inside(cell) &&

@@ -5,17 +5,6 @@
 #include "core/planning/grid/grid_trace.hpp"
 
 namespace pulseline::planning {
-namespace {
-
-constexpr std::int64_t kCancelEvery = 1'000;
-
-Cell next_to(Cell cell, int d) {
-    const Cell step = kStep[static_cast<std::size_t>(d)];
-    return {cell.col + step.col, cell.row + step.row};
-}
-
-}  // namespace
-
 void PlainSearch::prepare(const GridMap& map) {
     const std::size_t states = map.padded_cells() * kDirections;
     if (labels_.size() < states) labels_.resize(states);

@@ -16,6 +16,7 @@ struct SmallCost {
 
     // Sums stay below this; a search that comes near it leaves the query to 64 bits.
     static constexpr std::uint32_t kMost = 1u << 30;
+    static constexpr std::uint32_t kNoRoute = kMost;
 
     /// nullopt when one way straight through the map may already be too much.
     static std::optional<SmallCost> of(const GridCost& cost, const GridMap& map) {

@@ -5,9 +5,7 @@
 namespace pulseline::planning {
 namespace {
 
-constexpr std::uint32_t kNoRoute = SmallCost::kMost;
 constexpr int kSides = 3;
-constexpr std::int64_t kCancelEvery = 1'000;
 
 }  // namespace
 
@@ -58,7 +56,7 @@ void TurnJumpSearch::begin(const GridMap& map, const GridRequest& request, const
     };
     goal_runs_[0] = run(0, goal_.row, goal_.col);
     goal_runs_[1] = run(1, goal_.col, goal_.row);
-    best_ = kNoRoute;
+    best_ = SmallCost::kNoRoute;
     expanded_ = 0;
     popped_ = 0;
     turns_seen_ = 0;
@@ -285,7 +283,7 @@ SearchEnd TurnJumpSearch::run(const GridMap& map, const GridRequest& request, Gr
         if (cancelled || work() > most_work_) return SearchEnd::kCancelled;
     }
     route.expanded = expanded_;
-    if (best_ == kNoRoute) return SearchEnd::kNoRoute;
+    if (best_ == SmallCost::kNoRoute) return SearchEnd::kNoRoute;
     route.cost = std::int64_t{best_} * cost->unit;
     trace(request, route);
     return SearchEnd::kFound;

@@ -16,7 +16,6 @@ constexpr double kTurnStep_rad = kPi / 8;
 constexpr double kLeastStep_m = 0.5;
 constexpr int kHeadings = 24;
 constexpr double kGreed = 1.4;  // weight of what is left against what is done
-constexpr std::size_t kWaysTried = 4;
 // With a way known, looking for a better one is worth so many tests and a part of those before.
 constexpr long kLeastMoreWork = 3000;
 constexpr long kMoreWork = 4;

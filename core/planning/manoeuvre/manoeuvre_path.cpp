@@ -10,7 +10,6 @@ namespace {
 using geometry::Pose2;
 
 constexpr double kGain_m = 0.01;  // less is not worth a change
-constexpr std::size_t kWaysTried = 4;
 constexpr double kNoMove = 1e-7;  // a rest of a move that is no move any more
 
 /// A place on the path: so far into a move.

@@ -18,6 +18,8 @@ struct ManoeuvreTask {
 
 /// What Steering::ways or least_cost_m costs in tests of the body.
 constexpr long kWaysWork = 6;
+/// Of the ways between two places, cheapest first, how many are tested for room.
+constexpr std::size_t kWaysTried = 4;
 
 using Moves = std::vector<Move>;
 

@@ -12,7 +12,7 @@ using geometry::Polygon;
 using geometry::Pose2;
 
 constexpr double kStandOut_m = 0.004;  // of a finely swept area
-constexpr double kLeastStep_m = 0.08;
+constexpr double kLeastAdvance_m = 0.08;
 // As for obstacles (Obstacles::limits_from): a start is measured again, nearer nothing drives.
 constexpr double kLeaving_m = 0.010;
 constexpr double kLeast_m = 0.10;
@@ -130,7 +130,7 @@ bool ManoeuvreRoom::is_free(const Pose2& from, const Move& move) const {
     while (done_m < farthest_m) {
         const double slack = slack_m(moved(from, move, done_m / farthest_m));
         if (slack < 0) return false;
-        done_m += std::max(slack, kLeastStep_m);
+        done_m += std::max(slack, kLeastAdvance_m);
     }
     return is_free(moved(from, move));
 }

@@ -10,19 +10,19 @@ namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-struct Label {
+struct ArcLabel {
     double cost = kInfinite;
     double burden = kInfinite;
     int before = -1;
     bool turn = false;
 };
 
-struct Open {
+struct OpenArc {
     double estimate;
     double burden;
     double cost;
     int arc;
-    bool operator<(const Open& other) const {  // std::priority_queue takes the greatest first
+    bool operator<(const OpenArc& other) const {  // std::priority_queue takes the greatest first
         if (estimate != other.estimate) return estimate > other.estimate;
         if (burden != other.burden) return burden > other.burden;
         return arc > other.arc;
@@ -92,7 +92,8 @@ private:
     std::vector<bool> straight_;
 };
 
-RoadPath path_to(const RoadGraph& graph, const std::vector<Label>& labels, int last, int expanded) {
+RoadPath path_to(const RoadGraph& graph, const std::vector<ArcLabel>& labels, int last,
+                 int expanded) {
     RoadPath path;
     path.cost = labels[static_cast<std::size_t>(last)].cost;
     path.expanded = expanded;
@@ -135,10 +136,10 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
     const Bound bound(graph, cost, query);
     const int final_label =
         static_cast<int>(graph.arcs.size());  // stands for "stopped at the goal"
-    std::vector<Label> labels(graph.arcs.size() + 1);
-    std::priority_queue<Open> open;
+    std::vector<ArcLabel> labels(graph.arcs.size() + 1);
+    std::priority_queue<OpenArc> open;
     const auto reach = [&](int arc, double arc_total, double burden, int before, bool turn) {
-        Label& label = labels[static_cast<std::size_t>(arc)];
+        ArcLabel& label = labels[static_cast<std::size_t>(arc)];
         if (arc_total > label.cost || (arc_total == label.cost && burden >= label.burden)) return;
         const double left = arc == final_label ? 0 : bound.after(arc);
         if (left == kInfinite) return;
@@ -153,9 +154,9 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
     }
     int expanded = 0;
     while (!open.empty() && !(query.cancel && *query.cancel)) {
-        const Open top = open.top();
+        const OpenArc top = open.top();
         open.pop();
-        const Label label = labels[static_cast<std::size_t>(top.arc)];
+        const ArcLabel label = labels[static_cast<std::size_t>(top.arc)];
         if (top.cost != label.cost || top.burden != label.burden) continue;  // found better since
         if (top.arc == final_label) return path_to(graph, labels, label.before, expanded);
         ++expanded;

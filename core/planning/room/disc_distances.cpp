@@ -12,7 +12,7 @@ namespace {
 
 using geometry::Point2;
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNeverReached_m = std::numeric_limits<double>::infinity();
 constexpr double kLeastCell_m = 0.35;
 constexpr double kLargestCell_m = 0.6;
 // A cell where the disc may or may not pass counts as so much longer: a guide that leads into gaps
@@ -32,7 +32,7 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
     width_ = static_cast<int>(std::ceil(width / cell_m_));
     height_ = static_cast<int>(std::ceil(height / cell_m_));
     length_m_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-                     kInfinite);
+                     kNeverReached_m);
     const int goal_cell = cell(goal);
     if (goal_cell < 0) return;
     const double diagonal = std::numbers::sqrt2;
@@ -42,7 +42,7 @@ DiscDistances::DiscDistances(const FloorField& field, double disc_radius_m, Poin
             origin_ + cell_m_ * Point2{index % width_ + 0.5, index / width_ + 0.5};
         const double free_m = field.distance_m(middle);
         if (free_m >= disc_radius_m) return 1.0;
-        return free_m >= room_m || index == goal_cell ? kUnsure : kInfinite;
+        return free_m >= room_m || index == goal_cell ? kUnsure : kNeverReached_m;
     };
 
     using Entry = std::pair<double, int>;
@@ -79,7 +79,7 @@ int DiscDistances::cell(Point2 at) const {
 
 double DiscDistances::from(Point2 at) const {
     const int index = cell(at);
-    return index < 0 ? kInfinite : length_m_[static_cast<std::size_t>(index)];
+    return index < 0 ? kNeverReached_m : length_m_[static_cast<std::size_t>(index)];
 }
 
 }  // namespace pulseline::planning

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
+#include "core/base/gravity.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::simulation {
@@ -18,7 +19,6 @@ constexpr double kChargePerSecond = 0.028;  // per cent: an hour from empty to f
 constexpr double kContact_m = 0.05;
 constexpr double kContact_rad = 2 * kPi / 180.0;
 constexpr double kFeetDown_m = 0.12;
-constexpr double kGravity_mps2 = 9.80665;
 constexpr double kOverload = 1.5;  // of an even share of the greatest load, on one bracket
 // At most: an aircraft is set down with care across, and has its weight where it has it along.
 constexpr double kLoadAcross_m = 0.025;

@@ -6,24 +6,23 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/gravity.hpp"
+
 namespace pulseline::simulation {
 namespace {
 
-constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCycle_s = ServoAxis::kCycle_s;
-constexpr double kRounding_s = 1e-9;
 constexpr double kLevel_m = 1e-7;  // heights that count as the same
-constexpr double kThere_m = 1e-4;
-constexpr double kSettle_s = 0.1;
-constexpr double kCurrent_a = 20;
+constexpr double kLiftThere_m = 1e-4;
+constexpr double kLiftSettle_s = 0.1;
+constexpr double kScrewCurrent_a = 20;
 constexpr double kScrewInertia_kg = 5000;  // motor and screw, seen from the nut
 constexpr double kScrewFriction = 0.05;    // of the greatest force
 
 ServoParameters screw(const LiftParameters& lift) {
     ServoParameters p;
     p.coulomb_friction = kScrewFriction * lift.most_force_n;
-    p.force_per_ampere = 2 * lift.most_force_n / kCurrent_a;
-    p.current_limit_a = kCurrent_a;
+    p.force_per_ampere = 2 * lift.most_force_n / kScrewCurrent_a;
+    p.current_limit_a = kScrewCurrent_a;
     p.rotor_inertia = kScrewInertia_kg;
     p.viscous_friction = 1e4;
     p.tuned_inertia = kScrewInertia_kg;
@@ -81,7 +80,8 @@ std::optional<Reason> LiftingDrive::begin(std::optional<std::size_t> lift, doubl
 
 void LiftingDrive::step(double dt_s) {
     pending_s_ += dt_s;
-    for (; pending_s_ >= kCycle_s - kRounding_s; pending_s_ -= kCycle_s) {
+    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
+         pending_s_ -= ServoAxis::kCycle_s) {
         if (moving_) cycle();
     }
 }
@@ -94,8 +94,8 @@ void LiftingDrive::cycle() {
         left_m = std::max(left_m, std::abs(lift.wanted_m - lift.commanded_m));
         in_step &= std::abs(lift.axis.following_error()) <= parameters_.in_step_m;
     }
-    speed_mps_ =
-        in_step ? pace(left_m) : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * kCycle_s);
+    speed_mps_ = in_step ? pace(left_m)
+                         : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * ServoAxis::kCycle_s);
     std::vector<double> before_m;
     for (const Lift& lift : lifts_) before_m.push_back(lift.commanded_m);
     advance(1);
@@ -105,19 +105,19 @@ void LiftingDrive::cycle() {
         Lift& lift = lifts_[i];
         if (!lift.moves) continue;
         lift.axis.set_external_force(-lift.force_n);
-        lift.axis.cycle(lift.commanded_m, (lift.commanded_m - before_m[i]) / kCycle_s);
-        there &= std::abs(lift.wanted_m - lift.axis.measured_position()) <= kThere_m;
+        lift.axis.cycle(lift.commanded_m, (lift.commanded_m - before_m[i]) / ServoAxis::kCycle_s);
+        there &= std::abs(lift.wanted_m - lift.axis.measured_position()) <= kLiftThere_m;
     }
     for (Lift& lift : lifts_) lift.last_force_n = lift.force_n;
     share_load();
     check_forces();
-    settled_s_ = there ? settled_s_ + kCycle_s : 0;
-    if (moving_ && settled_s_ >= kSettle_s) finish();
+    settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
+    if (moving_ && settled_s_ >= kLiftSettle_s) finish();
 }
 
 /// Trapezoidal profile: speed of the next cycle with `left_m` to go.
 double LiftingDrive::pace(double left_m) const {
-    const double step = parameters_.accel_mps2 * kCycle_s;
+    const double step = parameters_.accel_mps2 * ServoAxis::kCycle_s;
     const double braking = std::sqrt(step * step + 2 * parameters_.accel_mps2 * left_m) - step;
     return std::min({parameters_.speed_mps, speed_mps_ + step, braking});
 }
@@ -132,7 +132,7 @@ void LiftingDrive::advance(double sign) {
         any = true;
     }
     if (!any) return;
-    const double front_m = hindmost_m + speed_mps_ * kCycle_s;
+    const double front_m = hindmost_m + speed_mps_ * ServoAxis::kCycle_s;
     for (Lift& lift : lifts_) {
         if (!lift.moves || sign * (lift.wanted_m - lift.commanded_m) <= 0) continue;
         const double to_m =

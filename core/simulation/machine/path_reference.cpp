@@ -13,7 +13,7 @@ namespace {
 using kinematics::Segment;
 using Kind = kinematics::Segment::Kind;
 
-constexpr double kDone = 1e-6;    // metres or radians left that count as none
+constexpr double kNone = 1e-6;    // metres or radians left that count as none
 constexpr double kMeet_m = 0.01;  // segments whose ends lie closer are joined
 constexpr double kSameDirection_rad = 2e-3;
 constexpr double kSameCentre_m = 0.02;
@@ -21,7 +21,7 @@ constexpr double kSameTurn_radpm = 2e-3;
 constexpr double kCreeping_mps = 0.05;
 constexpr double kDerivative = 1e-4;  // share of a segment to either side of where it is derived
 
-double size_of(const Segment& segment) {
+double driven_size(const Segment& segment) {
     return turns_on_the_spot(segment) ? std::abs(segment.turn_rad) : std::abs(segment.length_m);
 }
 
@@ -31,7 +31,7 @@ bool same_sign(double a, double b) { return (a >= 0) == (b >= 0); }
 
 bool turns_on_the_spot(const Segment& segment) {
     return segment.kind == Kind::kRotate ||
-           (std::abs(segment.length_m) <= kDone && segment.turn_rad != 0);
+           (std::abs(segment.length_m) <= kNone && segment.turn_rad != 0);
 }
 
 bool continues(const Segment& a, const Segment& b) {
@@ -69,7 +69,7 @@ PathReference::PathReference(plant::VehicleType type, double time_factor)
 PathReference::Move PathReference::make_move(const Segment& segment, double max_speed_mps) const {
     Move move;
     move.segment = segment;
-    move.size = size_of(segment);
+    move.size = driven_size(segment);
     Segment shape = segment;
     if (turns_on_the_spot(segment)) shape.kind = Kind::kRotate;
     move.max_rate = kinematics::max_rate(type_, shape, 0) * time_factor_;
@@ -99,7 +99,7 @@ void PathReference::steer(const Pose2& from, const kinematics::Twist& twist) {
     way.start = steered_.pose();
     way.length_m = std::hypot(vx_mps, vy_mps);
     way.direction_rad = std::atan2(vy_mps, vx_mps);
-    if (way.length_m <= kDone) way.kind = Kind::kRotate;
+    if (way.length_m <= kNone) way.kind = Kind::kRotate;
     if (way.kind == Kind::kRotate) way.turn_rad = turn_radps;
     way.end = way.start * Pose2{vx_mps, vy_mps, way.turn_rad};
     steered_way_ = way;
@@ -143,7 +143,7 @@ const Segment* PathReference::current() const {
 Pose2 PathReference::pose() const {
     if (steered()) return steered_.pose();
     const Move& move = queue_.front();
-    return move.size > kDone ? kinematics::pose_at(move.segment, move.done / move.size)
+    return move.size > kNone ? kinematics::pose_at(move.segment, move.done / move.size)
                              : move.segment.start;
 }
 
@@ -156,7 +156,7 @@ kinematics::Twist PathReference::twist_at_share(double share) const {
 }
 
 kinematics::Twist PathReference::twist_at(double rate) const {
-    if (queue_.empty() || rate == 0 || queue_.front().size <= kDone) return {};
+    if (queue_.empty() || rate == 0 || queue_.front().size <= kNone) return {};
     const Move& move = queue_.front();
     const kinematics::Twist whole = derivative(move.segment, move.done / move.size);
     const double share_per_s = rate / move.size;
@@ -183,7 +183,7 @@ kinematics::Twist PathReference::twist_ahead(double way) const {
     double at = queue_[0].done + way;
     while (i + 1 < queue_.size() && at > queue_[i].size) at -= queue_[i++].size;
     const Move& move = queue_[i];
-    if (move.size <= kDone) return {};
+    if (move.size <= kNone) return {};
     const kinematics::Twist whole = derivative(move.segment, std::min(1.0, at / move.size));
     return {whole.vx_mps / move.size, whole.vy_mps / move.size, whole.turn_radps / move.size};
 }
@@ -205,7 +205,7 @@ double PathReference::turn_rate_radps() const {
     if (steered()) return steered_.twist().turn_radps;
     const Segment* segment = current();
     if (segment == nullptr || segment->turn_rad == 0) return 0;
-    const double share_per_s = rate_ / std::max(size_of(*segment), kDone);
+    const double share_per_s = rate_ / std::max(driven_size(*segment), kNone);
     return segment->turn_rad * share_per_s;
 }
 
@@ -213,7 +213,7 @@ std::span<const PathReference::Passed> PathReference::step(double h_s) {
     passed_.clear();
     if (steered()) step_steered(h_s);
     if (queue_.empty()) return passed_;
-    if (queue_.front().size - queue_.front().done <= kDone) {
+    if (queue_.front().size - queue_.front().done <= kNone) {
         finish_front({});
         return passed_;
     }
@@ -242,7 +242,7 @@ void PathReference::step_steered(double h_s) {
     passed.to = steered_.pose();
     const auto [vx_mps, vy_mps, turn_radps] = steered_.twist();
     const double speed_mps = std::hypot(vx_mps, vy_mps);
-    passed.on_the_spot = speed_mps <= kDone && turn_radps != 0;
+    passed.on_the_spot = speed_mps <= kNone && turn_radps != 0;
     passed.way = h_s * (passed.on_the_spot ? std::abs(turn_radps) : speed_mps);
     peak_rate_ = std::max(peak_rate_, speed_mps);
     passed.rests = steered_.standing();
@@ -279,7 +279,7 @@ void PathReference::advance(double way) {
         move.done += passed.way;
         passed.to = kinematics::pose_at(move.segment, std::min(1.0, move.done / move.size));
         way -= passed.way;
-        if (move.size - move.done > kDone) {
+        if (move.size - move.done > kNone) {
             passed_.push_back(passed);
             return;
         }

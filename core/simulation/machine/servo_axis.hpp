@@ -40,6 +40,7 @@ struct ServoParameters {
 class ServoAxis {
 public:
     static constexpr double kCycle_s = 0.01;
+    static constexpr double kRounding_s = 1e-9;  // so little less of time is a whole cycle
     static constexpr double kDriveStep_s = 0.001;
 
     ServoAxis(const ServoParameters& parameters, std::uint64_t seed);

@@ -14,8 +14,6 @@ using kinematics::Segment;
 using kinematics::Twist;
 using kinematics::WheelMotion;
 
-constexpr double kCycle_s = ServoAxis::kCycle_s;
-constexpr double kRounding_s = 1e-9;
 constexpr double kNoWay = 1e-9;
 constexpr double kStartShare = 0.05;  // of the speed for which the standing wheels are steered
 constexpr int kLooks = 100;           // ahead on a run, at the wheels' directions
@@ -125,11 +123,13 @@ std::vector<WheelMotion> ServoDrive::wheels() const {
 
 void ServoDrive::step(double dt_s) {
     pending_s_ += dt_s * time_factor_;
-    for (; pending_s_ >= kCycle_s - kRounding_s; pending_s_ -= kCycle_s) cycle();
+    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
+         pending_s_ -= ServoAxis::kCycle_s)
+        cycle();
 }
 
 void ServoDrive::cycle() {
-    in_phase_s_ += kCycle_s;
+    in_phase_s_ += ServoAxis::kCycle_s;
     if (!cause_) {
         if (auto wheel = wheels_.fault())
             stop_for({onboard::stop_causes::kWheelFault, {{"wheel", *wheel}}});
@@ -221,10 +221,10 @@ void ServoDrive::steer_standing() {
 void ServoDrive::drive() {
     due_.push_back(goal_);
     due_.pop_front();
-    for (const auto& passed : reference_.step(kCycle_s)) {
+    for (const auto& passed : reference_.step(ServoAxis::kCycle_s)) {
         goal_ = passed.to;
         steerable_ -= passed.way;
-        if (!passed.on_the_spot) peak_mps_ = std::max(peak_mps_, passed.way / kCycle_s);
+        if (!passed.on_the_spot) peak_mps_ = std::max(peak_mps_, passed.way / ServoAxis::kCycle_s);
     }
     must_steer_ |= steerable_ <= reference_.braking_way() + kBrakeAhead;
     if (reference_.standing()) {
@@ -272,10 +272,11 @@ void ServoDrive::follow(const Twist& twist) {
     }
     turn_wheels(wanted_, false);
     for (std::size_t i = 0; i < accel_mps2_.size(); ++i) accel_mps2_[i] = wheels_.accel_mps2(i);
-    true_twist_ = contact_.body_twist(wheels_.rolled(), accel_mps2_, true_, kCycle_s, random_);
-    true_ = moved(true_, true_twist_, kCycle_s);
+    true_twist_ =
+        contact_.body_twist(wheels_.rolled(), accel_mps2_, true_, ServoAxis::kCycle_s, random_);
+    true_ = moved(true_, true_twist_, ServoAxis::kCycle_s);
     told_ = odometry_.body_of(wheels_.measured());
-    believed_ = moved(believed_, told_.twist, kCycle_s);
+    believed_ = moved(believed_, told_.twist, ServoAxis::kCycle_s);
     watch_path();
     watch_slip();
 }
@@ -294,13 +295,13 @@ void ServoDrive::watch_path() {
 }
 
 void ServoDrive::watch_slip() {
-    double share =
-        measuring_
-            .slip_share(wheels_.measured(), contact_.rolling(), true_twist_, kCycle_s, random_)
-            .value_or(0);
+    double share = measuring_
+                       .slip_share(wheels_.measured(), contact_.rolling(), true_twist_,
+                                   ServoAxis::kCycle_s, random_)
+                       .value_or(0);
     const double pace = std::hypot(told_.twist.vx_mps, told_.twist.vy_mps);
     if (pace > limits_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
-    slipping_s_ = share > limits_.slip ? slipping_s_ + kCycle_s : 0;
+    slipping_s_ = share > limits_.slip ? slipping_s_ + ServoAxis::kCycle_s : 0;
     if (slipping_s_ <= limits_.slip_time_s) return;
     if (auto wheel = wheels_.lagging()) {
         wheels_.switch_off(*wheel);

@@ -10,7 +10,7 @@ namespace {
 
 using geometry::Point2;
 
-constexpr double kDone = 1e-6;       // metres or radians that count as none
+constexpr double kNoMove = 1e-6;     // metres or radians that count as none
 constexpr double kSubstep_s = 0.02;  // of the vehicle's own, not accelerated, time
 constexpr double kConverge_m = 1.0;  // way over which a path deviation falls to 1/e
 constexpr double kConverge_rad = 0.1;
@@ -37,7 +37,7 @@ VehicleMotion::VehicleMotion(plant::VehicleType type, const Pose2& true_pose, st
 
 /// No move comes to less than nothing.
 double VehicleMotion::FineError::share_of(double size) const {
-    if (std::abs(size) <= kDone) return 1;
+    if (std::abs(size) <= kNoMove) return 1;
     return std::max(0.0, scale + offset / std::abs(size));
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/gravity.hpp"
+
 namespace pulseline::simulation {
 namespace {
 
@@ -10,7 +12,6 @@ using geometry::Point2;
 using kinematics::Twist;
 using kinematics::WheelMotion;
 
-constexpr double kGravity_mps2 = 9.80665;
 constexpr double kNoWay_m = 1e-9;
 
 plant::VehicleType misplaced(plant::VehicleType type, double sigma, std::mt19937_64& random) {

@@ -4,13 +4,14 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/base/gravity.hpp"
+
 namespace pulseline::simulation {
 namespace {
 
 using kinematics::WheelMotion;
 
-constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCurrent_a = 60;
+constexpr double kMotorCurrent_a = 60;
 constexpr double kLightest_kg = 50;          // a type without a mass is a small vehicle
 constexpr double kRollingResistance = 0.01;  // of the weight, with the gear
 constexpr double kForceReserve = 2;          // motors are chosen for twice the full acceleration
@@ -33,8 +34,8 @@ ServoParameters rolling(const plant::VehicleType& type, const plant::Wheel& whee
     p.coulomb_friction = kRollingResistance * kGravity_mps2 * (empty_kg + load_kg / driven);
     const double limit_n = kForceReserve * full_kg * type.max_accel_mps2 +
                            kRollingResistance * kGravity_mps2 * full_kg;
-    p.force_per_ampere = limit_n / kCurrent_a;
-    p.current_limit_a = kCurrent_a;
+    p.force_per_ampere = limit_n / kMotorCurrent_a;
+    p.current_limit_a = kMotorCurrent_a;
     p.rotor_inertia = kRotorShare * empty_kg;
     p.viscous_friction = 0.1 * p.coulomb_friction;
     p.tuned_inertia = p.rotor_inertia + (empty_kg + full_kg) / 2;
@@ -49,8 +50,8 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg) {
                             static_cast<double>(type.wheels.size());
     ServoParameters p;
     p.coulomb_friction = kScrubArm_m * weight_n;
-    p.force_per_ampere = (3 * p.coulomb_friction + 1000) / kCurrent_a;
-    p.current_limit_a = kCurrent_a;
+    p.force_per_ampere = (3 * p.coulomb_friction + 1000) / kMotorCurrent_a;
+    p.current_limit_a = kMotorCurrent_a;
     p.rotor_inertia = kSteeringInertia;
     p.viscous_friction = 20;
     p.tuned_inertia = kSteeringInertia;
