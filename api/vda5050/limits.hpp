@@ -9,8 +9,7 @@ namespace pulseline::vda5050::limits {
 
 inline constexpr json::NumberLimits kPlace_m{-1e6, 1e6};  // in the hall
 inline constexpr json::NumberLimits kAngle_rad{-100, 100};
-/// Half a turn as the official schemas write it, a little more than pi: what is sent is at most
-/// this.
+/// The official schemas' half turn, a little more than pi. No angle that is sent exceeds it.
 inline constexpr double kSchemaPi = 3.14159265359;
 inline constexpr json::NumberLimits kSigma_m{0, 100};
 inline constexpr json::NumberLimits kSigma_rad{0, 4};

@@ -267,7 +267,8 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, LiveVehicle& live, Time n
     stand.in_vain_since.reset();
     stand.leg_planned = true;
     live.swept = {};  // it was for the tries
-    take_horizon(fleet, live);
+    // It may end elsewhere now: the store and the dashboards have the old one.
+    if (take_horizon(fleet, live)) fleet.store(live);
     return std::nullopt;
 }
 

@@ -28,9 +28,9 @@ struct GridRequest {
     Cell goal;
     std::optional<Direction> start_heading = std::nullopt;  // none: free
     GridCost cost = {};
-    const std::atomic<bool>* cancel =
-        nullptr;  // set by anyone, looked at every kCancelEvery expansions
+    const std::atomic<bool>* cancel = nullptr;  // set by anyone
 };
+/// Expansions between two looks at GridRequest::cancel.
 constexpr std::int64_t kCancelEvery = 1'000;
 
 struct GridRoute {
