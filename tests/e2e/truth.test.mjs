@@ -39,8 +39,9 @@ test("Start says why it is off for a station that is not for the vehicle; an ord
   assert.equal(await page.getByText(/already stands/).count(), 0);
   await picture(page, "send-busy");
   assert.equal((await client.untilEnded(order.id)).state, "Ended");
+  // The order has ended for the server before the page has heard of it, and while the note stands Start is ready, too: to send after.
+  await page.locator(".busy").waitFor({ state: "detached", timeout: 15_000 });
   await until("it may be sent on", async () => (await start.getAttribute("data-state")) === "ready", { timeout_s: 15, every_ms: 100 });
-  assert.equal(await page.locator(".busy").count(), 0);
   assert.deepEqual(page.errors, []);
   await page.context().close();
 });
