@@ -53,8 +53,10 @@ bool Traffic::untangle(double now_s) {
             if (plan.last() > plan.released && is_blocked(v, now_s)) blocked.push_back(v);
         }
         for (const VehicleIndex v : blocked) {
-            vehicles_[v].postponed = first_open_visit(v) < vehicles_[v].task.visits.size();
             merge_plan(v, {}, Placement::kByTime, now_s);
+            // On its way to rest, too, it goes on from there as soon as there is a way.
+            const bool has_visits = first_open_visit(v) < vehicles_[v].task.visits.size();
+            vehicles_[v].postponed = has_visits || !is_resting(v);
             changed.push_back(v);
             more = true;
         }

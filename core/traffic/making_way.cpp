@@ -168,7 +168,8 @@ tl::expected<Admission, Block> Traffic::plan_clearing(Clearing& clearing) {
     for (const VehicleIndex away : clearing.made_way) {
         Vehicle& v = vehicles_[away];
         v.makes_way_for = clearing.vehicle;
-        if (!v.postponed) {  // else it has a task to go back to
+        if (first_open_visit(away) == v.task.visits.size()) {  // else it has a task to go back to
+            v.postponed = false;
             // There and nowhere else it is out of the way.
             v.task.resting = {joint_.plan(away).place_after(joint_.plan(away).last())};
             v.next_visit = static_cast<VisitIndex>(v.task.visits.size());

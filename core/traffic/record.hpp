@@ -92,7 +92,7 @@ struct StoredStand {
     std::vector<PlaceIndex> later;          // of its task
     std::vector<VehicleIndex> moved_aside;  // for that purpose
     std::optional<VehicleIndex> makes_way_for;
-    bool postponed = false;  // it gives way, its plan leaves out the visits for the time being
+    bool postponed = false;  // it gives way: its plan leaves out visits or way to rest for now
     double tried_s = -1e9;   // last search by improve()
     std::optional<Block> blocked_by;
     friend bool operator==(const StoredStand&, const StoredStand&) = default;

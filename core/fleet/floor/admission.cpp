@@ -179,16 +179,18 @@ bool take_horizon(FleetState& fleet, LiveVehicle& live) {
         append_move(of_class, leg, plan.at(n).place,
                     before == kNoPlace ? std::nullopt : std::optional(before));
     }
+    bool rests = false;
     if (leg.order.empty()) {
-        // Making way ends wherever the plan found a resting place this time.
+        // Making way ends wherever the plan found a resting place this time; or it waits where its
+        // base ends for a way to one.
         const auto end = plan.place_after(plan.last());
         const bool at_station = end != kNoPlace && !of_class.motion.places[end].station.empty();
         if (at_station) leg.station = of_class.motion.places[end].station;
+        rests = leg.nodes.size() > 1 && !fleet.floor.traffic.postponed(live.floor.vehicle);
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
     const bool stops = next <= plan.last();
-    const bool rests = leg.order.empty() && station && leg.nodes.size() > 1;
-    if (stops || rests) {
+    if (station && (stops || rests)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, live, *station, leg)
                                                      : stop_actions(fleet, live, *station, leg.id);
@@ -208,7 +210,10 @@ std::optional<Reason> plan_on_floor(FleetState& fleet, LiveVehicle& live, Time n
     if (fleet.floor.stopped) return fleet.floor.stopped;
     Leg& leg = live.leg();
     const auto target = floor_class_of(fleet, live).motion.station_place(leg.station);
-    if (!target) return Reason{"station_not_for_type", {{"station", leg.station.str()}}};
+    if (!target) {
+        return Reason{"station_not_for_type",
+                      {{"station", leg.station.str()}, {"vehicle_type", live.type->name}}};
+    }
     const auto& plan = traffic.plan(stand.vehicle);
     if (!stand.leg_planned && leg.released_nodes <= 1) {
         stand.moves_before_leg = static_cast<std::int64_t>(plan.passed);

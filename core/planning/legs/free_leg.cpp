@@ -85,8 +85,8 @@ Result<LegDraft> FreeLegs::draft(const LegTask& task, const std::vector<Standing
         LegDraft draft;
         draft.segments = plan.segments;
         draft.turns = turns_of(plan.segments);
-        draft.cost = arc_cost(task.cost, plan.length_m, false) +
-                     draft.turns * (arc_cost(task.cost, 0, true) - arc_cost(task.cost, 0, false));
+        draft.cost = edge_cost(task.cost, plan.length_m, false) +
+                     draft.turns * (edge_cost(task.cost, 0, true) - edge_cost(task.cost, 0, false));
         return draft;
     });
 }

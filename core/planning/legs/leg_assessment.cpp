@@ -44,7 +44,7 @@ LegDraft draft_direct(const LegTask& task, const kinematics::MotionPlan& motion)
     LegDraft draft;
     draft.segments = motion.segments;
     draft.turns = turns_of(task, motion);
-    draft.cost = arc_cost(task.cost, motion.length_m, draft.turns > 0);
+    draft.cost = edge_cost(task.cost, motion.length_m, draft.turns > 0);
     for (const Segment& segment : draft.segments) {
         draft.max_speed_mps.push_back(
             task.roads.lines().along(task.request.hall, segment).max_speed_mps);

@@ -62,8 +62,7 @@ Result<plant::Station> target_of(const plant::Plant& plant, const LegRequest& re
             Errc::kUnreachable, "station_not_for_type",
             "Station " + std::to_string(station->number) + " is not for vehicles of type " +
                 request.type->name + ". Choose another station or vehicle.",
-            {},
-            {{"station", std::int64_t{station->number}}, {"vehicle_type", request.type->id.str()}});
+            {}, {{"station", std::int64_t{station->number}}, {"vehicle_type", request.type->name}});
     }
     if (station->hall != request.hall) {
         return fail(Errc::kUnreachable, "other_hall",
@@ -336,7 +335,7 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
     kinematics::set_durations(*request.type, segments);
     LegDraft draft;
     draft.segments = std::move(segments);
-    draft.cost = arc_cost(task->cost, std::abs(first_m), false);
+    draft.cost = edge_cost(task->cost, std::abs(first_m), false);
     const auto first = finish(*task, MotionMode::kLinear, std::move(draft));
     if (!first) return first;
     request.start = first->segments.back().end;

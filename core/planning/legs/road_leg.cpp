@@ -80,7 +80,7 @@ void connect_to(const LegTask& task, int node, std::vector<Entry>& entries) {
         append_straight(segments, {start.x_m, start.y_m, heading}, at);
         if (!is_free(task, segments)) continue;
         const bool first_turn = is_turn(task.cost, start.heading_rad, heading);
-        const double cost = arc_cost(task.cost, norm(way), first_turn);
+        const double cost = edge_cost(task.cost, norm(way), first_turn);
         for (const int index : graph.out[static_cast<std::size_t>(node)]) {
             if (!task.roads.usable(task.passage, index)) continue;
             const RoadArc& arc = graph.arcs[static_cast<std::size_t>(index)];
@@ -258,7 +258,7 @@ std::optional<LegDraft> draft_over(const LegTask& task, const std::vector<Entry>
     const auto rank = [&](const Entry& entry) {
         const double length =
             task.roads.graph().arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
-        return std::pair(entry.first.cost + arc_cost(task.cost, length, entry.first.turn),
+        return std::pair(entry.first.cost + edge_cost(task.cost, length, entry.first.turn),
                          entry.first.burden);
     };
     const Entry* chosen = nullptr;
@@ -353,8 +353,8 @@ std::vector<LegDraft> draft_other_road_legs(const LegTask& task,
     for (const Entry& entry : entries) {
         const double length = graph.arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
         seeds.push_back(
-            {entry.first.arc,
-             task.lanes.counted(entry.first.cost + arc_cost(task.cost, length, entry.first.turn))});
+            {entry.first.arc, task.lanes.counted(entry.first.cost +
+                                                 edge_cost(task.cost, length, entry.first.turn))});
     }
     RoadRoute chosen;
     chosen.arcs = arcs_along(task.roads, route);

@@ -13,7 +13,7 @@ bool is_turn(const plant::RoutingCost& cost, double heading_rad, double next_hea
     return std::abs(wrap(next_heading_rad - heading_rad)) > cost.turn_threshold_rad;
 }
 
-double arc_cost(const plant::RoutingCost& cost, double length_m, bool turn) {
+double edge_cost(const plant::RoutingCost& cost, double length_m, bool turn) {
     const double charge = turn ? (cost.k_diff - cost.k_same) * cost.reference_step_m : 0;
     return std::max(0.0, cost.k_same * length_m + charge);
 }

@@ -11,9 +11,9 @@ namespace pulseline::planning {
 constexpr double kCostUnit = 1000;
 
 bool is_turn(const plant::RoutingCost& cost, double heading_rad, double next_heading_rad);
-/// Cost of driving an arc. Never below 0: with k_diff < k_same on lanes shorter than the reference
-/// step, going to and fro would pay otherwise and no route would be the best.
-double arc_cost(const plant::RoutingCost& cost, double length_m, bool turn);
+/// Cost of driving one edge. Never below 0: with k_diff < k_same on lanes shorter than the
+/// reference step, going to and fro would pay otherwise and no route would be the best.
+double edge_cost(const plant::RoutingCost& cost, double length_m, bool turn);
 Status check(const plant::RoutingCost& cost);
 
 }  // namespace pulseline::planning

@@ -107,5 +107,46 @@ TEST(Improvement, AnIdleVehicleInALaneIsSentHomeForAPostponedVisit) {
     EXPECT_EQ(hall.traffic.visits_done(a), 1);
 }
 
+TEST(Improvement, AVehicleThatGaveUpItsWayToRestGoesOnToIt) {
+    Hall hall({"r......r",  //
+               "    r r "});
+    const auto behind = hall.add("D", 0, 0);
+    const auto idle = hall.add("A", 1, 0);
+    const auto rests = hall.add("B", 2, 0);
+    const auto halted = hall.add("H", 5, 0);
+    Task to_rest;
+    to_rest.resting = {hall.floor.place(6, 1)};
+    ASSERT_TRUE(hall.traffic.admit(halted, to_rest, at(0)));
+    to_rest.resting = {hall.floor.place(7, 0)};
+    ASSERT_TRUE(hall.traffic.admit(rests, to_rest, at(0)));
+    hall.traffic.extend(rests, 1, at(0));
+    ASSERT_TRUE(hall.traffic.passed(rests, 1, at(5)));
+    // Everybody waits for H, and A stands without a plan where D was to follow it.
+    to_rest.resting = {hall.floor.place(4, 1)};
+    ASSERT_TRUE(hall.traffic.admit(idle, to_rest, at(5)));
+    Task follows;
+    follows.visits = {{hall.floor.place(3, 0), 10}};
+    follows.resting = {hall.floor.place(0, 0)};
+    ASSERT_TRUE(hall.traffic.admit(behind, follows, at(5)));
+    hall.traffic.halt(halted, at(6));
+    ASSERT_TRUE(hall.traffic.found_at(idle, {Floor::tile(1, 0)}, hall.floor.place(1, 0), at(6)));
+    hall.watch();
+    hall.traffic.improve(at(20), 8);
+    hall.watch();
+    ASSERT_EQ(hall.traffic.plan(rests).last(), hall.traffic.plan(rests).released) << "untangled";
+    EXPECT_TRUE(hall.traffic.postponed(rests));
+
+    hall.now_s = 1000;
+    hall.traffic.resume(halted, at(hall.now_s));
+    for (int i = 0; i < 6; ++i) {
+        hall.now_s += 20;
+        hall.traffic.improve(at(hall.now_s), 4);
+        hall.watch();
+        hall.drive_all();
+    }
+    EXPECT_EQ(hall.place_of(rests), hall.floor.place(7, 0));
+    EXPECT_FALSE(hall.traffic.postponed(rests));
+}
+
 }  // namespace
 }  // namespace pulseline::traffic
