@@ -41,14 +41,14 @@ class Drives {
     }, { timeout_s: 20, every_ms: 50 });
   }
 
-  /** Where the vehicle stands for good: its truth log has not moved for a while of its own clock. */
+  /** Where the vehicle stands for good: at the end of its base, and its truth log has said nothing new for longer than a
+   *  slow machine takes over a picture and then over what it had been sent. */
   async untilStanding() {
     let last, since = 0;
     return until("the vehicle stands", () => {
       const { truth } = this;
-      const same = last && truth.x_m === last.x_m && truth.y_m === last.y_m && truth.heading_rad === last.heading_rad;
-      if (!same) { last = truth; since = Date.now(); }
-      return truth && !truth.moving && Date.now() - since > 400 && truth;
+      if (truth?.t_ms !== last?.t_ms) { last = truth; since = Date.now(); }
+      return truth && !truth.moving && truth.last_node_seq === truth.base_end_seq && Date.now() - since > 1000 && truth;
     }, { timeout_s: 30, every_ms: 20 });
   }
 
