@@ -51,18 +51,22 @@ Json pose_json(const Pose2& pose) {
             {"heading_rad", finite(pose.heading_rad)}};
 }
 
-Json stop_parameters(const StopTarget& target) {
-    Json markers = Json::array();
-    for (const auto& marker : target.markers) {
-        markers.push_back({{"payload", marker.payload},
-                           {"kind", marker.kind},
-                           {"size_m", finite(marker.size_m)},
-                           {"x_m", finite(marker.pose.x_m)},
-                           {"y_m", finite(marker.pose.y_m)},
-                           {"angle_rad", finite(marker.pose.heading_rad)},
-                           {"sigma_m", finite(marker.sigma_m)},
-                           {"sigma_rad", finite(marker.sigma_rad)}});
+Json markers_json(const std::vector<SurveyedMarker>& markers) {
+    Json list = Json::array();
+    for (const auto& marker : markers) {
+        list.push_back({{"payload", marker.payload},
+                        {"kind", marker.kind},
+                        {"size_m", finite(marker.size_m)},
+                        {"x_m", finite(marker.pose.x_m)},
+                        {"y_m", finite(marker.pose.y_m)},
+                        {"angle_rad", finite(marker.pose.heading_rad)},
+                        {"sigma_m", finite(marker.sigma_m)},
+                        {"sigma_rad", finite(marker.sigma_rad)}});
     }
+    return list;
+}
+
+Json stop_parameters(const StopTarget& target) {
     return {{"stationId", target.station_id},
             {"stationNumber", target.station_number},
             {"target", pose_json(target.target)},
@@ -70,12 +74,28 @@ Json stop_parameters(const StopTarget& target) {
              {{"x_m", finite(target.tolerance_x_m)},
               {"y_m", finite(target.tolerance_y_m)},
               {"heading_rad", finite(target.tolerance_heading_rad)}}},
-            {"markers", std::move(markers)}};
+            {"markers", markers_json(target.markers)}};
 }
 
 Pose2 read_pose(json::ObjectReader& in, const char* heading = "heading_rad") {
     return {in.number("x_m", limits::kPlace_m), in.number("y_m", limits::kPlace_m),
             in.number(heading, limits::kAngle_rad)};
+}
+
+std::vector<SurveyedMarker> read_markers(json::ObjectReader& in, json::CountLimits count) {
+    std::vector<SurveyedMarker> markers;
+    in.items("markers", count, [&](const Json& item, const std::string& pointer) {
+        json::ObjectReader marker(item, pointer, in.errors());
+        SurveyedMarker read;
+        read.payload = marker.text("payload", {1, 200});
+        read.kind = marker.text("kind", {1, 64});
+        read.size_m = marker.number("size_m", {1e-3, 10});
+        read.pose = read_pose(marker, "angle_rad");
+        read.sigma_m = marker.number_or("sigma_m", 0, limits::kSigma_m);
+        read.sigma_rad = marker.number_or("sigma_rad", 0, limits::kSigma_rad);
+        markers.push_back(std::move(read));
+    });
+    return markers;
 }
 
 StopTarget read_stop(json::ObjectReader& in) {
@@ -88,17 +108,7 @@ StopTarget read_stop(json::ObjectReader& in) {
     target.tolerance_x_m = tolerance.number("x_m", limits::kSigma_m);
     target.tolerance_y_m = tolerance.number("y_m", limits::kSigma_m);
     target.tolerance_heading_rad = tolerance.number("heading_rad", limits::kSigma_rad);
-    in.items("markers", {0, 64}, [&](const Json& item, const std::string& pointer) {
-        json::ObjectReader marker(item, pointer, in.errors());
-        StopTarget::SurveyedMarker read;
-        read.payload = marker.text("payload", {1, 200});
-        read.kind = marker.text("kind", {1, 64});
-        read.size_m = marker.number("size_m", {1e-3, 10});
-        read.pose = read_pose(marker, "angle_rad");
-        read.sigma_m = marker.number_or("sigma_m", 0, limits::kSigma_m);
-        read.sigma_rad = marker.number_or("sigma_rad", 0, limits::kSigma_rad);
-        target.markers.push_back(std::move(read));
-    });
+    target.markers = read_markers(in, {0, 64});
     return target;
 }
 
@@ -163,6 +173,7 @@ Json encode_action(const Action& action) {
     }
     if (action.stop_target) object.update(stop_parameters(*action.stop_target));
     if (action.init_position) object.update(init_parameters(*action.init_position));
+    if (!action.markers.empty()) object["markers"] = markers_json(action.markers);
     Json parameters = Json::array();
     for (const auto& [key, value] : object.items()) {
         parameters.push_back({{"key", key}, {"value", value}});
@@ -186,6 +197,8 @@ Action decode_action(const Json& value, const std::string& pointer, json::FieldE
         action.stop_target = read_stop(read);
     } else if (action.type == kInitPosition) {
         action.init_position = read_init_position(read);
+    } else if (action.type == kObserveMarkers) {
+        action.markers = read_markers(read, {1, 64});
     } else {
         action.params = plain_parameters(read, parameters.object());
     }

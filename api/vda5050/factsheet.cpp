@@ -38,6 +38,7 @@ Json parameters_of(const std::string& action) {
                             parameter("theta", "NUMBER"), parameter("mapId", "STRING"),
                             parameter("lastNodeId", "STRING", true)});
     }
+    if (action == kObserveMarkers) return Json::array({parameter("markers", "ARRAY")});
     if (action == kSetBracketHeight) {
         return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER")});
     }
@@ -46,8 +47,10 @@ Json parameters_of(const std::string& action) {
 
 Json encode_actions(const FactsheetSource& source) {
     std::vector<std::string> types = source.instant_actions;
-    for (const auto& type : source.node_actions) {
-        if (std::find(types.begin(), types.end(), type) == types.end()) types.push_back(type);
+    for (const auto* more : {&source.node_actions, &source.edge_actions}) {
+        for (const auto& type : *more) {
+            if (std::find(types.begin(), types.end(), type) == types.end()) types.push_back(type);
+        }
     }
     Json list = Json::array();
     for (const auto& type : types) {
@@ -57,6 +60,7 @@ Json encode_actions(const FactsheetSource& source) {
         Json scopes = Json::array();
         if (in(source.instant_actions)) scopes.push_back("INSTANT");
         if (in(source.node_actions)) scopes.push_back("NODE");
+        if (in(source.edge_actions)) scopes.push_back("EDGE");
         // blockingTypes is left out: its schema asks for a list that is a single word.
         list.push_back({{"actionType", type},
                         {"actionScopes", std::move(scopes)},

@@ -14,6 +14,7 @@ struct FactsheetSource {
     const plant::VehicleType* type = nullptr;
     double time_factor = 1;  // speeds times it, accelerations times its square
     std::vector<std::string> node_actions;
+    std::vector<std::string> edge_actions;
     std::vector<std::string> instant_actions;
     double min_state_interval_s = 0.05;
     double state_interval_s = 1;

@@ -40,7 +40,7 @@ Json encode_node(const OrderNode& node) {
 Json encode_edge(const OrderEdge& edge, const OrderNode& from, const OrderNode& to) {
     Json out{{"edgeId", edge.edge_id},    {"sequenceId", edge.sequence_id},
              {"released", edge.released}, {"startNodeId", from.node_id},
-             {"endNodeId", to.node_id},   {"actions", Json::array()}};
+             {"endNodeId", to.node_id},   {"actions", encode_actions(edge.actions)}};
     if (edge.max_speed_mps > 0) out["maxSpeed"] = finite(edge.max_speed_mps);
     if (edge.corridor) {
         out["corridor"] = {{"leftWidth", finite(edge.corridor->left_m)},
@@ -93,9 +93,11 @@ OrderEdge decode_edge(const Json& value, const std::string& pointer, const Order
     edge.released = in.boolean("released");
     edge.max_speed_mps = in.number_or("maxSpeed", 0, limits::kSpeed_mps);
     edge.corridor = decode_corridor(in);
-    in.items("actions", {0, 100}, [&](const Json&, const std::string& at) {
+    in.items("actions", {0, 100}, [&](const Json& item, const std::string& at) {
+        edge.actions.push_back(decode_action(item, at, errors));
+        if (edge.actions.back().type == kObserveMarkers) return;
         errors.add(at, {"action_not_supported", {}},
-                   "actions on edges are not supported; put them on a node");
+                   "observeMarkers is the only action on an edge; put others on a node");
     });
     if (errors.empty()) edge.segment = decode_motion(in, from, to);
     return edge;

@@ -36,9 +36,9 @@ void PoseFilter::drive(const Odometry& odometry, const OdometryNoise& noise) {
     Eigen::Matrix3d g;
     g << c, -s, -dy / 2, s, c, dx / 2, 0, 0, 1;
     const double way = std::hypot(odometry.forward_m, odometry.left_m);
-    const double step2 = square(noise.sigma_per_m * way) + square(noise.sigma_floor_m);
-    const double turn2 = square(noise.sigma_turn_per_rad * odometry.turn_rad) +
-                         square(noise.sigma_turn_per_m * way) + square(noise.sigma_floor_rad);
+    const double step2 = square(noise.sigma_m_per_sqrt_m) * way;
+    const double turn2 = square(noise.sigma_rad_per_sqrt_rad) * std::abs(odometry.turn_rad) +
+                         square(noise.sigma_rad_per_sqrt_m) * way;
     const Eigen::Matrix3d q = Eigen::Vector3d(step2, step2, turn2).asDiagonal();
     covariance_ = f * covariance_ * f.transpose() + g * q * g.transpose();
     pose_ = {pose_.x_m + dx, pose_.y_m + dy, wrap(pose_.heading_rad + odometry.turn_rad)};

@@ -177,6 +177,11 @@ const std::vector<std::string>& stop_action_types() {
     return types;
 }
 
+const std::vector<std::string>& edge_action_types() {
+    static const std::vector<std::string> types{vda5050::kObserveMarkers};
+    return types;
+}
+
 const std::vector<std::string>& instant_action_types() {
     static const std::vector<std::string> types{
         vda5050::kCancelOrder,    vda5050::kStartPause,       vda5050::kStopPause,

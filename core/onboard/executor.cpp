@@ -85,9 +85,11 @@ void Executor::start_order(const vda5050::OrderMessage& order) {
 void Executor::extend_order(const vda5050::OrderMessage& order) {
     order_update_id_ = order.order_update_id;
     errors_.clear();
-    for (const auto& node : way_.drop_horizon()) {
-        for (const auto& action : node.actions) {
-            std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
+    for (const auto& hop : way_.drop_horizon()) {
+        for (const auto* actions : {&hop.node.actions, &hop.on_edge}) {
+            for (const auto& action : *actions) {
+                std::erase_if(order_actions_, [&](const auto& s) { return s.id == action.id; });
+            }
         }
     }
     append(order);
@@ -99,6 +101,9 @@ void Executor::append(const vda5050::OrderMessage& order) {
     for (std::size_t i = 1; i < order.nodes.size(); ++i) {
         const auto& node = order.nodes[i];
         way_.append(order.edges[i - 1], node);
+        for (const auto& action : order.edges[i - 1].actions) {
+            add_action(action, ActionStatus::kWaiting);
+        }
         for (const auto& action : node.actions) add_action(action, ActionStatus::kWaiting);
         if (node.released) base_end_ = {node.node_id, node.sequence_id, true};
     }
@@ -128,7 +133,17 @@ void Executor::step(double dt_s) {
 }
 
 void Executor::take_traversals() {
-    for (const auto& node : way_.take_passed()) traverse(node);
+    for (const auto& hop : way_.take_passed()) {
+        for (const auto& action : hop.on_edge) set_action(action.id, ActionStatus::kFinished);
+        traverse(hop.node);
+    }
+    if (way_.empty() || motion_.standing()) return;
+    for (const auto& action : way_.edges().front().actions) {
+        const ActionState* state = find_action(action.id);
+        if (state && state->status == ActionStatus::kWaiting) {
+            set_action(action.id, ActionStatus::kRunning);
+        }
+    }
 }
 
 void Executor::queue_edges() {

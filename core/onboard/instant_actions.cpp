@@ -121,7 +121,8 @@ void Executor::cancel_order(const Action& action) {
 
 void Executor::abort_actions(const char* why) {
     for (auto& state : order_actions_) {
-        if (state.status != ActionStatus::kWaiting) continue;
+        const bool on_edge = state.type == vda5050::kObserveMarkers && !is_final(state.status);
+        if (state.status != ActionStatus::kWaiting && !on_edge) continue;
         state.status = ActionStatus::kFailed;
         state.result_description = why;
     }

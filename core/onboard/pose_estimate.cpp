@@ -7,7 +7,7 @@ namespace {
 
 using geometry::Pose2;
 
-// The filter's noise is that of steps of this size at least.
+// Shorter ways wait for the next one: most of the time nobody asks.
 constexpr double kStep_m = 0.1;
 constexpr double kStep_rad = 0.01;
 // A person looks where the vehicle stands, and points at it on the map.
@@ -32,9 +32,11 @@ Eigen::Matrix3d covariance_of(const localisation::PoseFix& fix) {
 
 }  // namespace
 
-PoseEstimate::PoseEstimate(const Pose2& start) : filter_(start, told()), driven_(start) {}
+PoseEstimate::PoseEstimate(const Pose2& start)
+    : filter_(start, told()), driven_(start), now_(start) {}
 
 void PoseEstimate::drive_to(const Pose2& believed) {
+    now_ = believed;
     const Pose2 way = inverse(driven_) * believed;
     if (norm(way.position()) < kStep_m && std::abs(way.heading_rad) < kStep_rad) return;
     filter_.drive({way.x_m, way.y_m, way.heading_rad});
@@ -43,12 +45,25 @@ void PoseEstimate::drive_to(const Pose2& believed) {
 
 void PoseEstimate::take(const localisation::PoseFix& fix) {
     if (!filter_.correct(fix)) filter_ = localisation::PoseFilter(fix.pose, covariance_of(fix));
-    driven_ = fix.pose;
+    driven_ = now_ = fix.pose;
+}
+
+Status PoseEstimate::see(const localisation::CodeObservation& seen,
+                         const localisation::SurveyedCode& code) {
+    const Pose2 way = inverse(driven_) * now_;
+    filter_.drive({way.x_m, way.y_m, way.heading_rad});
+    driven_ = now_;
+    return filter_.correct(seen, code);
+}
+
+void PoseEstimate::led_to(const Pose2& believed) {
+    driven_ = believed * (inverse(now_) * driven_);
+    now_ = believed;
 }
 
 void PoseEstimate::start_at(const Pose2& pose) {
     filter_ = localisation::PoseFilter(pose, told());
-    driven_ = pose;
+    driven_ = now_ = pose;
 }
 
 double PoseEstimate::score() const {

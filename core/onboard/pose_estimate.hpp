@@ -12,12 +12,19 @@ public:
 
     /// The wheels say that it drove on to here.
     void drive_to(const geometry::Pose2& believed);
+    /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
+    /// the pose alone, when it contradicts the way driven.
+    Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
+    /// Without a motion, the drive believes to be here from now on.
+    void led_to(const geometry::Pose2& believed);
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
     /// seen, but as a new beginning: the vehicle was moved by hand, or its wheels slipped.
     void take(const localisation::PoseFix& fix);
     /// A person said where it stands.
     void start_at(const geometry::Pose2& pose);
 
+    /// Where it is now; the drive may believe something else until it was led there.
+    geometry::Pose2 pose() const { return filter_.pose() * (inverse(driven_) * now_); }
     double sigma_xy_m() const { return filter_.sigma_xy_m(); }
     double sigma_heading_rad() const { return filter_.sigma_heading_rad(); }
     /// VDA 5050 localizationScore, against the tolerance of a usual station.
@@ -25,7 +32,8 @@ public:
 
 private:
     localisation::PoseFilter filter_;
-    geometry::Pose2 driven_;  // as far as the filter has followed
+    geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
+    geometry::Pose2 now_;     // by the drive's belief
 };
 
 }  // namespace pulseline::onboard

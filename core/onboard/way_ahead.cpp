@@ -32,10 +32,10 @@ void WayAhead::append(const vda5050::OrderEdge& edge, const vda5050::OrderNode& 
     nodes_.push_back(node);
 }
 
-std::vector<vda5050::OrderNode> WayAhead::drop_horizon() {
-    std::vector<vda5050::OrderNode> dropped;
+std::vector<WayAhead::Hop> WayAhead::drop_horizon() {
+    std::vector<Hop> dropped;
     while (has_horizon()) {
-        dropped.push_back(std::move(nodes_.back()));
+        dropped.push_back({std::move(nodes_.back()), std::move(edges_.back().actions)});
         nodes_.pop_back();
         edges_.pop_back();
     }
@@ -64,11 +64,11 @@ void WayAhead::hand_over() {
     }
 }
 
-std::vector<vda5050::OrderNode> WayAhead::take_passed() {
-    std::vector<vda5050::OrderNode> passed;
+std::vector<WayAhead::Hop> WayAhead::take_passed() {
+    std::vector<Hop> passed;
     for (; segments_seen_ < drive_.segments_done(); ++segments_seen_) {
         for (std::size_t left = passing_.front(); left > 0; --left) {
-            passed.push_back(std::move(nodes_.front()));
+            passed.push_back({std::move(nodes_.front()), std::move(edges_.front().actions)});
             nodes_.pop_front();
             edges_.pop_front();
             --handed_edges_;

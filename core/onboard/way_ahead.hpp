@@ -15,11 +15,17 @@ namespace pulseline::onboard {
 /// Thread safety: none. `drive` must outlive it.
 class WayAhead {
 public:
+    /// A node, and what was to be done on the edge that leads to it.
+    struct Hop {
+        vda5050::OrderNode node;
+        std::vector<vda5050::Action> on_edge;
+    };
+
     explicit WayAhead(Drive& drive) : drive_(drive) { skip(); }
 
     void append(const vda5050::OrderEdge& edge, const vda5050::OrderNode& node);
     /// Takes the nodes that are not released away, with the edges to them.
-    std::vector<vda5050::OrderNode> drop_horizon();
+    std::vector<Hop> drop_horizon();
     /// Forgets everything, and what the drive has of it. REQUIRES: the drive stands.
     void clear();
     /// What the drive has done meanwhile was for somebody else.
@@ -27,8 +33,8 @@ public:
 
     /// Hands the drive all released edges up to the next node where it has to stop for actions.
     void hand_over();
-    /// The nodes passed since the last call.
-    std::vector<vda5050::OrderNode> take_passed();
+    /// The nodes passed since the last call, with the edges to them.
+    std::vector<Hop> take_passed();
 
     bool empty() const { return nodes_.empty(); }
     bool has_horizon() const { return !nodes_.empty() && !nodes_.back().released; }

@@ -16,6 +16,16 @@ namespace pulseline::vda5050 {
 
 using geometry::Pose2;
 
+/// A code on the floor as the server's survey has it.
+struct SurveyedMarker {
+    std::string payload;
+    std::string kind;  // "qr"
+    double size_m = 0;
+    Pose2 pose;  // heading: VDA-side name angle_rad
+    double sigma_m = 0;
+    double sigma_rad = 0;  // of its direction
+};
+
 /// What a stop must be measured against; the server owns the survey.
 struct StopTarget {
     std::string station_id;
@@ -24,14 +34,6 @@ struct StopTarget {
     double tolerance_x_m = 0;
     double tolerance_y_m = 0;
     double tolerance_heading_rad = 0;
-    struct SurveyedMarker {
-        std::string payload;
-        std::string kind;  // "qr"
-        double size_m = 0;
-        Pose2 pose;  // heading: VDA-side name angle_rad
-        double sigma_m = 0;
-        double sigma_rad = 0;  // of its direction
-    };
     std::vector<SurveyedMarker> markers;
 };
 
@@ -51,6 +53,7 @@ struct Action {
     std::optional<StopTarget> stop_target;      // measureStop, adjustToMarker
     std::optional<InitPosition> init_position;  // initPosition
     Params params;                              // any further plain parameters
+    std::vector<SurveyedMarker> markers = {};   // observeMarkers: codes that the cameras pass over
 };
 
 struct OrderNode {
@@ -76,6 +79,9 @@ struct OrderEdge {
     double max_speed_mps = 0;  // 0: vehicle's own limit
     /// Room to go round something, on straight edges; none: the vehicle keeps to its path.
     std::optional<plant::Corridor> corridor = {};
+    /// While it is driven: observeMarkers only. Made when the order is sent, of the survey as it is
+    /// then; a stored leg has none.
+    std::vector<Action> actions = {};
 };
 
 struct OrderMessage {

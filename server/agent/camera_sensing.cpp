@@ -14,6 +14,30 @@ using simulation::FloorCode;
 
 constexpr double kAround_m = 20;      // farther codes are no camera's business
 constexpr std::size_t kQrBytes = 11;  // of a version 1 symbol, level Q
+// Under way: a flash lights the floor, pictures are taken 30 times a second, read within the time
+// that bench_vision measures and a bus adds, and stamped by a clock that is not the wheels'.
+constexpr double kFrame_s = 1.0 / 30;
+constexpr double kExposure_s = 2e-4;
+constexpr double kReadSoonest_s = 0.02;
+constexpr double kReadLatest_s = 0.08;
+constexpr double kClockSigma_s = 5e-4;
+// Nothing is exposed for a code that would be cut by more than this at the picture's border.
+constexpr double kBeside_m = 0.01;
+
+/// How far from a camera's foot a code's middle may lie to be seen.
+double view_m(const plant::Camera& camera, double size_m) {
+    return (std::min(camera.width_px, camera.height_px) / vision::pixels_per_metre(camera) -
+            size_m) /
+           2;
+}
+
+/// Of a point of the body, in the body frame and the vehicle's own time.
+geometry::Point2 velocity_at(const onboard::Drive& drive, geometry::Point2 point) {
+    const kinematics::Twist twist = drive.twist();
+    const double share = 1 / drive.time_factor();
+    return {share * (twist.vx_mps - twist.turn_radps * point.y_m),
+            share * (twist.vy_mps + twist.turn_radps * point.x_m)};
+}
 
 }  // namespace
 
@@ -88,6 +112,61 @@ Result<vda5050::StopMeasurement> CameraSensing::measure(const vda5050::StopTarge
     fix_ = *fix;
     return vda5050::StopMeasurement{fix->pose, fix->sigma_xy_m, fix->sigma_heading_rad,
                                     localisation::to_string(fix->method), fix->payloads};
+}
+
+std::vector<onboard::WayReading> CameraSensing::look_below(
+    std::span<const vda5050::SurveyedMarker> expected, const geometry::Pose2& hall_from_body,
+    double own_s) {
+    for (OnTheWay& reading : on_the_way_) reading.reading.age_s += own_s;
+    until_frame_s_ -= own_s;
+    if (until_frame_s_ <= 0 && !expected.empty()) {
+        until_frame_s_ = kFrame_s;
+        const auto& cameras = motion_.type().cameras;
+        for (std::size_t i = 0; i < cameras.size(); ++i) {
+            const auto foot = hall_from_body * cameras[i].body_from_camera.position();
+            const auto off_m = [&](const vda5050::SurveyedMarker& marker) {
+                return distance(foot, marker.pose.position());
+            };
+            const auto& nearest = *std::ranges::min_element(expected, {}, off_m);
+            const double within_m = view_m(cameras[i], nearest.size_m) + kBeside_m;
+            if (off_m(nearest) <= within_m) expose(i, nearest, hall_from_body);
+        }
+    }
+    std::vector<onboard::WayReading> ready;
+    std::erase_if(on_the_way_, [&](OnTheWay& reading) {
+        if (reading.reading.age_s < reading.ready_s) return false;
+        ready.push_back(std::move(reading.reading));
+        return true;
+    });
+    return ready;
+}
+
+void CameraSensing::expose(std::size_t camera, const vda5050::SurveyedMarker& marker,
+                           const geometry::Pose2& hall_from_body) {
+    const auto kind = plant::parse_marker_kind(marker.kind);
+    if (!kind) return;
+    const plant::Camera& calibrated = motion_.type().cameras[camera];
+    const auto velocity = velocity_at(motion_, calibrated.body_from_camera.position());
+    simulation::SensingOptions options = options_;
+    options.dark = dark_;
+    options.known = simulation::KnownFloor{hall_from_body, {{marker.pose, {*kind, marker.size_m}}}};
+    options.smear_m =
+        geometry::Pose2{0, 0, -calibrated.body_from_camera.heading_rad} * (kExposure_s * velocity);
+    const auto codes = codes_around();
+    const auto view =
+        simulation::sense_stop(std::span(&actual_[camera], 1), std::span(&calibrated, 1),
+                               motion_.true_pose(), codes, options, random_);
+    const auto& seen = view.readings.front();
+    if (!seen.found || seen.payload != marker.payload) return;
+    std::normal_distribution<double> clock(0, kClockSigma_s);
+    const double smear_m = norm(velocity) * std::hypot(kExposure_s, kClockSigma_s);
+    OnTheWay read;
+    read.reading.marker = marker;
+    read.reading.seen = {seen.payload, seen.code, seen.angle_rad, std::hypot(seen.sigma_m, smear_m),
+                         localisation::code_sigma_rad(options_.errors, 0)};
+    read.reading.age_s = clock(random_);
+    read.ready_s = std::uniform_real_distribution<double>(kReadSoonest_s, kReadLatest_s)(random_);
+    on_the_way_.push_back(std::move(read));
 }
 
 std::vector<CameraSensing::Picture> CameraSensing::pictures() const {

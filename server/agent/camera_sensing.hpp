@@ -10,6 +10,7 @@
 #include "core/localisation/dual_camera.hpp"
 #include "core/onboard/stop_procedure.hpp"
 #include "core/onboard/stop_sensing.hpp"
+#include "core/onboard/way_sensing.hpp"
 #include "core/simulation/machine/simulated_drive.hpp"
 #include "core/simulation/world/stop_sensor.hpp"
 #include "core/simulation/world/world.hpp"
@@ -19,7 +20,7 @@ namespace pulseline::agent {
 
 /// The simulated cameras of one vehicle: what they see of the true codes, and the pose computed
 /// from it with the survey that an order brings.
-class CameraSensing : public onboard::StopSensing {
+class CameraSensing : public onboard::StopSensing, public onboard::WaySensing {
 public:
     struct Picture {
         std::string camera;
@@ -33,6 +34,9 @@ public:
                   bool loaded = false);
 
     Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override;
+    std::vector<onboard::WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
+                                                const geometry::Pose2& hall_from_body,
+                                                double own_s) override;
     /// Takes new images and reads them.
     void look();
     const std::vector<vda5050::CameraReading>& readings() const { return readings_; }
@@ -52,6 +56,8 @@ public:
 private:
     std::vector<simulation::FloorCode> codes_around() const;
     void look_expecting(std::optional<simulation::KnownFloor> known);
+    void expose(std::size_t camera, const vda5050::SurveyedMarker& marker,
+                const geometry::Pose2& hall_from_body);
 
     const simulation::World& world_;
     plant::HallId hall_;
@@ -64,6 +70,12 @@ private:
     std::vector<cv::Mat> images_;
     std::vector<double> sizes_m_;  // of the codes looked for in them
     std::optional<localisation::PoseFix> fix_;
+    struct OnTheWay {
+        onboard::WayReading reading;
+        double ready_s = 0;  // age at which the vehicle's program gets it
+    };
+    std::vector<OnTheWay> on_the_way_;  // exposed, not yet read
+    double until_frame_s_ = 0;
     bool fresh_ = false;
     bool covered_ = false;
     bool dark_ = false;

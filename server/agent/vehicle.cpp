@@ -97,6 +97,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
       estimate_(geometry::Pose2{}),
+      watch_(sensing_, *drive_, estimate_),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
@@ -111,25 +112,10 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
 
 void Vehicle::step(double dt_s, Steady::time_point now) {
     apply_faults(dt_s);
-    // It looks out and is steered by steps of its own time, however fast that runs.
-    const int parts = std::max(
-        1, static_cast<int>(std::ceil(dt_s * settings_.time_factor / kOwnStep_s - kRounding)));
-    for (int i = 0; i < parts; ++i) {
-        // Whoever drives it by hand looks out.
-        if (look_out_ && !executor_.in_hand()) {
-            look_out_->step(dt_s / parts);
-            going_round_->step(dt_s / parts);
-        }
-        executor_.step(dt_s / parts);
-    }
+    drive(dt_s);
     keep_learned();
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
-    if (const auto fix = sensing_.take_fix()) {
-        estimate_.take(*fix);
-    } else {
-        estimate_.drive_to(drive_->believed_pose());
-    }
     if (!drive_->standing()) stood_since_ = now;
     write_truth(now);
     if (sensing_.take_fresh()) {
@@ -149,6 +135,35 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
         send_visualization();
     }
     if (pictures_due_ && now - last_pictures_ >= kPictureInterval) send_pictures(now);
+}
+
+/// It looks out and is steered by steps of its own time, however fast that runs.
+void Vehicle::drive(double dt_s) {
+    for (double left_s = dt_s; left_s > 0;) {
+        const double most_s =
+            watch_.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kOwnStep_s;
+        const double parts = std::ceil(left_s * settings_.time_factor / most_s - kRounding);
+        const double part_s = parts > 1 ? left_s / parts : left_s;
+        // Whoever drives it by hand looks out.
+        if (look_out_ && !executor_.in_hand()) {
+            look_out_->step(part_s);
+            going_round_->step(part_s);
+        }
+        executor_.step(part_s);
+        know_pose(part_s);
+        left_s = parts > 1 ? left_s - part_s : 0;
+    }
+}
+
+void Vehicle::know_pose(double dt_s) {
+    if (const auto fix = sensing_.take_fix()) {
+        estimate_.take(*fix);
+    } else {
+        estimate_.drive_to(drive_->believed_pose());
+    }
+    static const std::deque<vda5050::OrderEdge> kNone;
+    const bool on_way = !executor_.acting() && !executor_.in_hand();
+    watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
 }
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {

@@ -11,6 +11,7 @@
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
 #include "core/onboard/look_out.hpp"
+#include "core/onboard/marker_watch.hpp"
 #include "core/onboard/pose_estimate.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
@@ -84,6 +85,8 @@ private:
     void send_state(Steady::time_point now);
     void send_visualization();
     void send_pictures(Steady::time_point now);
+    void drive(double dt_s);
+    void know_pose(double dt_s);
     void look_while_standing(Steady::time_point now);
     void apply_faults(double dt_s);
     void apply(const Fault& fault);
@@ -105,6 +108,7 @@ private:
     std::optional<onboard::LookOut> look_out_;        // with scanners
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
+    onboard::MarkerWatch watch_;
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;

@@ -88,6 +88,7 @@ void Vehicle::send_factsheet() {
     source.node_actions = onboard::stop_action_types();
     source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
                                equipment_.action_types().end());
+    source.edge_actions = onboard::edge_action_types();
     source.instant_actions = onboard::instant_action_types();
     put_whole([&] {
         outbox_.put_event(vda5050::encode_frame(

@@ -37,6 +37,17 @@ for (const [id, { kind, stations }] of Object.entries(VEHICLES)) {
   });
 }
 
+test("DL-01 comes round the hall by the codes that it passes: 250 m, and each stop is in view where the drive ends", async () => {
+  const order = await client.order("DL-01", [37, 34]);
+  assert.equal((await client.untilEnded(order.id, 240)).state, "Ended");
+  const stops = (await client.stops(order.id)).filter((stop) => stop.attempt === 1);
+  assert.deepEqual(stops.map((stop) => stop.number), [37, 34]);
+  for (const { number, arrival } of stops) {
+    assert.ok(arrival, `station ${number}: its code was not in view where the drive ended`);
+    assert.ok(Math.hypot(arrival.dx_m, arrival.dy_m) <= 20 * MM, `station ${number}: the drive ended ${arrival.dx_m / MM}, ${arrival.dy_m / MM} mm off`);
+  }
+});
+
 test("MV-01 drives a free manoeuvre, planned beside the fleet, to a measured stop", async () => {
   const order = await client.order("MV-01", [{ station: 13, motion_mode: "free" }]);
   assert.equal((await client.untilEnded(order.id, 150)).state, "Ended");

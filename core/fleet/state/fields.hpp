@@ -76,14 +76,25 @@ PULSELINE_FIELDS(Tolerance, shape, dx_m, dy_m, dheading_rad)
 }  // namespace plant
 
 namespace vda5050 {
-PULSELINE_FIELDS(StopTarget::SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
+PULSELINE_FIELDS(SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
 PULSELINE_FIELDS(StopTarget, station_id, station_number, target, tolerance_x_m, tolerance_y_m,
                  tolerance_heading_rad, markers)
 PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id)
-PULSELINE_FIELDS(Action, type, id, blocking, stop_target, init_position, params)
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, Action>
+void fields(V& visit, S& it) {
+    auto& [type, id, blocking, stop_target, init_position, params, markers] = it;
+    visit(type, id, blocking, stop_target, init_position, params);
+}
 PULSELINE_FIELDS(OrderNode, node_id, sequence_id, released, pose, has_heading,
                  allowed_deviation_xy_m, allowed_deviation_theta_rad, map_id, actions)
-PULSELINE_FIELDS(OrderEdge, edge_id, sequence_id, released, segment, max_speed_mps, corridor)
+// What an edge asks for is made anew whenever an order is sent, and nothing else has such markers.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, OrderEdge>
+void fields(V& visit, S& it) {
+    auto& [edge_id, sequence_id, released, segment, max_speed_mps, corridor, actions] = it;
+    visit(edge_id, sequence_id, released, segment, max_speed_mps, corridor);
+}
 PULSELINE_FIELDS(OrderMessage, order_id, order_update_id, nodes, edges)
 PULSELINE_FIELDS(InstantActionsMessage, actions)
 PULSELINE_FIELDS(StopMeasurement, pose, sigma_xy_m, sigma_heading_rad, method, markers, arrived)

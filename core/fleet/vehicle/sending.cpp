@@ -8,6 +8,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/markers_under_way.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -28,6 +29,7 @@ void send_order_update(FleetState& fleet, LiveVehicle& live, std::size_t from, T
     const auto offset = static_cast<std::ptrdiff_t>(from);
     message.nodes.assign(leg.nodes.begin() + offset, leg.nodes.end());
     message.edges.assign(leg.edges.begin() + offset, leg.edges.end());
+    observe_markers(fleet, live, leg.hall, message);
     fleet.out.messages.push_back({live.record.id, std::move(message), std::nullopt});
     live.delivery.sent(from, live.connected, now);
 }

@@ -38,6 +38,9 @@ const KnownCode* code_below(const plant::Camera& camera, const std::optional<Kno
     return nearest == known->codes.end() ? nullptr : &*nearest;
 }
 
+// Of the readers on smeared pictures (core/vision/README.md, level hard).
+constexpr double kMostSmear_px = 6;
+
 /// What a reader that looks for codes of that kind and size would not take.
 const char* refused(const vision::MarkerReading& seen, const plant::UsualCode& look) {
     if (seen.kind != look.kind) return "no_code";
@@ -90,6 +93,7 @@ StopView sense_stop(std::span<const plant::Camera> actual,
         const KnownCode* expected = code_below(calibrated[i], options.known);
         const plant::UsualCode look = expected ? expected->look : options.look;
         view.sizes_m.push_back(look.size_m);
+        const double smear_px = norm(options.smear_m) * vision::pixels_per_metre(actual[i]);
         const auto found = [&](const vision::MarkerReading& reading) {
             view.readings.push_back(camera_reading(calibrated[i], reading, options));
         };
@@ -97,9 +101,12 @@ StopView sense_stop(std::span<const plant::Camera> actual,
             view.readings.push_back(not_found(calibrated[i], why));
         };
         if (options.mode == Sensing::kAnalytic) {
-            const auto seen = options.dark
-                                  ? std::nullopt
-                                  : analytic_reading(actual[i], hall_from_body, in_reach, random);
+            const bool blind = options.dark || smear_px > kMostSmear_px;
+            ReadingErrors errors;
+            errors.sigma_px *= 1 + smear_px;
+            const auto seen =
+                blind ? std::nullopt
+                      : analytic_reading(actual[i], hall_from_body, in_reach, random, errors);
             const auto read =
                 seen ? std::optional(reinterpreted(*seen, actual[i], calibrated[i])) : std::nullopt;
             const char* why_not = read ? refused(*read, look) : "no_code";
@@ -108,6 +115,8 @@ StopView sense_stop(std::span<const plant::Camera> actual,
         }
         auto conditions = ImageConditions::nominal(random);
         if (options.dark) conditions.exposure = 0;
+        conditions.motion_blur_px = smear_px;
+        conditions.motion_direction_rad = std::atan2(-options.smear_m.y_m, options.smear_m.x_m);
         view.images.push_back(render_floor(actual[i], hall_from_body, in_reach, conditions));
         vision::ReaderOptions reader;
         reader.size_m = look.size_m;

@@ -37,6 +37,8 @@ struct SensingOptions {
     plant::UsualCode look = {};
     std::optional<KnownFloor> known = {};
     bool dark = false;  // no light below the vehicle
+    /// Way of the camera over the floor during the exposure, in its frame: it smears the picture.
+    geometry::Point2 smear_m = {};
 };
 
 struct StopView {
@@ -45,7 +47,7 @@ struct StopView {
     std::vector<double> sizes_m;                   // of the codes looked for, one per camera
 };
 
-/// What the cameras of a vehicle standing at the true pose see of the true codes. `actual` cameras
+/// What the cameras of a vehicle at the true pose see of the true codes. `actual` cameras
 /// make the images, `calibrated` ones (what the vehicle believes; same order and size) interpret
 /// them. Light, dirt and noise are nominal, drawn from `random`.
 StopView sense_stop(std::span<const plant::Camera> actual,

@@ -25,6 +25,7 @@ std::string factsheet_text() {
     source.type = &type;
     source.time_factor = 10;
     source.node_actions = {"measureStop", "adjustToMarker"};
+    source.edge_actions = {"observeMarkers"};
     source.instant_actions = {"cancelOrder", "initPosition", "measureStop"};
     return encode_factsheet(source, header());
 }
@@ -58,6 +59,29 @@ TEST(Order, RoundTripKeepsNodesAndActions) {
     ASSERT_EQ(action.stop_target->markers.size(), 2u);
     EXPECT_EQ(action.stop_target->markers[1].pose, expected.markers[1].pose);
     EXPECT_EQ(action.stop_target->markers[1].sigma_rad, expected.markers[1].sigma_rad);
+}
+
+TEST(Order, AnEdgeMayAskToObserveMarkersAndForNothingElse) {
+    auto message = parsed(encode_order(testing::order(), header()));
+    const auto read = decode_order(message);
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->edges[0].actions.size(), 1u);
+    const auto& action = read->edges[0].actions[0];
+    const auto expected = testing::order().edges[0].actions[0];
+    EXPECT_EQ(action.type, "observeMarkers");
+    EXPECT_EQ(action.id, expected.id);
+    EXPECT_EQ(action.blocking, BlockingType::kNone);
+    ASSERT_EQ(action.markers.size(), expected.markers.size());
+    EXPECT_EQ(action.markers[1].payload, expected.markers[1].payload);
+    EXPECT_EQ(action.markers[1].pose, expected.markers[1].pose);
+    EXPECT_EQ(action.markers[1].sigma_rad, expected.markers[1].sigma_rad);
+    EXPECT_TRUE(read->edges[1].actions.empty());
+
+    message["edges"][0]["actions"][0]["actionType"] = "beep";
+    const auto refused = decode_order(message);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().reason.code, "action_not_supported");
+    EXPECT_EQ(refused.error().field, "/edges/0/actions/0");
 }
 
 TEST(Order, ACorridorOfTheCentreAloneIsNone) {
@@ -246,7 +270,9 @@ TEST(Others, VisualizationConnectionAndFactsheetRoundTrip) {
     EXPECT_EQ(factsheet->speed_max_mps, 5);
     EXPECT_EQ(factsheet->acceleration_max_mps2, 10);
     EXPECT_EQ(factsheet->length_m, 10.5);
-    EXPECT_EQ(factsheet->actions.size(), 4u);
+    EXPECT_EQ(factsheet->actions.size(), 5u);
+    // What only an edge may ask for is no step's action.
+    EXPECT_EQ(factsheet->node_actions, (std::vector<std::string>{"measureStop", "adjustToMarker"}));
     EXPECT_EQ(parsed(factsheet->json), parsed(factsheet_text()));
 }
 

@@ -94,6 +94,12 @@ inline vda5050::OrderMessage order() {
     };
     add(straight(at, 6, 0), true);
     message.edges.back().corridor = {1.4, 0.9};
+    vda5050::Action observe;
+    observe.type = "observeMarkers";
+    observe.id = "leg-1-e0-observeMarkers";
+    observe.blocking = vda5050::BlockingType::kNone;
+    observe.markers = stop_target().markers;
+    message.edges.back().actions = {observe};
     add(straight(at, 2, kPi), true);
     add(turn(at, -1.3), true);
     add(turn(at, -kPi), true);

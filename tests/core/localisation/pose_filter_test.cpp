@@ -41,10 +41,9 @@ TEST(PoseFilter, ItsCovarianceIsHonest) {
         for (int i = 0; i < 40; ++i) {
             const Odometry told{0.05, 0.01, 0.02};
             const double way = std::hypot(told.forward_m, told.left_m);
-            const double step = std::hypot(noise.sigma_per_m * way, noise.sigma_floor_m);
-            const double turn = std::hypot(
-                std::hypot(noise.sigma_turn_per_rad * told.turn_rad, noise.sigma_turn_per_m * way),
-                noise.sigma_floor_rad);
+            const double step = noise.sigma_m_per_sqrt_m * std::sqrt(way);
+            const double turn = std::hypot(noise.sigma_rad_per_sqrt_rad * std::sqrt(told.turn_rad),
+                                           noise.sigma_rad_per_sqrt_m * std::sqrt(way));
             const double forward = told.forward_m + step * normal(random);
             const double left = told.left_m + step * normal(random);
             const double turned = told.turn_rad + turn * normal(random);

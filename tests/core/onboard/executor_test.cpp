@@ -254,6 +254,41 @@ TEST_F(ExecutorTest, CancelInMidEdgeBrakesEmptiesTheOrderAndFinishesStanding) {
     EXPECT_NEAR(motion.true_pose().x_m, here + 2, 1e-4);
 }
 
+OrderMessage observing(int count, int released) {
+    OrderMessage message = order("a", count, released);
+    for (auto& edge : message.edges) {
+        vda5050::Action action;
+        action.type = "observeMarkers";
+        action.id = "observe-" + edge.edge_id;
+        action.markers = {{"7", "apriltag", 0.05, edge.segment.end, 1e-4, 5e-4}};
+        edge.actions = {action};
+    }
+    return message;
+}
+
+TEST_F(ExecutorTest, AnEdgesActionRunsWhileItIsDriven) {
+    executor.handle(observing(4, 3));
+    EXPECT_EQ(status("observe-e1"), ActionStatus::kWaiting);
+    run(1);
+    EXPECT_EQ(status("observe-e1"), ActionStatus::kRunning);
+    EXPECT_EQ(status("observe-e2"), ActionStatus::kWaiting);
+    run(60);
+    EXPECT_EQ(status("observe-e1"), ActionStatus::kFinished);
+    EXPECT_EQ(status("observe-e2"), ActionStatus::kFinished);
+    EXPECT_EQ(status("observe-e3"), ActionStatus::kWaiting);
+    EXPECT_NEAR(motion.true_pose().x_m, 4, 0.05) << "it stops for none of them";
+}
+
+TEST_F(ExecutorTest, AnEdgesActionEndsWithItsOrderOrItsHorizon) {
+    executor.handle(observing(4, 3));
+    executor.handle(update("a", 1, 2, 3, 3));
+    EXPECT_EQ(status("observe-e3"), std::nullopt) << "taken back";
+    run(1);
+    instant("cancelOrder", "c");
+    EXPECT_EQ(status("observe-e1"), ActionStatus::kFailed);
+    EXPECT_EQ(status("observe-e2"), ActionStatus::kFailed);
+}
+
 TEST_F(ExecutorTest, CancelWithoutAnOrderFails) {
     instant("cancelOrder", "c");
     EXPECT_EQ(status("c"), ActionStatus::kFailed);

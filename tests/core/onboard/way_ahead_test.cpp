@@ -35,8 +35,8 @@ protected:
         for (double t = 0; t < seconds; t += kStep_s) {
             way.hand_over();
             drive.step(kStep_s);
-            for (const auto& node : way.take_passed()) {
-                passed.push_back(node.sequence_id);
+            for (const auto& hop : way.take_passed()) {
+                passed.push_back(hop.node.sequence_id);
                 passed_at_m.push_back(drive.believed_pose().x_m);
             }
             most_left_m = std::max(most_left_m, drive.believed_pose().y_m);

@@ -46,6 +46,55 @@ TEST(CameraSensing, CoveredCodesFailWithTheReason) {
     EXPECT_EQ(blind.error().reason.code, "no_marker_in_view");
 }
 
+/// Drives along the platform's front code at full speed, its name said to be `payload`.
+std::vector<onboard::WayReading> passed(bool rendered, const std::string& payload, bool dark,
+                                        double expect_y_m = 10) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    simulation::VehicleMotion motion(world.plant.vehicle_types[0], {18, 10, 0}, 1);
+    kinematics::Segment segment;
+    segment.start = motion.believed_pose();
+    segment.end = {26, 10, 0};
+    segment.length_m = 8;
+    motion.append(segment);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, rendered, 3);
+    if (dark) sensing.darken();
+    const vda5050::SurveyedMarker marker{payload, "qr", 0.06, {20 + 5.346, expect_y_m, 0},
+                                         1e-4,    5e-4};
+    std::vector<onboard::WayReading> all;
+    for (int i = 0; i < 5000 && !motion.idle(); ++i) {
+        motion.step(0.02);
+        for (auto& reading :
+             sensing.look_below(std::span(&marker, 1), motion.believed_pose(), 0.02)) {
+            // Where the code was when the picture was taken.
+            const double then_x_m = motion.true_pose().x_m - motion.twist().vx_mps * reading.age_s;
+            EXPECT_NEAR(then_x_m + reading.seen.centre.x_m, 25.346, 5e-3);
+            EXPECT_NEAR(reading.seen.centre.y_m + motion.true_pose().y_m, 10, 2e-3);
+            EXPECT_GT(reading.age_s, 0.01);
+            all.push_back(std::move(reading));
+        }
+    }
+    EXPECT_TRUE(motion.idle());
+    EXPECT_FALSE(sensing.take_fresh()) << "these are no pictures for people";
+    return all;
+}
+
+TEST(CameraSensing, ReadsACodeThatItPassesOver) {
+    for (const bool rendered : {false, true}) {
+        const auto readings = passed(rendered, "ST01-F", false);
+        ASSERT_FALSE(readings.empty()) << rendered;
+        EXPECT_EQ(readings[0].seen.payload, "ST01-F");
+        // Smear and clock make it worse than a code seen standing.
+        EXPECT_GT(readings[0].seen.sigma_m, 3e-4);
+    }
+}
+
+TEST(CameraSensing, UnderWayItSeesNothingInTheDarkAndTakesNoOtherCode) {
+    EXPECT_TRUE(passed(true, "ST01-F", true).empty());
+    EXPECT_TRUE(passed(false, "ST01-F", true).empty());
+    EXPECT_TRUE(passed(true, "ST02-F", false).empty());
+    EXPECT_TRUE(passed(false, "ST01-F", false, 10.5).empty()) << "none was exposed there";
+}
+
 /// The camera knows of the codes what the order says and nothing of the world.
 TEST(CameraSensing, ASurveyOfTheWrongKindOrSizeShows) {
     const auto world = simulation::make_world(small_plant(), 1);

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <deque>
+#include <vector>
+
+#include "core/onboard/drive.hpp"
+#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/way_sensing.hpp"
+#include "core/vda5050/messages.hpp"
+
+namespace pulseline::onboard {
+
+/// Codes seen under way (edge action observeMarkers) correct the pose that the vehicle steers by:
+/// rough navigation of Li 2022, section 3. A code that contradicts the way driven is refused: it
+/// was moved, or exchanged. What is corrected comes into the drive little by little, so that it
+/// never jerks. Thread safety: none. No clock: time passes by step().
+class MarkerWatch {
+public:
+    /// All must outlive it.
+    MarkerWatch(WaySensing& sensing, Drive& drive, PoseEstimate& estimate);
+
+    /// After each step of the drive and of the estimate. `ahead`: the edges of the order that are
+    /// not passed, the one being driven first; none while it does something else than drive them.
+    void step(double dt_s, const std::deque<vda5050::OrderEdge>& ahead);
+
+    /// A code comes into view soon, so that longer steps would pass it unseen: of the vehicle's own
+    /// time, at most.
+    static constexpr double kFineStep_s = 0.02;
+    bool expects_soon() const { return !expected_.empty(); }
+
+    std::size_t taken() const { return taken_; }
+    std::size_t refused() const { return refused_; }
+    /// Payload of the code refused last; empty: none yet.
+    const std::string& last_refused() const { return last_refused_; }
+
+private:
+    struct Past {
+        double age_s = 0;
+        Pose2 odometry;
+    };
+
+    void note_way(double own_s);
+    void expect(const std::deque<vda5050::OrderEdge>& ahead);
+    void take(const WayReading& reading);
+    void lead_drive(double own_s);
+    Pose2 odometry_at(double age_s) const;
+
+    WaySensing& sensing_;
+    Drive& drive_;
+    PoseEstimate& estimate_;
+    std::vector<vda5050::SurveyedMarker> expected_;
+    Pose2 odometry_;         // the way driven, no correction in it
+    Pose2 believed_;         // by the drive, at the end of the last step
+    std::deque<Past> past_;  // newest first
+    std::size_t taken_ = 0;
+    std::size_t refused_ = 0;
+    std::string last_refused_;
+};
+
+}  // namespace pulseline::onboard

@@ -1,0 +1,234 @@
+#include "core/onboard/marker_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "core/simulation/machine/servo_drive.hpp"
+#include "tests/core/control/demo_vehicles.hpp"
+#include "tests/core/simulation/platform.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+using namespace simulation;
+using simulation::testing::straight;
+
+constexpr double kStep_s = MarkerWatch::kFineStep_s;
+constexpr double kPiece_m = 2.5;
+
+/// A camera at the body's centre that sees codes within 40 mm of its foot, 25 times a second, and
+/// says so `late_s` after the exposure. Codes lie where the survey says, the first `moved`.
+class Floor : public WaySensing {
+public:
+    explicit Floor(const SimulatedDrive& drive) : drive_(drive) {}
+    std::vector<WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
+                                       const Pose2&, double own_s) override {
+        std::vector<WayReading> ready;
+        for (auto& reading : coming_) reading.age_s += own_s;
+        for (const auto& marker : expected) {
+            const Pose2 truth = marker.pose.x_m < 10 ? marker.pose * moved : marker.pose;
+            const Pose2 code = inverse(drive_.true_pose()) * truth;
+            if (norm(code.position()) > 0.04) continue;
+            const double noise = 1e-4;
+            coming_.push_back(
+                {marker,
+                 {marker.payload,
+                  {code.x_m + noise * normal_(random_), code.y_m + noise * normal_(random_)},
+                  code.heading_rad + noise * normal_(random_),
+                  noise,
+                  noise},
+                 0});
+        }
+        while (!coming_.empty() && coming_.front().age_s >= late_s) {
+            ready.push_back(coming_.front());
+            coming_.erase(coming_.begin());
+        }
+        return ready;
+    }
+
+    Pose2 moved;
+    double late_s = 0.08;
+
+private:
+    const SimulatedDrive& drive_;
+    std::vector<WayReading> coming_;
+    std::mt19937_64 random_{7};
+    std::normal_distribution<double> normal_;
+};
+
+localisation::PoseFix known(const Pose2& pose) {
+    localisation::PoseFix fix;
+    fix.pose = pose;
+    fix.covariance = {{{1e-8, 0, 0}, {0, 1e-8, 0}, {0, 0, 1e-8}}};
+    return fix;
+}
+
+/// A drive of `length_m` straight ahead over codes every `spacing_m`; 0: none.
+class Way {
+public:
+    Way(const plant::VehicleType& type, std::uint64_t seed, double length_m, double spacing_m)
+        : drive(type, {}, seed), floor(drive) {
+        double next_m = spacing_m;
+        for (double at_m = 0; at_m < length_m; at_m += kPiece_m) {
+            vda5050::OrderEdge edge;
+            edge.segment = straight({at_m, 0, 0}, kPiece_m);
+            edge.actions.emplace_back();
+            for (; spacing_m > 0 && next_m < at_m + kPiece_m; next_m += spacing_m) {
+                edge.actions.back().markers.push_back(
+                    {std::to_string(next_m), "qr", 0.06, {next_m, 0, 0}, 1e-4, 5e-4});
+            }
+            drive.append(edge.segment);
+            ahead.push_back(std::move(edge));
+        }
+    }
+
+    /// To the end; `each` is called after each step.
+    template <class Each>
+    void run(Each each) {
+        for (int i = 0; i < 20'000 && !drive.idle(); ++i) {
+            drive.step(kStep_s);
+            estimate.drive_to(drive.believed_pose());
+            while (done < drive.segments_done()) {
+                ahead.pop_front();
+                ++done;
+            }
+            watch.step(kStep_s, ahead);
+            each();
+        }
+        ASSERT_TRUE(drive.idle());
+    }
+    void run() {
+        run([] {});
+    }
+    /// Where it ended from where it should have.
+    double off_m(double length_m) const {
+        return distance(drive.true_pose().position(), {length_m, 0});
+    }
+
+    ServoDrive drive;
+    Floor floor;
+    PoseEstimate estimate{Pose2{}};
+    MarkerWatch watch{floor, drive, estimate};
+    std::deque<vda5050::OrderEdge> ahead;
+    std::size_t done = 0;
+};
+
+plant::VehicleType seeing(plant::VehicleType type) {
+    type.cameras = {plant::Camera{}};
+    type.cameras.front().name = "down";
+    return type;
+}
+
+plant::VehicleType mecanum() { return seeing(pulseline::testing::mecanum()); }
+
+std::vector<plant::VehicleType> families() {
+    return {seeing(pulseline::testing::platform()), mecanum(),
+            seeing(pulseline::testing::differential())};
+}
+
+TEST(MarkerWatch, CodesUnderWayBringEveryFamilyToTheEndOfALongWay) {
+    constexpr double kLength_m = 100;
+    for (const auto& type : families()) {
+        double with_m = 0;
+        double without_m = 0;
+        for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+            Way with(type, seed, kLength_m, 9.3);
+            Way without(type, seed, kLength_m, 0);
+            with.run();
+            without.run();
+            EXPECT_EQ(with.watch.refused(), 0u) << type.name << " seed " << seed;
+            // Each of the ten is seen at least once.
+            EXPECT_GE(with.watch.taken(), 10u) << type.name << " seed " << seed;
+            with_m += with.off_m(kLength_m) / 5;
+            without_m += without.off_m(kLength_m) / 5;
+        }
+        ::testing::Test::RecordProperty(type.name + "_mm", std::to_string(1e3 * with_m));
+        std::printf("[ way      ] %s: 100 m end %.1f mm off with codes, %.1f mm without\n",
+                    type.name.c_str(), 1e3 * with_m, 1e3 * without_m);
+        EXPECT_LT(with_m, 0.006) << type.name;
+        EXPECT_LT(with_m, without_m / 2) << type.name;
+    }
+}
+
+/// Without codes the pose fades, and says so: the true one stays inside what is stated.
+TEST(MarkerWatch, TheStatedSigmaCoversADriveWithoutCodes) {
+    for (const auto& type : families()) {
+        int inside = 0;
+        constexpr int kDrives = 40;
+        for (std::uint64_t seed = 1; seed <= kDrives; ++seed) {
+            Way way(type, seed, 20, 0);
+            way.estimate.take(known({}));
+            way.run();
+            const Pose2 off = inverse(way.estimate.pose()) * way.drive.true_pose();
+            inside += norm(off.position()) < 3 * way.estimate.sigma_xy_m() &&
+                      std::abs(off.heading_rad) < 3 * way.estimate.sigma_heading_rad();
+            EXPECT_LT(way.estimate.sigma_xy_m(), 0.025);  // of a use for finding the next code
+        }
+        EXPECT_GE(inside, kDrives - 1) << type.name;
+    }
+}
+
+/// Read as if it were new, a reading 80 ms old would be 0.13 m wrong at full speed.
+TEST(MarkerWatch, WhatIsReadLateCountsForWhereItWasExposed) {
+    for (const double late_s : {0.0, 0.02, 0.08, 0.3}) {
+        Way way(mecanum(), 3, 50, 9.3);
+        way.floor.late_s = late_s;
+        way.run();
+        EXPECT_GE(way.watch.taken(), 5u) << late_s;
+        EXPECT_LT(way.off_m(50), 0.006) << late_s;
+    }
+}
+
+TEST(MarkerWatch, ACodeThatWasMovedIsRefusedAndTheNextOneTaken) {
+    for (const Pose2 moved : {Pose2{0.03, 0, 0}, Pose2{0, -0.03, 0}, Pose2{0, 0, 0.3}}) {
+        Way way(mecanum(), 3, 20, 9.3);
+        way.estimate.take(known({}));
+        way.floor.moved = moved;
+        way.run();
+        EXPECT_GE(way.watch.refused(), 1u);
+        EXPECT_EQ(way.watch.last_refused(), std::to_string(9.3));
+        EXPECT_GE(way.watch.taken(), 1u);
+        EXPECT_LT(way.off_m(20), 0.006);
+    }
+}
+
+/// It begins beside its line and turned, and learns so at the first code: the wheels may not
+/// notice more than a curve.
+TEST(MarkerWatch, ACorrectionDoesNotJerkTheDrive) {
+    for (const auto& type : families()) {
+        Way way(type, 3, 40, 9.3);
+        const Pose2 believed{0, -0.015, radians(-0.05)};
+        way.drive.set_believed(believed);
+        way.estimate.start_at(believed);
+        double most_mps2 = 0;
+        kinematics::Twist before = way.drive.twist();
+        way.run([&] {
+            const auto now = way.drive.twist();
+            most_mps2 = std::max(
+                most_mps2,
+                std::hypot(now.vx_mps - before.vx_mps, now.vy_mps - before.vy_mps) / kStep_s);
+            before = now;
+        });
+        EXPECT_FALSE(way.drive.stop_cause()) << type.name;
+        EXPECT_LT(way.off_m(40), 0.006) << type.name;
+        EXPECT_LT(most_mps2, 2 * type.max_accel_mps2) << type.name;
+    }
+}
+
+TEST(MarkerWatch, WhileItDoesSomethingElseNothingIsExpected) {
+    Way way(mecanum(), 3, 20, 1.1);
+    const std::deque<vda5050::OrderEdge> none;
+    for (int i = 0; i < 500; ++i) {
+        way.drive.step(kStep_s);
+        way.estimate.drive_to(way.drive.believed_pose());
+        way.watch.step(kStep_s, none);
+        ASSERT_FALSE(way.watch.expects_soon());
+    }
+    EXPECT_EQ(way.watch.taken() + way.watch.refused(), 0u);
+}
+
+}  // namespace
+}  // namespace pulseline::onboard
