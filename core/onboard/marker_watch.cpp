@@ -43,9 +43,11 @@ void MarkerWatch::note_way(double own_s) {
     while (past_.back().age_s > kRemembered_s) past_.pop_back();
 }
 
-/// Of this edge and the next one, those near a camera.
+/// Of this edge and the next one, those near a camera. Each counts once while it is near: what the
+/// camera's calibration does to a code is the same in every picture of it.
 void MarkerWatch::expect(const std::deque<vda5050::OrderEdge>& ahead) {
     expected_.clear();
+    std::vector<std::string> still_near;
     const Pose2 body = estimate_.pose();
     for (std::size_t i = 0; i < std::min<std::size_t>(2, ahead.size()); ++i) {
         for (const auto& action : ahead[i].actions) {
@@ -55,10 +57,14 @@ void MarkerWatch::expect(const std::deque<vda5050::OrderEdge>& ahead) {
                     const auto foot = body * c.body_from_camera.position();
                     return distance(foot, marker.pose.position()) <= kSoon_m;
                 });
-                if (near) expected_.push_back(marker);
+                if (!near) continue;
+                const bool known = std::ranges::find(read_, marker.payload) != read_.end();
+                if (known) still_near.push_back(marker.payload);
+                if (!known && !drive_.standing()) expected_.push_back(marker);
             }
         }
     }
+    read_ = std::move(still_near);
 }
 
 Pose2 MarkerWatch::odometry_at(double age_s) const {
@@ -76,6 +82,8 @@ Pose2 MarkerWatch::odometry_at(double age_s) const {
 /// Where the code lies seen from the body now: the vehicle has driven on since the exposure.
 void MarkerWatch::take(const WayReading& reading) {
     if (past_.empty() || reading.age_s > past_.back().age_s) return;
+    if (std::ranges::find(read_, reading.marker.payload) != read_.end()) return;
+    read_.push_back(reading.marker.payload);
     const Pose2 now_from_then = inverse(odometry_) * odometry_at(reading.age_s);
     const Pose2 code = now_from_then *
                        Pose2{reading.seen.centre.x_m, reading.seen.centre.y_m, reading.seen.up_rad};

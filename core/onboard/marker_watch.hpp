@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <string>
 #include <vector>
 
 #include "core/onboard/drive.hpp"
@@ -49,9 +50,10 @@ private:
     Drive& drive_;
     PoseEstimate& estimate_;
     std::vector<vda5050::SurveyedMarker> expected_;
-    Pose2 odometry_;         // the way driven, no correction in it
-    Pose2 believed_;         // by the drive, at the end of the last step
-    std::deque<Past> past_;  // newest first
+    std::vector<std::string> read_;  // of the codes near a camera
+    Pose2 odometry_;                 // the way driven, no correction in it
+    Pose2 believed_;                 // by the drive, at the end of the last step
+    std::deque<Past> past_;          // newest first
     std::size_t taken_ = 0;
     std::size_t refused_ = 0;
     std::string last_refused_;

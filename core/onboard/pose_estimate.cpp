@@ -22,6 +22,13 @@ Eigen::Matrix3d told() {
     return Eigen::Vector3d(kPlace2, kPlace2, kToldSigma_rad * kToldSigma_rad).asDiagonal();
 }
 
+/// A way as the filter takes it: along and across the heading of half way, which is where the chord
+/// of an arc points.
+localisation::Odometry odometry_of(const Pose2& way) {
+    const geometry::Point2 chord = Pose2{0, 0, -way.heading_rad / 2} * way.position();
+    return {chord.x_m, chord.y_m, way.heading_rad};
+}
+
 Eigen::Matrix3d covariance_of(const localisation::PoseFix& fix) {
     Eigen::Matrix3d m;
     for (int i = 0; i < 3; ++i)
@@ -39,7 +46,7 @@ void PoseEstimate::drive_to(const Pose2& believed) {
     now_ = believed;
     const Pose2 way = inverse(driven_) * believed;
     if (norm(way.position()) < kStep_m && std::abs(way.heading_rad) < kStep_rad) return;
-    filter_.drive({way.x_m, way.y_m, way.heading_rad});
+    filter_.drive(odometry_of(way));
     driven_ = believed;
 }
 
@@ -50,8 +57,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
-    const Pose2 way = inverse(driven_) * now_;
-    filter_.drive({way.x_m, way.y_m, way.heading_rad});
+    filter_.drive(odometry_of(inverse(driven_) * now_));
     driven_ = now_;
     return filter_.correct(seen, code);
 }

@@ -29,6 +29,20 @@ TEST(PoseEstimate, IsSharpAfterAFixAndFadesWithTheWay) {
     EXPECT_LT(estimate.sigma_xy_m(), 0.5);
 }
 
+/// The wheels know no better on a bend: without codes the estimate is what the drive believes.
+TEST(PoseEstimate, FollowsTheDriveRoundBendsAndTurns) {
+    PoseEstimate estimate({0, 0, 0});
+    Pose2 believed;
+    for (int i = 0; i < 400; ++i) {
+        believed = believed * Pose2{0.037, 0.003 * (i % 7), 0.02 - 0.0003 * i};
+        estimate.drive_to(believed);
+    }
+    EXPECT_LT(distance(estimate.pose().position(), believed.position()), 1e-9);
+    EXPECT_NEAR(wrap(estimate.pose().heading_rad - believed.heading_rad), 0, 1e-9);
+    estimate.led_to({5, 4, 1});
+    EXPECT_LT(distance(estimate.pose().position(), believed.position()), 1e-9) << "no motion";
+}
+
 TEST(PoseEstimate, StepsOfAnyLengthFadeAlike) {
     PoseEstimate fine({0, 0, 0});
     PoseEstimate coarse({0, 0, 0});
