@@ -52,8 +52,8 @@ test("a wheel that slips: it stops, and nothing goes on without a person", async
   assert.ok(stopped.errors.find((error) => error.type === "wheelSlip").fatal);
   await standsStill("TP-01");
   assert.notEqual((await client.get(`/api/v1/job-orders/${order.id}`)).state, "Ended");
-  const view = await client.get("/api/v1/vehicles/TP-01");
-  assert.equal(view.reason.code, "vehicle_error");
+  // It stands before its next state says so.
+  await client.untilVehicle("TP-01", (v) => v.reason?.code === "vehicle_error", "says why it stands");
 });
 
 test("dark cameras: the stop is not measured, the order is interrupted and says why", async () => {
