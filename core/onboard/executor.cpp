@@ -132,9 +132,18 @@ void Executor::step(double dt_s) {
     note_motion();
 }
 
+void Executor::note_codes(const std::vector<std::string>& payloads) {
+    for (const auto& payload : payloads) {
+        if (!codes_read_.empty()) codes_read_ += ", ";
+        codes_read_ += payload;
+    }
+}
+
 void Executor::take_traversals() {
     for (const auto& hop : way_.take_passed()) {
-        for (const auto& action : hop.on_edge) set_action(action.id, ActionStatus::kFinished);
+        for (const auto& action : hop.on_edge) {
+            set_action(action.id, ActionStatus::kFinished, std::exchange(codes_read_, {}));
+        }
         traverse(hop.node);
     }
     if (way_.empty() || motion_.standing()) return;

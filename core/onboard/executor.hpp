@@ -66,6 +66,8 @@ public:
     /// What the vehicle has learned of its small moves, to be kept for its next start.
     const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
+    /// Codes read under way: the result of observeMarkers on the edge being driven.
+    void note_codes(const std::vector<std::string>& payloads);
 
 private:
     void start_order(const vda5050::OrderMessage& order);
@@ -123,6 +125,7 @@ private:
 
     std::vector<vda5050::ActionState> order_actions_;
     std::vector<vda5050::ActionState> instant_actions_;
+    std::string codes_read_;  // on the edge being driven
     std::vector<vda5050::VehicleError> errors_;
     bool position_initialized_ = false;
     bool driving_ = false;

@@ -93,10 +93,10 @@ void MarkerWatch::take(const WayReading& reading) {
     const localisation::SurveyedCode survey{reading.marker.payload, reading.marker.pose,
                                             reading.marker.sigma_m, reading.marker.sigma_rad};
     if (estimate_.see(seen, survey)) {
-        ++taken_;
+        taken_.push_back(reading.marker.payload);
+        refused_.clear();
     } else {
-        ++refused_;
-        last_refused_ = reading.marker.payload;
+        refused_ = reading.marker.payload;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/onboard/drive.hpp"
@@ -29,10 +30,10 @@ public:
     static constexpr double kFineStep_s = 0.02;
     bool expects_soon() const { return !expected_.empty(); }
 
-    std::size_t taken() const { return taken_; }
-    std::size_t refused() const { return refused_; }
-    /// Payload of the code refused last; empty: none yet.
-    const std::string& last_refused() const { return last_refused_; }
+    /// Payloads of the codes taken since the last call.
+    std::vector<std::string> take_taken() { return std::exchange(taken_, {}); }
+    /// Payload of a code that was refused, until another one is taken; empty: none.
+    const std::string& refused() const { return refused_; }
 
 private:
     struct Past {
@@ -54,9 +55,8 @@ private:
     Pose2 odometry_;                 // the way driven, no correction in it
     Pose2 believed_;                 // by the drive, at the end of the last step
     std::deque<Past> past_;          // newest first
-    std::size_t taken_ = 0;
-    std::size_t refused_ = 0;
-    std::string last_refused_;
+    std::vector<std::string> taken_;
+    std::string refused_;
 };
 
 }  // namespace pulseline::onboard

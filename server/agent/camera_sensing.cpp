@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/localisation/codes_on_way.hpp"
 #include "core/localisation/dual_camera.hpp"
 #include "core/simulation/world/true_camera.hpp"
 #include "core/vision/optics/camera_picture.hpp"
@@ -23,13 +24,6 @@ constexpr double kReadLatest_s = 0.08;
 constexpr double kClockSigma_s = 5e-4;
 // Nothing is exposed for a code that would be cut by more than this at the picture's border.
 constexpr double kBeside_m = 0.01;
-
-/// How far from a camera's foot a code's middle may lie to be seen.
-double view_m(const plant::Camera& camera, double size_m) {
-    return (std::min(camera.width_px, camera.height_px) / vision::pixels_per_metre(camera) -
-            size_m) /
-           2;
-}
 
 /// Of a point of the body, in the body frame and the vehicle's own time.
 geometry::Point2 velocity_at(const onboard::Drive& drive, geometry::Point2 point) {
@@ -128,7 +122,8 @@ std::vector<onboard::WayReading> CameraSensing::look_below(
                 return distance(foot, marker.pose.position());
             };
             const auto& nearest = *std::ranges::min_element(expected, {}, off_m);
-            const double within_m = view_m(cameras[i], nearest.size_m) + kBeside_m;
+            const double within_m =
+                localisation::view_radius_m(cameras[i], nearest.size_m) + kBeside_m;
             if (off_m(nearest) <= within_m) expose(i, nearest, hall_from_body);
         }
     }

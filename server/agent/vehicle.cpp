@@ -163,7 +163,10 @@ void Vehicle::know_pose(double dt_s) {
     }
     static const std::deque<vda5050::OrderEdge> kNone;
     const bool on_way = !executor_.acting() && !executor_.in_hand();
+    const std::string refused = watch_.refused();
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
+    executor_.note_codes(watch_.take_taken());
+    state_due_ |= refused != watch_.refused();
 }
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {

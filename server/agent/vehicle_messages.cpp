@@ -31,6 +31,12 @@ vda5050::StateMessage Vehicle::state() {
         look_out_->write_state(state);
         going_round_->write_state(state);
     }
+    if (const std::string& code = watch_.refused(); !code.empty()) {
+        state.errors.push_back({"codeRefused",
+                                false,
+                                "Code " + code + " does not lie where the survey says.",
+                                {{"marker", code}}});
+    }
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();

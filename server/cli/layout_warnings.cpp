@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "core/fleet/tables/code_gaps.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/traffic/layout_check.hpp"
 
@@ -58,14 +59,36 @@ plant::Fault too_few_resting_places(const Reason& reason) {
             "Add stations with resting_place for them, apart from each other."};
 }
 
+plant::Fault code_gap(const Reason& reason) {
+    const auto metres = [&](const char* name) { return value_of<double>(reason, name); };
+    const auto pieces = value_of<std::int64_t>(reason, "count");
+    const double blind_m = metres("blind_m");
+    return {"/markers", reason.code,
+            fmt::format("Vehicles of type {} drive {} where they may drive {:.1f} m to be sure of "
+                        "the next code ({}).",
+                        value_of<std::string>(reason, "class"),
+                        blind_m > 0 ? fmt::format("{:.1f} m without a code", blind_m)
+                                    : std::string("lanes without any code"),
+                        metres("at_most_m"),
+                        pieces == 1 ? std::string("one piece of lane")
+                                    : fmt::format("{} pieces of lanes", pieces)),
+            fmt::format("Lay a code below their cameras' way near x {:.1f} m, y {:.1f} m and add "
+                        "it to markers.",
+                        metres("at_x_m"), metres("at_y_m"))};
+}
+
 }  // namespace
 
 std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
     std::vector<plant::Fault> warnings;
     for (const Reason& reason : fleet::check_layout(plant)) {
-        warnings.push_back(reason.code == traffic::kLayoutUnreachable
-                               ? unreachable(plant, reason)
-                               : too_few_resting_places(reason));
+        if (reason.code == traffic::kLayoutUnreachable) {
+            warnings.push_back(unreachable(plant, reason));
+        } else if (reason.code == fleet::kCodeGap) {
+            warnings.push_back(code_gap(reason));
+        } else {
+            warnings.push_back(too_few_resting_places(reason));
+        }
     }
     return warnings;
 }

@@ -3,11 +3,13 @@ import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { Client } from "./client.mjs";
+import { laneCodes } from "../tools/lane_codes.mjs";
 import { ROOT, System } from "./processes.mjs";
 
 const CAMERA_M = 5.346; // ahead of and behind the platform's centre
 
-/** File of a hall of resting stations `name: [x, y, number]` and plain nodes `name: [x, y]`, joined by two-way lanes "a-b". */
+/** File of a hall of resting stations `name: [x, y, number]` and plain nodes `name: [x, y]`, joined by two-way lanes "a-b"; with codes on these, as
+ *  a plant has them. */
 export function plantOf({ spots, lanes, vehicles, obstacles = [], chargers = [], battery }) {
   const model = JSON.parse(readFileSync(join(ROOT, "db/plants/pulse-line.json"), "utf8"));
   const hall = model.halls[0];
@@ -36,6 +38,7 @@ export function plantOf({ spots, lanes, vehicles, obstacles = [], chargers = [],
       id: `V${i + 1}`, type: "transport-platform", manufacturer: "pulseline", serial_number: `V${i + 1}`, name: `V${i + 1}`, home: `s${station}`, load_name: "", load_kg: 0,
     })),
   });
+  model.markers.push(...laneCodes(model));
   if (battery) for (const type of model.vehicle_types) type.battery = battery;
   const file = join(mkdtempSync(join(tmpdir(), "pulseline-plant-")), "meeting.json");
   writeFileSync(file, JSON.stringify(model));

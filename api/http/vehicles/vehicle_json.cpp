@@ -130,6 +130,10 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     if (!vehicle.order.empty()) json["order"] = vehicle.order.str();
     if (vehicle.leg) json["leg"] = leg_json(*vehicle.leg);
     if (const auto& basis = vehicle.pose_basis) json["pose_basis"] = basis_json(*basis);
+    if (const auto codes = fleet::codes_under_way(state); codes.passed > 0) {
+        json["codes_under_way"] = {{"passed", codes.passed}, {"read", codes.read}};
+        if (codes.read > 0) json["codes_under_way"]["last"] = codes.last;
+    }
     if (state.deviation_range_m > 0) json["pose_deviation_m"] = state.deviation_range_m;
     if (!vehicle.made_way.empty()) {
         json["made_way"] = list_json(vehicle.made_way, [](Time at) { return Json(rfc3339(at)); });

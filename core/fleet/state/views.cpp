@@ -1,5 +1,7 @@
 #include "core/fleet/state/views.hpp"
 
+#include "core/vda5050/actions.hpp"
+
 namespace pulseline::fleet {
 
 const char* to_string(Link link) {
@@ -30,6 +32,20 @@ const char* to_string(PoseBasis::Kind kind) {
             return "statement";
     }
     return "vehicle";
+}
+
+CodesUnderWay codes_under_way(const vda5050::StateMessage& state) {
+    CodesUnderWay codes;
+    for (const auto& action : state.action_states) {
+        if (action.type != vda5050::kObserveMarkers ||
+            action.status != vda5050::ActionStatus::kFinished)
+            continue;
+        ++codes.passed;
+        if (action.result_description.empty()) continue;
+        ++codes.read;
+        codes.last = action.result_description;
+    }
+    return codes;
 }
 
 const char* to_string(Activity activity) {

@@ -55,6 +55,15 @@ struct LegView {
 
 const char* to_string(PoseBasis::Kind kind);  // "stop"
 
+/// Codes on the way of a drive, by the vehicle's own word: edges with codes that it has passed, on
+/// how many of them it read one, and the payloads read last.
+struct CodesUnderWay {
+    int passed = 0;
+    int read = 0;
+    std::string last;
+};
+CodesUnderWay codes_under_way(const vda5050::StateMessage& state);
+
 struct VehicleView {
     plant::VehicleId id;
     Link link = Link::kNever;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/tables/code_gaps.hpp"
 #include "core/traffic/layout_check.hpp"
 
 namespace pulseline::fleet {
@@ -175,6 +176,7 @@ std::vector<Reason> check_layout(const plant::Plant& plant) {
     for (auto& violation : traffic::check_layout(layout)) {
         reasons.push_back(std::move(violation.reason));
     }
+    std::ranges::move(check_codes(plant, classes), std::back_inserter(reasons));
     return reasons;
 }
 

@@ -2,40 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "core/fleet/vehicle/body.hpp"
-#include "core/kinematics/motion.hpp"
+#include "core/localisation/codes_on_way.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
 using geometry::Point2;
-using kinematics::Segment;
 
-// Finer than a camera's view is long, so that no code lies between two looks.
-constexpr double kLookEvery_m = 0.03;
 // More on one edge than anybody lays: the message stays small.
 constexpr std::size_t kMostOnEdge = 64;
 
-/// How far from a camera's foot the middle of a code may lie to be seen whole, however it is
-/// turned.
-double view_radius_m(const plant::Camera& camera, double size_m) {
-    const double view_m =
-        std::min(camera.width_px, camera.height_px) * camera.height_m / camera.f_px;
-    return (view_m - size_m) / 2;
-}
-
-/// Way of a camera along the segment, at most: its foot swings about a turning body.
-double foot_way_m(const Segment& segment, const plant::Camera& camera) {
-    return std::abs(segment.length_m) +
-           std::abs(segment.turn_rad) * norm(camera.body_from_camera.position());
-}
-
-double farthest_foot_m(const plant::VehicleType& type, bool loaded) {
+double farthest_foot_m(const std::vector<plant::Camera>& cameras) {
     double most_m = 0;
-    for (const auto& camera : plant::cameras_of(type, loaded)) {
+    for (const auto& camera : cameras) {
         most_m = std::max(most_m, norm(camera.body_from_camera.position()));
     }
     return most_m;
@@ -74,40 +58,16 @@ bool announces_it(const LiveVehicle& live) {
 
 }  // namespace
 
-std::vector<const plant::Marker*> markers_below(const std::vector<const plant::Marker*>& around,
-                                                const plant::VehicleType& type, bool loaded,
-                                                const Segment& segment) {
-    std::vector<const plant::Marker*> seen;
-    const auto cameras = plant::cameras_of(type, loaded);
-    const double reach_m = farthest_foot_m(type, loaded) + std::abs(segment.length_m);
-    for (const plant::Marker* marker : around) {
-        const Point2 at = marker->pose.position();
-        if (distance(at, segment.start.position()) > reach_m + marker->size_m) continue;
-        const bool passed = std::any_of(cameras.begin(), cameras.end(), [&](const auto& camera) {
-            const double radius_m = view_radius_m(camera, marker->size_m);
-            const int looks =
-                1 + static_cast<int>(std::ceil(foot_way_m(segment, camera) / kLookEvery_m));
-            for (int i = 0; i <= looks; ++i) {
-                const geometry::Pose2 body =
-                    kinematics::pose_at(segment, static_cast<double>(i) / looks);
-                const Point2 foot = body * camera.body_from_camera.position();
-                if (distance(foot, at) <= radius_m) return true;
-            }
-            return false;
-        });
-        if (passed) seen.push_back(marker);
-    }
-    return seen;
-}
-
 void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std::string& hall,
                      vda5050::OrderMessage& order) {
     if (order.edges.empty() || !announces_it(live)) return;
-    const bool loaded = is_loaded(live);
-    const auto around =
-        codes_near(fleet.plant, hall, order.edges, farthest_foot_m(*live.type, loaded));
+    const auto cameras = plant::cameras_of(*live.type, is_loaded(live));
+    const auto around = codes_near(fleet.plant, hall, order.edges, farthest_foot_m(cameras));
     for (vda5050::OrderEdge& edge : order.edges) {
-        auto below = markers_below(around, *live.type, loaded, edge.segment);
+        std::vector<const plant::Marker*> below;
+        std::ranges::copy_if(around, std::back_inserter(below), [&](const plant::Marker* marker) {
+            return localisation::is_passed(*marker, cameras, edge.segment);
+        });
         if (below.empty()) continue;
         below.resize(std::min(below.size(), kMostOnEdge));
         vda5050::Action action;

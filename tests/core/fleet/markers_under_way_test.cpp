@@ -2,63 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 
 #include "tests/core/fleet/fleet_world.hpp"
 
 namespace pulseline::fleet::testing {
 namespace {
-
-using geometry::Pose2;
-using kinematics::Segment;
-
-/// One camera ahead of the centre, 175 mm x 140 mm of floor.
-plant::VehicleType camera_ahead() {
-    plant::VehicleType type;
-    plant::Camera camera;
-    camera.body_from_camera = {1.2, 0, 0};
-    type.cameras = {camera};
-    return type;
-}
-
-plant::Marker code_at(double x_m, double y_m) {
-    plant::Marker marker;
-    marker.size_m = 0.06;
-    marker.pose = {x_m, y_m, 0};
-    return marker;
-}
-
-bool is_passed(const plant::Marker& marker, const Segment& segment) {
-    return !markers_below({&marker}, camera_ahead(), false, segment).empty();
-}
-
-Segment straight(double length_m) {
-    Segment segment;
-    segment.start = {0, 0, 0};
-    segment.end = {length_m, 0, 0};
-    segment.length_m = length_m;
-    return segment;
-}
-
-TEST(MarkersUnderWay, AreThoseThatACameraSeesWhole) {
-    const Segment way = straight(2);
-    EXPECT_TRUE(is_passed(code_at(2.2, 0), way));
-    EXPECT_TRUE(is_passed(code_at(1.2, 0.03), way)) << "(140 mm - 60 mm) / 2 beside the way";
-    EXPECT_FALSE(is_passed(code_at(2.2, 0.05), way)) << "cut at the border of the picture";
-    EXPECT_FALSE(is_passed(code_at(0.5, 0), way)) << "the camera was ahead of it already";
-    EXPECT_FALSE(is_passed(code_at(3.5, 0), way)) << "beyond its end";
-}
-
-TEST(MarkersUnderWay, AreSeenByACameraThatSwingsWithATurn) {
-    Segment turn;
-    turn.kind = Segment::Kind::kRotate;
-    turn.end = {0, 0, kPi / 2};
-    turn.turn_rad = kPi / 2;
-    const double diagonal_m = 1.2 * std::sqrt(0.5);
-    EXPECT_TRUE(is_passed(code_at(diagonal_m, diagonal_m), turn));
-    EXPECT_FALSE(is_passed(code_at(diagonal_m, -diagonal_m), turn)) << "the other way round";
-    EXPECT_FALSE(is_passed(code_at(0.2, 0), turn)) << "below the body, not below the camera";
-}
 
 const vda5050::OrderMessage* order_of(World& world, const std::vector<std::string>& announced) {
     world.connect_all();
@@ -92,6 +41,28 @@ TEST(MarkersUnderWay, AVehicleThatDoesNotAnnounceItIsNotAsked) {
     EXPECT_TRUE(observed(*order_of(silent, {})).empty());
     World other;
     EXPECT_TRUE(observed(*order_of(other, {"raiseParking"})).empty());
+}
+
+TEST(MarkersUnderWay, AreCountedByTheVehiclesOwnWord) {
+    using vda5050::ActionStatus;
+    vda5050::StateMessage state;
+    EXPECT_EQ(codes_under_way(state).passed, 0);
+    const auto passes = [&](const char* type, ActionStatus status, const char* result) {
+        vda5050::ActionState action;
+        action.type = type;
+        action.status = status;
+        action.result_description = result;
+        state.action_states.push_back(action);
+    };
+    passes("observeMarkers", ActionStatus::kFinished, "301");
+    passes("observeMarkers", ActionStatus::kFinished, "302, 303");
+    passes("observeMarkers", ActionStatus::kFinished, "");
+    passes("observeMarkers", ActionStatus::kRunning, "");
+    passes("measureStop", ActionStatus::kFinished, "{}");
+    const CodesUnderWay codes = codes_under_way(state);
+    EXPECT_EQ(codes.passed, 3);
+    EXPECT_EQ(codes.read, 2);
+    EXPECT_EQ(codes.last, "302, 303");
 }
 
 TEST(MarkersUnderWay, AStoredLegHasNone) {

@@ -106,6 +106,12 @@ protected:
         }
         return std::nullopt;
     }
+    std::string result(const std::string& id) const {
+        for (const auto& action : state().action_states) {
+            if (action.id == id) return action.result_description;
+        }
+        return "no such action";
+    }
     std::string last_error() const {
         const auto now = state();
         return now.errors.empty() ? "" : now.errors.back().type;
@@ -277,6 +283,16 @@ TEST_F(ExecutorTest, AnEdgesActionRunsWhileItIsDriven) {
     EXPECT_EQ(status("observe-e2"), ActionStatus::kFinished);
     EXPECT_EQ(status("observe-e3"), ActionStatus::kWaiting);
     EXPECT_NEAR(motion.true_pose().x_m, 4, 0.05) << "it stops for none of them";
+}
+
+TEST_F(ExecutorTest, AnEdgesActionTellsTheCodesThatWereReadThere) {
+    executor.handle(observing(4, 4));
+    run(1);
+    executor.note_codes({"7"});
+    executor.note_codes({"8", "9"});
+    run(60);
+    EXPECT_EQ(result("observe-e1"), "7, 8, 9");
+    EXPECT_EQ(result("observe-e2"), "") << "passed unread";
 }
 
 TEST_F(ExecutorTest, AnEdgesActionEndsWithItsOrderOrItsHorizon) {

@@ -14,6 +14,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const atMs = heard.pose_s === undefined ? undefined : now - heard.pose_s * 1000;
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   const words = useWords();
+  const codes = vehicle.codes_under_way;
   const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
   const measured = basis.key === "stop" || basis.key === "codes";
@@ -68,6 +69,12 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
           {vehicle.pose_basis && vehicle.pose_known && `${t("join")}${since}`}
         </span>
       </p>
+      {codes && (
+        <p className="basis" data-codes={codes.read}>
+          <StatusSymbol name={codes.read > 0 ? "c-ok" : "a-3"} />
+          <span>{t(codes.read > 0 ? "pose.codes" : "pose.no_codes", { ...codes })}</span>
+        </p>
+      )}
     </Card>
   );
 }

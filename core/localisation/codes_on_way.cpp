@@ -1,0 +1,100 @@
+#include "core/localisation/codes_on_way.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/kinematics/motion.hpp"
+
+namespace pulseline::localisation {
+namespace {
+
+using geometry::Point2;
+using kinematics::Segment;
+
+// Finer than a camera's view is long, so that no code lies between two looks.
+constexpr double kLookEvery_m = 0.03;
+constexpr double kSigmas = 3;
+constexpr double kSurvey_m = 1e-4;  // of a code's place, as plants usually have it
+constexpr double kFarthest_m = 1000;
+
+/// Way of a camera along the segment, at most: its foot swings about a turning body.
+double foot_way_m(const Segment& segment, const plant::Camera& camera) {
+    return std::abs(segment.length_m) +
+           std::abs(segment.turn_rad) * norm(camera.body_from_camera.position());
+}
+
+/// Calls `act` with each share at which the camera has the code in view, until that says true.
+template <class Act>
+void look_along(const plant::Marker& marker, const plant::Camera& camera, const Segment& segment,
+                Act act) {
+    const Point2 at = marker.pose.position();
+    const double radius_m = view_radius_m(camera, marker.size_m);
+    const double way_m = foot_way_m(segment, camera);
+    const Point2 first = segment.start * camera.body_from_camera.position();
+    if (distance(first, at) > way_m + radius_m) return;
+    const int looks = 1 + static_cast<int>(std::ceil(way_m / kLookEvery_m));
+    for (int i = 0; i <= looks; ++i) {
+        const double share = static_cast<double>(i) / looks;
+        const geometry::Pose2 body = kinematics::pose_at(segment, share);
+        const Point2 foot = body * camera.body_from_camera.position();
+        if (distance(foot, at) <= radius_m && act(share)) return;
+    }
+}
+
+}  // namespace
+
+double view_radius_m(const plant::Camera& camera, double size_m) {
+    const double view_m =
+        std::min(camera.width_px, camera.height_px) * camera.height_m / camera.f_px;
+    return (view_m - size_m) / 2;
+}
+
+std::vector<double> seen_at(const plant::Marker& marker, std::span<const plant::Camera> cameras,
+                            const Segment& segment) {
+    std::vector<double> shares;
+    for (const auto& camera : cameras) {
+        look_along(marker, camera, segment, [&](double share) {
+            shares.push_back(share);
+            return false;
+        });
+    }
+    std::sort(shares.begin(), shares.end());
+    return shares;
+}
+
+bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> cameras,
+               const Segment& segment) {
+    bool passed = false;
+    for (const auto& camera : cameras) {
+        look_along(marker, camera, segment, [&](double) { return passed = true; });
+        if (passed) return true;
+    }
+    return false;
+}
+
+double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget,
+                   const OdometryNoise& noise) {
+    const double radius_m = view_radius_m(camera, size_m);
+    if (radius_m <= 0) return 0;
+    const double place_m = std::hypot(code_sigma_m(budget, camera, radius_m, 0), kSurvey_m);
+    const double heading_rad = std::hypot(code_sigma_rad(budget, 0), budget.marker.survey_rad);
+    const double arm_m = norm(camera.body_from_camera.position());
+    const auto square = [](double x) { return x * x; };
+    const auto across_m = [&](double way_m) {
+        const double reach_m = way_m + arm_m;
+        const double wander2 =
+            square(noise.sigma_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
+        return std::sqrt(square(place_m) + square(noise.sigma_m_per_sqrt_m) * way_m +
+                         square(heading_rad * reach_m) + wander2);
+    };
+    if (kSigmas * across_m(0) > radius_m) return 0;
+    double caught_m = 0;
+    double missed_m = kFarthest_m;
+    while (missed_m - caught_m > 0.01) {
+        const double middle_m = (caught_m + missed_m) / 2;
+        (kSigmas * across_m(middle_m) <= radius_m ? caught_m : missed_m) = middle_m;
+    }
+    return caught_m;
+}
+
+}  // namespace pulseline::localisation

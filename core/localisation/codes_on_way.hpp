@@ -1,0 +1,32 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/kinematics/primitives.hpp"
+#include "core/localisation/error_budget.hpp"
+#include "core/localisation/pose_filter.hpp"
+#include "core/plant/plant.hpp"
+
+/// Which codes the cameras of a vehicle pass, and how far it may drive from one to the next.
+namespace pulseline::localisation {
+
+/// Farthest from a camera's foot [m] that the middle of a code may lie to be seen whole, however it
+/// is turned.
+double view_radius_m(const plant::Camera& camera, double size_m);
+
+/// Shares of the segment (0 to 1, rising) at which one of the cameras has the code in view, looked
+/// at every few centimetres; none: it is not passed.
+std::vector<double> seen_at(const plant::Marker& marker, std::span<const plant::Camera> cameras,
+                            const kinematics::Segment& segment);
+bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> cameras,
+               const kinematics::Segment& segment);
+
+/// The longest way [m] without a code after which the camera still catches the next one: three
+/// sigma across the way, and the view's radius. 0: it cannot see a code of that size whole. Li 2022
+/// eq. 5 as corrected (second line), with errors that grow as random walks instead of as shares of
+/// the way, and with the error of the heading, which it leaves out and which is most of it.
+double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget = {},
+                   const OdometryNoise& noise = {});
+
+}  // namespace pulseline::localisation
