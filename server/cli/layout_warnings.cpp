@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/fleet/tables/code_gaps.hpp"
-#include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/layout.hpp"
 #include "core/traffic/layout_check.hpp"
 
 namespace pulseline::server::cli {

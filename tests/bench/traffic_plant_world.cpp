@@ -4,6 +4,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/layout.hpp"
 #include "tests/bench/traffic_world.hpp"
 
 // The vehicles of a plant file on the floor that the fleet makes of it.

@@ -49,10 +49,4 @@ geometry::Polygon room_about(const std::vector<geometry::Polygon>& outline,
 /// places; a plant that names none for a type lets it rest where it works.
 traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_class);
 
-/// What stands in the way of traffic's guarantee that every order can always be served (see
-/// traffic/layout_check.hpp): reasons unreachable {class, from, to, count, crossing?} and
-/// too_few_resting_places {class, resting_places, vehicles}, with the stations' names. And where
-/// vehicles would lose themselves (code_gaps.hpp).
-std::vector<Reason> check_layout(const plant::Plant& plant);
-
 }  // namespace pulseline::fleet

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "api/plant/plant_file.hpp"
-#include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/layout.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/validate.hpp"
 

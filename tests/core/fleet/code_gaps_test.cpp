@@ -4,6 +4,7 @@
 
 #include <variant>
 
+#include "core/fleet/tables/layout.hpp"
 #include "tests/core/fleet/traffic_halls.hpp"
 
 namespace pulseline::fleet::testing {
