@@ -25,6 +25,8 @@ public:
 
     /// Where it is now; the drive may believe something else until it was led there.
     geometry::Pose2 pose() const { return filter_.pose() * (inverse(driven_) * now_); }
+    /// Of x_m, y_m, heading_rad in the hall frame.
+    const Eigen::Matrix3d& covariance() const { return filter_.covariance(); }
     double sigma_xy_m() const { return filter_.sigma_xy_m(); }
     double sigma_heading_rad() const { return filter_.sigma_heading_rad(); }
     /// VDA 5050 localizationScore, against the tolerance of a usual station.

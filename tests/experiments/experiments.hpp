@@ -12,6 +12,8 @@ struct Options {
     std::optional<int> runs;         // absent: the experiment's own number
     std::string errors = "nominal";  // of the stops: nominal, kind, harsh
     double spoil_mm = 0;  // of the stops: measurements that are off by so much without knowing it
+    double stretch = 1;   // of the navigation: codes so many times farther apart than computed
+    std::string plot;     // of the navigation: SVG file, none without a name
     std::string folder;   // of the experiments' own files
 };
 
@@ -22,6 +24,10 @@ bool landmark_accuracy(const Options& options);
 /// Li 2020, section 4.3, Fig. 12: the end of the adjustment to a landmark. False when an image is
 /// not read or the compensated loop is not ten times better than the paper's.
 bool stop_adjustment(const Options& options);
+
+/// Li 2022, eq. 4 and 5: drives of 200 m by odometry alone and over codes at the spacing that is
+/// computed for the type. False when a code is missed, or a drive over codes ends too far off.
+bool navigation(const Options& options);
 
 /// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum with positions of
 /// iGPS grade, from a stand-in), Li 2020 (differential vehicle, landmark), with the whole error

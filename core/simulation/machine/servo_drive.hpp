@@ -84,6 +84,7 @@ private:
     void choose_steering(const std::vector<kinematics::WheelMotion>& present);
     double steerable_way(std::size_t wheel, double angle_rad) const;
     void steer_standing();
+    double reference_pace() const;
     void drive();
     void settle();
     void follow(const kinematics::Twist& twist);

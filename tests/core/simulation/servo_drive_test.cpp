@@ -62,6 +62,27 @@ TEST(ServoDrive, TwentyMetresEndMillimetresAndHundredthsOfADegreeOff) {
     }
 }
 
+/// At its top speed it cannot catch up: the reference has to wait for it, or the codes of a long
+/// way add up until it is taken for off its path.
+TEST(ServoDrive, WhatCodesPutItBackByDoesNotAddUp) {
+    for (const auto& type : families()) {
+        for (const double back_m : {0.008, -0.008}) {
+            ServoDrive drive(type, {}, 1);
+            for (int piece = 0; piece < 50; ++piece) drive.append(straight({4.0 * piece, 0, 0}, 4));
+            double next_m = 9;
+            for (double t = 0; t < 800 && !drive.idle(); t += kStep_s) {
+                drive.step(kStep_s);
+                if (drive.believed_pose().x_m < next_m) continue;
+                drive.set_believed(drive.believed_pose() * Pose2{-back_m, 0, 0});
+                next_m += 9;
+            }
+            EXPECT_TRUE(drive.idle()) << type.name;
+            EXPECT_FALSE(drive.stop_cause()) << type.name << " " << back_m;
+            EXPECT_NEAR(drive.believed_pose().x_m, 200, 0.002) << type.name << " " << back_m;
+        }
+    }
+}
+
 TEST(ServoDrive, FineMovesRepeatWithinTenthsOfAMillimetre) {
     for (const auto& type : families()) {
         const Pose2 shifted = sideways(type) ? Pose2{0.006, -0.004, 0} : Pose2{0.007, 0, 0};

@@ -1,0 +1,325 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <fstream>
+#include <random>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "api/plant/plant_file.hpp"
+#include "core/kinematics/motion.hpp"
+#include "core/localisation/codes_on_way.hpp"
+#include "core/onboard/marker_watch.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
+#include "server/agent/camera_sensing.hpp"
+#include "tests/experiments/experiments.hpp"
+
+namespace pulseline::experiments {
+namespace {
+
+using geometry::Pose2;
+
+constexpr double kLength_m = 200;
+constexpr double kPiece_m = 4;
+constexpr double kCheckpoint_m = 10;
+constexpr double kStep_s = 0.05;
+constexpr int kDrives = 40;
+constexpr double k95 = 1.96;  // sigmas of a normal distribution
+// A drive begins at a measured stop.
+constexpr double kStart_m = 3e-4;
+constexpr double kStart_rad = 3e-4;
+// Of where a drive with codes ends; what a camera still sees of the code there.
+constexpr double kEnd_mm = 15;
+
+struct Checkpoint {
+    double along_m = 0;
+    double across_m = 0;
+    double heading_rad = 0;
+    double sigma_along_m = 0;
+    double sigma_across_m = 0;
+    double sigma_heading_rad = 0;
+    double off_m() const { return std::hypot(along_m, across_m); }
+};
+
+struct Drive {
+    std::vector<Checkpoint> checkpoints;  // every kCheckpoint_m of the true way
+    int missed = 0;                       // codes that lay below its cameras' way
+    int refused = 0;
+    double beside_m = 0;  // of its line, at the end
+};
+
+/// A straight way of kLength_m along x with a code every `spacing_m`; 0: none.
+plant::Plant straight_way(plant::Plant plant, const plant::VehicleType& type, double spacing_m) {
+    plant.markers.clear();
+    for (double at_m = spacing_m; spacing_m > 0 && at_m <= kLength_m; at_m += spacing_m) {
+        plant::Marker marker;
+        const std::string number = std::to_string(plant.markers.size() + 1);
+        marker.id = plant::MarkerId("code-" + number);
+        marker.payload = number;
+        marker.kind = type.usual_code.kind;
+        marker.size_m = type.usual_code.size_m;
+        marker.hall = plant.halls.front().id;
+        marker.pose = {at_m, 0, 0};
+        marker.sigma_xy_m = 1e-4;
+        marker.sigma_heading_rad = 5e-4;
+        plant.markers.push_back(marker);
+    }
+    return plant;
+}
+
+std::deque<vda5050::OrderEdge> edges_over(const plant::Plant& plant,
+                                          const std::vector<plant::Camera>& cameras) {
+    std::deque<vda5050::OrderEdge> edges;
+    for (double at_m = 0; at_m < kLength_m; at_m += kPiece_m) {
+        vda5050::OrderEdge edge;
+        edge.segment.start = {at_m, 0, 0};
+        edge.segment.end = {at_m + kPiece_m, 0, 0};
+        edge.segment.length_m = kPiece_m;
+        edge.actions.emplace_back();
+        for (const auto& marker : plant.markers) {
+            if (!localisation::is_passed(marker, cameras, edge.segment)) continue;
+            edge.actions.back().markers.push_back({marker.payload, plant::to_string(marker.kind),
+                                                   marker.size_m, marker.pose, marker.sigma_xy_m,
+                                                   marker.sigma_heading_rad});
+        }
+        edges.push_back(std::move(edge));
+    }
+    return edges;
+}
+
+Checkpoint checkpoint(const onboard::PoseEstimate& estimate, const Pose2& truth) {
+    const Pose2 pose = estimate.pose();
+    const auto covariance = estimate.covariance();
+    return {pose.x_m - truth.x_m,
+            pose.y_m - truth.y_m,
+            wrap(pose.heading_rad - truth.heading_rad),
+            std::sqrt(covariance(0, 0)),
+            std::sqrt(covariance(1, 1)),
+            std::sqrt(covariance(2, 2))};
+}
+
+Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
+                  std::uint64_t seed) {
+    const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
+    const bool loaded = plant::is_loaded(vehicle);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    const Pose2 truth{kStart_m * normal(random), kStart_m * normal(random),
+                      kStart_rad * normal(random)};
+    simulation::ServoDrive drive(type, truth, seed, 1, vehicle.load_kg, world.errors);
+    drive.set_believed({});
+    agent::CameraSensing cameras(world, world.plant.halls.front().id, drive, false, seed, loaded);
+    onboard::PoseEstimate estimate{Pose2{}};
+    localisation::PoseFix start;
+    start.covariance = {{{kStart_m * kStart_m, 0, 0},
+                         {0, kStart_m * kStart_m, 0},
+                         {0, 0, kStart_rad * kStart_rad}}};
+    estimate.take(start);
+    onboard::MarkerWatch watch(cameras, drive, estimate);
+
+    auto ahead = edges_over(world.plant, plant::cameras_of(type, loaded));
+    std::set<std::string> below;
+    for (const auto& edge : ahead) {
+        drive.append(edge.segment);
+        for (const auto& marker : edge.actions.back().markers) below.insert(marker.payload);
+    }
+    Drive made;
+    std::size_t done = 0;
+    std::string refused;
+    double next_m = kCheckpoint_m;
+    for (double left_s = 3 * kLength_m / type.max_speed_mps; !drive.idle();) {
+        const double dt_s = watch.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kStep_s;
+        drive.step(dt_s);
+        estimate.drive_to(drive.believed_pose());
+        for (; done < drive.segments_done(); ++done) ahead.pop_front();
+        watch.step(dt_s, ahead);
+        for (const auto& payload : watch.take_taken()) below.erase(payload);
+        if (!watch.refused().empty() && watch.refused() != refused) {
+            ++made.refused;
+            below.erase(watch.refused());
+        }
+        refused = watch.refused();
+        if (drive.true_pose().x_m >= next_m) {
+            made.checkpoints.push_back(checkpoint(estimate, drive.true_pose()));
+            next_m += kCheckpoint_m;
+        }
+        left_s -= dt_s;
+        if (left_s < 0 || drive.stop_cause()) {
+            throw std::runtime_error(fmt::format(
+                "{} with seed {}: its drive did not end, at {:.1f} m, {:.3f} m beside ({})",
+                vehicle.id.str(), seed, drive.true_pose().x_m, drive.true_pose().y_m,
+                drive.stop_cause() ? drive.stop_cause()->code : "too slow"));
+        }
+    }
+    made.missed = static_cast<int>(below.size());
+    made.beside_m = std::abs(drive.true_pose().y_m);
+    return made;
+}
+
+/// Value that `share` of them do not exceed.
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+std::vector<double> offs_at(const std::vector<Drive>& drives, std::size_t checkpoint) {
+    std::vector<double> offs;
+    for (const Drive& drive : drives) {
+        if (checkpoint < drive.checkpoints.size())
+            offs.push_back(drive.checkpoints[checkpoint].off_m());
+    }
+    return offs;
+}
+
+/// Share of all coordinates at all checkpoints that lie inside of what is stated with 95 %.
+double covered(const std::vector<Drive>& drives) {
+    int inside = 0;
+    int all = 0;
+    for (const Drive& drive : drives) {
+        for (const Checkpoint& c : drive.checkpoints) {
+            inside += std::abs(c.along_m) <= k95 * c.sigma_along_m;
+            inside += std::abs(c.across_m) <= k95 * c.sigma_across_m;
+            inside += std::abs(c.heading_rad) <= k95 * c.sigma_heading_rad;
+            all += 3;
+        }
+    }
+    return all == 0 ? 0 : static_cast<double>(inside) / all;
+}
+
+struct Curve {
+    std::string name;
+    std::vector<double> off_mm;  // 95 % of the drives, at each checkpoint
+};
+
+/// Error over distance, logarithmic, one line a family and method.
+void plot(const std::string& file, const std::vector<Curve>& curves) {
+    constexpr double kWidth = 900;
+    constexpr double kHeight = 480;
+    constexpr double kLeft = 70;
+    constexpr double kBottom = 430;
+    const auto x = [](std::size_t i) {
+        return kLeft + static_cast<double>(i + 1) * kCheckpoint_m / kLength_m * 560;
+    };
+    const auto y = [](double mm) {
+        return kBottom - std::log10(std::max(0.1, mm) / 0.1) / 4 * 400;
+    };
+    std::ofstream svg(file);
+    svg << fmt::format(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+        "font-family=\"sans-serif\" font-size=\"13\">\n"
+        "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
+        kWidth, kHeight);
+    for (const double mm : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
+        svg << fmt::format(
+            "<path d=\"M{} {:.1f}h560\" stroke=\"#ddd\"/><text x=\"{}\" y=\"{:.1f}\" "
+            "text-anchor=\"end\">{} mm</text>\n",
+            kLeft, y(mm), kLeft - 6, y(mm) + 4, mm);
+    }
+    for (const std::size_t i : {std::size_t{4}, std::size_t{9}, std::size_t{14}, std::size_t{19}}) {
+        svg << fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} m</text>\n", x(i),
+                           kBottom + 20, (i + 1) * static_cast<std::size_t>(kCheckpoint_m));
+    }
+    constexpr std::array kColours{"#0b5cad", "#7a3e9d", "#00796b", "#c2410c", "#a16207", "#b91c1c"};
+    for (std::size_t c = 0; c < curves.size(); ++c) {
+        const char* colour = kColours[c % kColours.size()];
+        std::string points;
+        for (std::size_t i = 0; i < curves[c].off_mm.size(); ++i)
+            points += fmt::format("{:.1f},{:.1f} ", x(i), y(curves[c].off_mm[i]));
+        svg << fmt::format(
+            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n"
+            "<text x=\"645\" y=\"{}\" fill=\"{}\">{}</text>\n",
+            points, colour, 50 + 22 * c, colour, curves[c].name);
+    }
+    svg << "</svg>\n";
+}
+
+/// Li 2022, eq. 5, with an error that grows as he supposes: what it says of the spacing, printed
+/// and corrected, and how far off a vehicle may be that keeps to it.
+bool print_equation_5() {
+    constexpr double kLimit_mm = 12;
+    constexpr double kFix_mm = 1;
+    constexpr double kGrowth = 0.02;
+    constexpr double kView_mm = 140;
+    constexpr double kTag_mm = 50;
+    const auto off_mm = [](double spacing_mm) {
+        return kFix_mm + kGrowth * (spacing_mm - (kView_mm - kTag_mm));
+    };
+    const double printed_mm = 2 * (kLimit_mm - kFix_mm) / kGrowth + kTag_mm - kView_mm;
+    const double corrected_mm = (kLimit_mm - kFix_mm) / kGrowth + kView_mm - kTag_mm;
+    fmt::print(
+        "\nLi 2022, eq. 5: {} mm allowed, {} mm at a code, {} of the way, view {} mm, tag {} mm\n",
+        kLimit_mm, kFix_mm, kGrowth, kView_mm, kTag_mm);
+    fmt::print("  printed    {:>6.0f} mm: {:>5.1f} mm off\n", printed_mm, off_mm(printed_mm));
+    fmt::print("  corrected  {:>6.0f} mm: {:>5.1f} mm off\n", corrected_mm, off_mm(corrected_mm));
+    return off_mm(printed_mm) > kLimit_mm && off_mm(corrected_mm) <= kLimit_mm + 1e-9;
+}
+
+}  // namespace
+
+bool navigation(const Options& options) {
+    const int drives = options.runs.value_or(kDrives);
+    const auto errors = localisation::ErrorBudget::named(options.errors);
+    const auto plant =
+        plant::load_plant_file(options.folder + "/../../db/plants/final-assembly.json");
+    if (!plant) throw std::runtime_error(plant.error().what);
+    bool good = print_equation_5();
+    fmt::print(
+        "\n{} machines a family drive {} m straight ahead, {} errors: how far the pose that they "
+        "steer "
+        "by is off, mm\n",
+        drives, kLength_m, options.errors);
+    fmt::print("{:<22}{:>10}{:>18}{:>18}{:>18}{:>10}{:>9}{:>9}\n", "", "code every",
+               "50 m: 95 %, max", "100 m", "200 m", "covered", "missed", "refused");
+    std::vector<Curve> curves;
+    for (const char* id : {"TP-01", "OM-01", "DL-01"}) {
+        const auto& vehicle = *plant::find_vehicle(*plant, plant::VehicleId(id));
+        const auto& type = *plant::find_vehicle_type(*plant, vehicle.type);
+        double spacing_m = 0;
+        for (const auto& camera : plant::cameras_of(type, plant::is_loaded(vehicle))) {
+            spacing_m =
+                std::max(spacing_m, localisation::blind_way_m(camera, type.usual_code.size_m));
+        }
+        for (const double every_m : {0.0, options.stretch * spacing_m}) {
+            const auto way = straight_way(*plant, type, every_m);
+            std::vector<Drive> made;
+            for (int i = 0; i < drives; ++i) {
+                const auto seed = options.seed + static_cast<std::uint64_t>(i);
+                made.push_back(
+                    drive_along(simulation::make_world(way, seed, errors), vehicle, seed));
+            }
+            int missed = 0;
+            int refused = 0;
+            for (const Drive& drive : made) {
+                missed += drive.missed;
+                refused += drive.refused;
+            }
+            Curve curve{type.id.str() + (every_m > 0 ? ", codes" : ", odometry"), {}};
+            for (std::size_t c = 0; c < made.front().checkpoints.size(); ++c)
+                curve.off_mm.push_back(1e3 * quantile(offs_at(made, c), 0.95));
+            const auto at = [&](double way_m) {
+                const auto offs =
+                    offs_at(made, static_cast<std::size_t>(way_m / kCheckpoint_m) - 1);
+                return fmt::format("{:.1f}, {:.1f}", 1e3 * quantile(offs, 0.95),
+                                   1e3 * quantile(offs, 1));
+            };
+            const double end_mm = curve.off_mm.empty() ? 1e9 : curve.off_mm.back();
+            const bool kept = every_m == 0 || (missed == 0 && end_mm <= kEnd_mm);
+            good &= kept;
+            fmt::print("{:<22}{:>10}{:>18}{:>18}{:>18}{:>9.1f}%{:>9}{:>9}{}\n", curve.name,
+                       every_m > 0 ? fmt::format("{:.1f} m", every_m) : std::string("-"), at(50),
+                       at(100), at(kLength_m - kCheckpoint_m), 100 * covered(made), missed, refused,
+                       kept ? "" : "  NO");
+            std::fflush(stdout);
+            curves.push_back(std::move(curve));
+        }
+    }
+    if (!options.plot.empty()) plot(options.plot, curves);
+    return good;
+}
+
+}  // namespace pulseline::experiments
