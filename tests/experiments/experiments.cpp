@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
     Options options;
     options.folder = PULSELINE_EXPERIMENTS;
     app.add_option("NAME", name)
-        ->check(CLI::IsMember({"all", "landmark-accuracy", "navigation", "stop-adjustment", "stops"}));
+        ->check(
+            CLI::IsMember({"all", "landmark-accuracy", "navigation", "stop-adjustment", "stops"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     app.add_option("--stretch", options.stretch,
