@@ -133,17 +133,30 @@ void Executor::step(double dt_s) {
 }
 
 void Executor::note_codes(const std::vector<std::string>& payloads) {
-    for (const auto& payload : payloads) {
-        if (!codes_read_.empty()) codes_read_ += ", ";
-        codes_read_ += payload;
+    codes_read_.insert(codes_read_.end(), payloads.begin(), payloads.end());
+}
+
+/// A code that lies where two edges meet is on both of them, and read once.
+std::string Executor::codes_read_on(const vda5050::Action& action) const {
+    std::string read;
+    const auto add = [&](const std::string& payload) {
+        if (!read.empty()) read += ", ";
+        read += payload;
+    };
+    for (const auto& marker : action.markers) {
+        const auto is_it = [&](const auto& payload) { return payload == marker.payload; };
+        if (std::ranges::any_of(codes_read_before_, is_it)) add(marker.payload);
     }
+    for (const auto& payload : codes_read_) add(payload);
+    return read;
 }
 
 void Executor::take_traversals() {
     for (const auto& hop : way_.take_passed()) {
         for (const auto& action : hop.on_edge) {
-            set_action(action.id, ActionStatus::kFinished, std::exchange(codes_read_, {}));
+            set_action(action.id, ActionStatus::kFinished, codes_read_on(action));
         }
+        codes_read_before_ = std::exchange(codes_read_, {});
         traverse(hop.node);
     }
     if (way_.empty() || motion_.standing()) return;

@@ -292,7 +292,8 @@ TEST_F(ExecutorTest, AnEdgesActionTellsTheCodesThatWereReadThere) {
     executor.note_codes({"8", "9"});
     run(60);
     EXPECT_EQ(result("observe-e1"), "7, 8, 9");
-    EXPECT_EQ(result("observe-e2"), "") << "passed unread";
+    EXPECT_EQ(result("observe-e2"), "7") << "it lies where both meet";
+    EXPECT_EQ(result("observe-e3"), "") << "passed unread";
 }
 
 TEST_F(ExecutorTest, AnEdgesActionEndsWithItsOrderOrItsHorizon) {
