@@ -1,6 +1,7 @@
 #include "core/onboard/executor.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/vda5050/actions.hpp"
@@ -136,27 +137,26 @@ void Executor::note_codes(const std::vector<std::string>& payloads) {
     codes_read_.insert(codes_read_.end(), payloads.begin(), payloads.end());
 }
 
-/// A code that lies where two edges meet is on both of them, and read once.
-std::string Executor::codes_read_on(const vda5050::Action& action) const {
-    std::string read;
-    const auto add = [&](const std::string& payload) {
-        if (!read.empty()) read += ", ";
-        read += payload;
-    };
+/// A code that lies where edges meet is on all of them, and read once.
+std::string Executor::take_codes_read_on(const vda5050::Action& action) {
+    std::vector<std::string> read;
     for (const auto& marker : action.markers) {
         const auto is_it = [&](const auto& payload) { return payload == marker.payload; };
-        if (std::ranges::any_of(codes_read_before_, is_it)) add(marker.payload);
+        if (std::ranges::any_of(codes_read_before_, is_it)) read.push_back(marker.payload);
     }
-    for (const auto& payload : codes_read_) add(payload);
-    return read;
+    std::ranges::copy(codes_read_, std::back_inserter(read));
+    codes_read_.clear();
+    codes_read_before_ = read;
+    std::string text;
+    for (const auto& payload : read) text += (text.empty() ? "" : ", ") + payload;
+    return text;
 }
 
 void Executor::take_traversals() {
     for (const auto& hop : way_.take_passed()) {
         for (const auto& action : hop.on_edge) {
-            set_action(action.id, ActionStatus::kFinished, codes_read_on(action));
+            set_action(action.id, ActionStatus::kFinished, take_codes_read_on(action));
         }
-        codes_read_before_ = std::exchange(codes_read_, {});
         traverse(hop.node);
     }
     if (way_.empty() || motion_.standing()) return;

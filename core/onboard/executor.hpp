@@ -75,7 +75,7 @@ private:
     void append(const vda5050::OrderMessage& order);
     void traverse(const vda5050::OrderNode& node);
     void take_traversals();
-    std::string codes_read_on(const vda5050::Action& action) const;
+    std::string take_codes_read_on(const vda5050::Action& action);
     void queue_edges();
     void run_actions(double dt_s);
     void run_equipment();
@@ -127,7 +127,7 @@ private:
     std::vector<vda5050::ActionState> order_actions_;
     std::vector<vda5050::ActionState> instant_actions_;
     std::vector<std::string> codes_read_;  // on the edge being driven
-    std::vector<std::string> codes_read_before_;
+    std::vector<std::string> codes_read_before_;  // on the last one with codes
     std::vector<vda5050::VehicleError> errors_;
     bool position_initialized_ = false;
     bool driving_ = false;

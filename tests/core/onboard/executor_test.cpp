@@ -266,7 +266,8 @@ OrderMessage observing(int count, int released) {
         vda5050::Action action;
         action.type = "observeMarkers";
         action.id = "observe-" + edge.edge_id;
-        action.markers = {{"7", "apriltag", 0.05, edge.segment.end, 1e-4, 5e-4}};
+        const char* payload = edge.edge_id == "e3" ? "10" : "7";
+        action.markers = {{payload, "apriltag", 0.05, edge.segment.end, 1e-4, 5e-4}};
         edge.actions = {action};
     }
     return message;
