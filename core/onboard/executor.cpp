@@ -1,7 +1,6 @@
 #include "core/onboard/executor.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "core/vda5050/actions.hpp"
@@ -144,8 +143,9 @@ std::string Executor::take_codes_read_on(const vda5050::Action& action) {
         const auto is_it = [&](const auto& payload) { return payload == marker.payload; };
         if (std::ranges::any_of(codes_read_before_, is_it)) read.push_back(marker.payload);
     }
-    std::ranges::copy(codes_read_, std::back_inserter(read));
-    codes_read_.clear();
+    for (auto& payload : std::exchange(codes_read_, {})) {
+        if (std::ranges::find(read, payload) == read.end()) read.push_back(std::move(payload));
+    }
     codes_read_before_ = read;
     std::string text;
     for (const auto& payload : read) text += (text.empty() ? "" : ", ") + payload;

@@ -290,7 +290,7 @@ TEST_F(ExecutorTest, AnEdgesActionTellsTheCodesThatWereReadThere) {
     executor.handle(observing(4, 4));
     run(1);
     executor.note_codes({"7"});
-    executor.note_codes({"8", "9"});
+    executor.note_codes({"8", "9", "7"});
     run(60);
     EXPECT_EQ(result("observe-e1"), "7, 8, 9");
     EXPECT_EQ(result("observe-e2"), "7") << "it lies where both meet";
