@@ -75,7 +75,7 @@ test("what each drive missed its station by is kept, was true, and the next prev
     const ended = truth.find((row) => row.order_id === stop.leg && !row.moving && row.last_node_seq === row.base_end_seq && Math.hypot(row.x_m - pose.x_m, row.y_m - pose.y_m) < 0.2);
     assert.ok(ended, `the truth of the drive to ${stop.number} is there`);
     const off = Math.hypot(ended.x_m - x, ended.y_m - y);
-    assert.ok(off <= 3 * MM, `the drive to ${stop.number} ended ${off / MM} mm beside where the record says`);
+    assert.ok(off <= 1.5 * MM, `the drive to ${stop.number} ended ${off / MM} mm beside where the record says`);
     if (Math.hypot(stop.arrival.dx_m - stop.dx_m, stop.arrival.dy_m - stop.dy_m) > 0.5 * MM) ++adjusted;
   }
   assert.ok(adjusted >= 3, `only ${adjusted} of ${stops.length} stops were adjusted by more than 0.5 mm`);
