@@ -133,7 +133,17 @@ void Executor::step(double dt_s) {
 }
 
 void Executor::note_codes(const std::vector<std::string>& payloads) {
-    codes_read_.insert(codes_read_.end(), payloads.begin(), payloads.end());
+    for (const auto& payload : payloads) {
+        codes_read_.push_back(payload);
+        // Read behind the node, of a picture taken before it or of a code that reaches beyond it.
+        const auto is_it = [&](const auto& marker) { return marker.payload == payload; };
+        ActionState* passed = find_action(edge_passed_.id);
+        if (passed && passed->result_description.empty() &&
+            std::ranges::any_of(edge_passed_.markers, is_it)) {
+            passed->result_description = payload;
+            changed_ = true;
+        }
+    }
 }
 
 /// A code that lies where edges meet is on all of them, and read once.
@@ -156,6 +166,7 @@ void Executor::take_traversals() {
     for (const auto& hop : way_.take_passed()) {
         for (const auto& action : hop.on_edge) {
             set_action(action.id, ActionStatus::kFinished, take_codes_read_on(action));
+            edge_passed_ = action;
         }
         traverse(hop.node);
     }

@@ -126,7 +126,8 @@ private:
 
     std::vector<vda5050::ActionState> order_actions_;
     std::vector<vda5050::ActionState> instant_actions_;
-    std::vector<std::string> codes_read_;  // on the edge being driven
+    std::vector<std::string> codes_read_;         // on the edge being driven
+    vda5050::Action edge_passed_;                 // what was to be read on the last one with codes
     std::vector<std::string> codes_read_before_;  // on the last one with codes
     std::vector<vda5050::VehicleError> errors_;
     bool position_initialized_ = false;

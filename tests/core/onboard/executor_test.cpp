@@ -295,6 +295,10 @@ TEST_F(ExecutorTest, AnEdgesActionTellsTheCodesThatWereReadThere) {
     EXPECT_EQ(result("observe-e1"), "7, 8, 9");
     EXPECT_EQ(result("observe-e2"), "7") << "it lies where both meet";
     EXPECT_EQ(result("observe-e3"), "") << "passed unread";
+    executor.note_codes({"7"});
+    EXPECT_EQ(result("observe-e3"), "") << "that is another one";
+    executor.note_codes({"10"});
+    EXPECT_EQ(result("observe-e3"), "10") << "of a picture taken before the node";
 }
 
 TEST_F(ExecutorTest, AnEdgesActionEndsWithItsOrderOrItsHorizon) {
