@@ -129,6 +129,6 @@ std::uint16_t Server::port() const { return impl_->address_.port; }
 std::string Server::tls_fingerprint() const {
     return impl_->tls_ ? impl_->tls_->fingerprint : std::string();
 }
-access::AccessControl& Server::access() { return *impl_->access_; }
+api::access::AccessControl& Server::access() { return *impl_->access_; }
 
 }  // namespace pulseline::server

@@ -44,7 +44,7 @@ public:
     std::string url() const;
     std::uint16_t port() const;
     std::string tls_fingerprint() const;  // empty without TLS
-    access::AccessControl& access();
+    api::access::AccessControl& access();
 
 private:
     class Impl;

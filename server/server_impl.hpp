@@ -70,7 +70,7 @@ public:
     ClockWatch clock_watch_;
     std::optional<StreamHub> hub_;
     std::optional<FleetRuntime> runtime_;
-    std::optional<access::AccessControl> access_;
+    std::optional<api::access::AccessControl> access_;
     std::optional<VehicleGateway> gateway_;
     std::optional<LockedHistory> history_;
     TrustedProxies proxies_;

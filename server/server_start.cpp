@@ -67,8 +67,8 @@ void Server::Impl::make_parts(const fleet::StoredFleet& stored) {
     runtime_.emplace(runtime_ports(), random_seed());
     access_.emplace(
         parts_.access,
-        [this](const access::Change& change) {
-            runtime_->write([this, change] { access::apply(parts_.access, change); });
+        [this](const api::access::Change& change) {
+            runtime_->write([this, change] { api::access::apply(parts_.access, change); });
         },
         clock_->now(), stored.last_time);
     gateway_.emplace(gateway_ports());

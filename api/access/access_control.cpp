@@ -10,7 +10,7 @@
 #include "api/access/secrets.hpp"
 #include "api/access/sign_in_limit.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 constexpr std::size_t kSecretBytes = 32;
@@ -383,4 +383,4 @@ std::vector<Token> AccessControl::tokens() const {
     return all;
 }
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -11,7 +11,7 @@
 #include "api/access/identity.hpp"
 #include "core/base/result.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 
 struct RemoveSessions {
     std::vector<std::string> token_sha256s;
@@ -108,4 +108,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

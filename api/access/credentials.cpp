@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -60,4 +60,4 @@ std::string session_cookie(const std::string& token, bool secure, long max_age_s
 
 std::string expired_cookie(bool secure) { return session_cookie("", secure, 0); }
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

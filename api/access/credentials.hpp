@@ -4,7 +4,7 @@
 #include <string>
 
 /// What the headers of a request carry as proof of who sends it.
-namespace pulseline::access {
+namespace pulseline::api::access {
 
 constexpr const char* kCookie = "pulseline_session";
 constexpr const char* kSecureCookie = "__Host-pulseline_session";  // over TLS
@@ -22,4 +22,4 @@ std::string bearer_token(const std::string& authorization);
 std::string session_cookie(const std::string& token, bool secure, long max_age_s);
 std::string expired_cookie(bool secure);
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

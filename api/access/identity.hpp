@@ -6,7 +6,16 @@
 #include "core/access/access.hpp"
 #include "core/base/time.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
+
+// core/access has what is stored; here are the rules.
+using pulseline::access::parse_role;
+using pulseline::access::Role;
+using pulseline::access::Session;
+using pulseline::access::Store;
+using pulseline::access::to_string;
+using pulseline::access::Token;
+using pulseline::access::User;
 
 /// Who a request comes from, as its cookie or bearer token proves it.
 struct Identity {
@@ -32,4 +41,4 @@ struct Identity {
     bool at_least(Role least) const { return role && *role >= least; }
 };
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 constexpr std::size_t kMinPasswordBytes = 8;
@@ -38,4 +38,4 @@ Status check_new_user(const std::string& name, const std::string& password) {
     return {};
 }
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -6,7 +6,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 void need_sodium() {
@@ -75,4 +75,4 @@ bool verify_password(const std::string& hash, const std::string& password) {
     return crypto_pwhash_str_verify(hash.c_str(), password.data(), password.size()) == 0;
 }
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -8,7 +8,7 @@
 
 /// The only place that touches cryptography: random secrets, digests and password hashes
 /// (libsodium).
-namespace pulseline::access {
+namespace pulseline::api::access {
 
 std::string sha256_hex(std::string_view text);
 /// `bytes` of the system's random source in base64url without padding.
@@ -24,4 +24,4 @@ std::string from_base64url(std::string_view text);
 std::string hash_password(const std::string& password, const HashCost& cost);
 bool verify_password(const std::string& hash, const std::string& password);
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -1,6 +1,6 @@
 #include "api/access/sign_in_limit.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 constexpr Duration kWindow = std::chrono::minutes(1);
@@ -28,4 +28,4 @@ void SignInLimit::forget_old(Time now) {
     });
 }
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

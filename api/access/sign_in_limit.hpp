@@ -7,7 +7,7 @@
 
 #include "core/base/time.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 
 /// Slows guessing: so many attempts a minute for one account from one peer, then a wait. It never
 /// locks an account, so nobody can keep a plant's people out. A success forgets the attempts.
@@ -28,4 +28,4 @@ private:
     std::map<std::pair<std::string, std::string>, std::deque<Time>> attempts_;
 };
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

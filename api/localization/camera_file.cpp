@@ -3,7 +3,8 @@
 #include "api/json/object_reader.hpp"
 #include "api/localization/file_bytes.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
+
 namespace {
 
 constexpr std::size_t kMostBytes = 1'000'000;
@@ -69,4 +70,4 @@ Result<plant::Camera> read_camera_file(const std::string& path) {
     return decode_camera(*bytes);
 }
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

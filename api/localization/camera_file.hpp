@@ -6,7 +6,7 @@
 #include "core/base/result.hpp"
 #include "core/plant/plant.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
 
 /// A camera file (core/vision/README.md): a JSON object with width_px, height_px, f_px, cu_px,
 /// cv_px, k1, height_m and, where the calibration knows them, tilt_u_rad, tilt_v_rad,
@@ -18,4 +18,4 @@ std::string encode_camera(const plant::Camera& camera);
 /// Fails with file_unreadable as well.
 [[nodiscard]] Result<plant::Camera> read_camera_file(const std::string& path);
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
 
 Result<std::string> read_bytes(const std::string& path, std::size_t most_bytes) {
     const auto unreadable = [&](const std::string& why) {
@@ -27,4 +27,4 @@ Result<std::string> read_bytes(const std::string& path, std::size_t most_bytes) 
     return bytes;
 }
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

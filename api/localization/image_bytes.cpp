@@ -7,7 +7,8 @@
 
 #include "api/localization/file_bytes.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
+
 namespace {
 
 struct Size {
@@ -131,4 +132,4 @@ Result<cv::Mat> read_grey_file(const std::string& path) {
     return decode_grey(*bytes, path);
 }
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

@@ -6,7 +6,7 @@
 
 #include "core/base/result.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
 
 inline constexpr std::size_t kMostImageBytes = 64'000'000;
 inline constexpr std::size_t kMostImagePixels = 50'000'000;
@@ -18,4 +18,4 @@ inline constexpr std::size_t kMostImagePixels = 50'000'000;
 /// Fails with file_unreadable and file_too_large as well.
 [[nodiscard]] Result<cv::Mat> read_grey_file(const std::string& path);
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

@@ -11,7 +11,10 @@
 #include "core/vision/optics/camera_picture.hpp"
 #include "core/vision/optics/optics.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
+
+using namespace vision;
+
 namespace {
 
 // As the vehicles count it in their own measurements.
@@ -168,4 +171,4 @@ Result<Localization> localize(const plant::Plant& plant, const LocalizationQuest
     return answer;
 }
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

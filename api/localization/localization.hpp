@@ -12,7 +12,7 @@
 
 /// Where a vehicle stands by images of its cameras: the whole way of a stop's measurement, for
 /// anyone who has images.
-namespace pulseline::vision {
+namespace pulseline::api::localization {
 
 struct CameraImage {
     std::string camera;  // by the vehicle type's name for it, "front"
@@ -29,7 +29,7 @@ struct LocalizationQuestion {
 
 struct CameraFinding {
     std::string camera;
-    Result<MarkerReading> reading;
+    Result<vision::MarkerReading> reading;
     geometry::Pose2 body_from_marker;  // when there is a reading
     double sigma_m = 0;                // per axis, calibration and image noise together
     std::string picture;               // annotated JPEG
@@ -47,4 +47,4 @@ struct Localization {
 /// answer. `plant` has to outlive it.
 Result<Localization> localize(const plant::Plant& plant, const LocalizationQuestion& question);
 
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

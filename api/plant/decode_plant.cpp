@@ -6,7 +6,10 @@
 
 // Only what a field alone can get wrong is refused here (type, size, unknown name); what must hold
 // between elements, and every physical limit, is core/plant/validate.
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 using json::CountLimits;
@@ -362,4 +365,4 @@ Plant decode_plant(const Json& json, FieldErrors& errors) {
     return plant;
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -1,6 +1,9 @@
 #include "api/plant/plant_codec.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 using json::Json;
@@ -232,4 +235,4 @@ std::string plant_to_json(const Plant& plant) {
     return out + "\n";
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

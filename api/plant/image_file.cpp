@@ -5,7 +5,10 @@
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 constexpr std::size_t kMostPixels = 100'000'000;  // 1 km x 1 km at 0.1 m
@@ -122,4 +125,4 @@ std::string encode_pgm(const GreyImage& image) {
     return out;
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -7,7 +7,7 @@
 
 #include "core/base/result.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
 
 struct GreyImage {
     int width = 0;
@@ -21,4 +21,4 @@ struct GreyImage {
 /// Binary PGM.
 std::string encode_pgm(const GreyImage& image);
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -4,7 +4,10 @@
 #include <charconv>
 #include <optional>
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 // Larger maps would not fit the 16-bit coordinates of the searches, nor memory.
@@ -113,4 +116,4 @@ Result<std::vector<MovingAiProblem>> parse_moving_ai_scenario(std::string_view t
     return problems;
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -9,7 +9,7 @@
 
 /// Benchmark grids and problems in the MovingAI formats (movingai.com/benchmarks/formats.html):
 /// column 0 and row 0 are at the top left; free cells are '.', 'G' and 'S'.
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
 
 struct MovingAiProblem {
     planning::Cell start;
@@ -18,8 +18,8 @@ struct MovingAiProblem {
 };
 
 /// Errors: map_invalid {line}.
-Result<OccupancyGrid> parse_moving_ai_map(std::string_view text);
+Result<plant::OccupancyGrid> parse_moving_ai_map(std::string_view text);
 /// Errors: scenario_invalid {line}.
 Result<std::vector<MovingAiProblem>> parse_moving_ai_scenario(std::string_view text);
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -8,7 +8,10 @@
 
 #include "api/plant/image_file.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 256u << 20;
@@ -211,4 +214,4 @@ Status write_file(const std::filesystem::path& path, std::string_view text) {
     return {};
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

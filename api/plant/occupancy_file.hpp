@@ -7,7 +7,7 @@
 #include "core/base/result.hpp"
 #include "core/plant/occupancy_grid.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
 
 /// The six keys of a ROS map_server file.
 struct MapYaml {
@@ -26,14 +26,15 @@ struct MapYaml {
 
 /// Grid from the YAML file and the image beside it. What map_server calls unknown counts as
 /// occupied: nobody has seen that it is free.
-[[nodiscard]] Result<OccupancyGrid> load_occupancy(const std::filesystem::path& yaml);
+[[nodiscard]] Result<plant::OccupancyGrid> load_occupancy(const std::filesystem::path& yaml);
 
 /// Writes NAME.yaml and NAME.pgm, so that loading gives the same grid.
-[[nodiscard]] Status save_occupancy(const OccupancyGrid& grid, const std::filesystem::path& yaml);
+[[nodiscard]] Status save_occupancy(const plant::OccupancyGrid& grid,
+                                    const std::filesystem::path& yaml);
 
 /// Whole file; reason file_unreadable {file}.
 [[nodiscard]] Result<std::string> read_file(const std::filesystem::path& path);
 /// Written beside and renamed, so that nobody sees half a file; reason file_unwritable {file}.
 [[nodiscard]] Status write_file(const std::filesystem::path& path, std::string_view text);
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

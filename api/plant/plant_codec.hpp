@@ -6,7 +6,7 @@
 #include "core/plant/plant.hpp"
 
 /// Plant <-> JSON; the schema is api/plant.schema.json.
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
 
 enum class PlantForm {
     kFile,  // halls name their occupancy_yaml
@@ -14,14 +14,14 @@ enum class PlantForm {
             // (openapi.yaml, Plant)
 };
 
-json::Json encode_plant(const Plant& plant, PlantForm form);
+json::Json encode_plant(const plant::Plant& plant, PlantForm form);
 
 /// Reads the file form; grids stay empty. Every field at fault is kept in `errors`; the plant is
 /// worth something only when there are none.
-Plant decode_plant(const json::Json& json, json::FieldErrors& errors);
+plant::Plant decode_plant(const json::Json& json, json::FieldErrors& errors);
 
 /// The file form as text: one element a line, so that a diff shows what changed. Doubles print so
 /// that reading them gives the same value.
-std::string plant_to_json(const Plant& plant);
+std::string plant_to_json(const plant::Plant& plant);
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

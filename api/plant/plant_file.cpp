@@ -3,7 +3,10 @@
 #include "api/plant/occupancy_file.hpp"
 #include "api/plant/plant_codec.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +87,4 @@ Status save_plant_file(const Plant& plant, const fs::path& path) {
     return write_file(path, plant_to_json(plant));
 }
 
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

@@ -96,7 +96,7 @@ Result<control::MotionCompensation> LearnedMoves::load() const {
 Status LearnedMoves::save(const control::MotionCompensation& compensation) const {
     Json passes = Json::array();
     for (const DrivenPass& pass : compensation.passes()) passes.push_back(encode(pass));
-    return plant::write_file(file_, Json{{"passes", std::move(passes)}}.dump() + "\n");
+    return api::plant_file::write_file(file_, Json{{"passes", std::move(passes)}}.dump() + "\n");
 }
 
 }  // namespace pulseline::agent

@@ -114,7 +114,7 @@ Status set_up_tls(server::ssl::context& tls, const Options& options) {
 }
 
 Result<int> run(const Options& options) {
-    auto plant = plant::load_plant_file(options.world_file);
+    auto plant = api::plant_file::load_plant_file(options.world_file);
     if (!plant) return fail(plant.error());
     const auto world = simulation::make_world(std::move(*plant), options.seed,
                                               localisation::ErrorBudget::named(options.errors));

@@ -35,8 +35,8 @@ int with_access(const AccessInput& input, F act) {
     if (!storage) return failed(storage.error());
     const Time now = ServerClock(Time{}).now();
     access::Store& store = (*storage)->access();
-    access::AccessControl control(
-        store, [&](const access::Change& change) { access::apply(store, change); }, now);
+    api::access::AccessControl control(
+        store, [&](const api::access::Change& change) { api::access::apply(store, change); }, now);
     return act(control, now);
 }
 
@@ -50,7 +50,7 @@ int add_user(const AccessInput& input) {
     }
     std::string password;
     std::getline(std::cin, password);
-    return with_access(input, [&](access::AccessControl& control, Time now) {
+    return with_access(input, [&](api::access::AccessControl& control, Time now) {
         const auto user = control.create_user(input.name, *role, password, now);
         if (!user) return failed(user.error());
         fmt::print("user {} is now {}\n", user->name, to_string(user->role));
@@ -59,7 +59,7 @@ int add_user(const AccessInput& input) {
 }
 
 int list_users(const AccessInput& input) {
-    return with_access(input, [](access::AccessControl& control, Time) {
+    return with_access(input, [](api::access::AccessControl& control, Time) {
         for (const auto& user : control.users()) {
             fmt::print("{}\t{}{}\n", user.name, to_string(user.role),
                        user.disabled ? "\tdisabled" : "");
@@ -76,8 +76,8 @@ int create_tokens_of_all_vehicles(const AccessInput& input) {
     if (!plant) return failed(wrong("this database has no plant; import one first"));
     access::Store& store = (*storage)->access();
     const Time now = ServerClock(Time{}).now();
-    access::AccessControl control(
-        store, [&](const access::Change& change) { access::apply(store, change); }, now);
+    api::access::AccessControl control(
+        store, [&](const api::access::Change& change) { api::access::apply(store, change); }, now);
     for (const auto& vehicle : plant->vehicles) {
         const auto made = control.create_vehicle_token(vehicle.manufacturer, vehicle.serial_number,
                                                        input.note, now);
@@ -102,7 +102,7 @@ int create_token(const AccessInput& input) {
         (slash == std::string::npos || slash == 0 || slash + 1 == input.vehicle.size())) {
         return failed(wrong("--vehicle is MAKER/SERIAL, as the vehicle writes them"));
     }
-    return with_access(input, [&](access::AccessControl& control, Time now) {
+    return with_access(input, [&](api::access::AccessControl& control, Time now) {
         const auto made =
             role ? control.create_api_token(*role, input.scope, input.note, now)
                  : control.create_vehicle_token(input.vehicle.substr(0, slash),
@@ -116,7 +116,7 @@ int create_token(const AccessInput& input) {
 }
 
 int list_tokens(const AccessInput& input) {
-    return with_access(input, [](access::AccessControl& control, Time) {
+    return with_access(input, [](api::access::AccessControl& control, Time) {
         for (const auto& token : control.tokens()) {
             const std::string owner =
                 token.role ? std::string("role ") + to_string(*token.role)
@@ -129,7 +129,7 @@ int list_tokens(const AccessInput& input) {
 }
 
 int revoke_token(const AccessInput& input) {
-    return with_access(input, [&](access::AccessControl& control, Time) {
+    return with_access(input, [&](api::access::AccessControl& control, Time) {
         const auto done = control.revoke_token(input.id);
         if (!done) return failed(done.error());
         fmt::print("token {} is revoked\n", input.id);

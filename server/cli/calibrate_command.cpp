@@ -100,7 +100,7 @@ Result<MountingCalibration> mounting_by_board(const plant::Camera& start, const 
 }
 
 Result<std::vector<plant::Marker>> read_codes(const std::string& file) {
-    const auto bytes = vision::read_bytes(file, kMostListBytes);
+    const auto bytes = api::localization::read_bytes(file, kMostListBytes);
     if (!bytes) return fail(bytes.error());
     auto codes = printing::read_sheet_list(*bytes);
     if (!codes) codes.error().what = file + ": " + codes.error().what;
@@ -158,7 +158,7 @@ int keep(const plant::Camera& found, const plant::Camera& camera,
          const std::vector<calibration::Residual>& residuals, const Input& input,
          std::ostream& out) {
     const auto& [file, picture] = std::tie(input.out, input.residuals);
-    if (!write_file(file, vision::encode_camera(found))) {
+    if (!write_file(file, api::localization::encode_camera(found))) {
         out << "pulseline: cannot write " << file << "\n";
         return kFailed;
     }
@@ -180,7 +180,7 @@ int calibrate_lens(const LensInput& input, std::ostream& out) {
     std::vector<calibration::BoardView> views;
     cv::Size size;
     for (const std::string& file : input.images) {
-        const auto image = vision::read_grey_file(file);
+        const auto image = api::localization::read_grey_file(file);
         if (!image) return refused(image.error(), out);
         if (!views.empty() && image->size() != size)
             return refused({Errc::kInvalid,
@@ -205,10 +205,10 @@ int calibrate_lens(const LensInput& input, std::ostream& out) {
 }
 
 int calibrate_mounting(const MountingInput& input, std::ostream& out) {
-    const auto file = vision::read_camera_file(input.camera_file);
+    const auto file = api::localization::read_camera_file(input.camera_file);
     if (!file) return refused(file.error(), out);
     plant::Camera drawn = *file;
-    const auto image = vision::read_grey_file(input.image);
+    const auto image = api::localization::read_grey_file(input.image);
     if (!image) return refused(image.error(), out);
     if (!vision::is_image_of(*image, drawn))
         return refused({Errc::kInvalid,

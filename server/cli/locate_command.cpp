@@ -86,14 +86,14 @@ void locate_in(const std::string& name, const cv::Mat& image, const plant::Camer
 }  // namespace
 
 int locate(const LocateInput& input, std::ostream& out) {
-    const auto camera = vision::read_camera_file(input.camera_file);
+    const auto camera = api::localization::read_camera_file(input.camera_file);
     if (!camera) {
         print_refused(input.camera_file, camera.error(), input.json, out);
         return kLocateUnreadable;
     }
     int outcome = kLocateDone;
     for (const std::string& name : input.images) {
-        const auto image = vision::read_grey_file(name);
+        const auto image = api::localization::read_grey_file(name);
         if (!image) {
             print_refused(name, image.error(), input.json, out);
             outcome = kLocateUnreadable;

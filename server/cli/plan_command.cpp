@@ -38,7 +38,7 @@ auto read(const std::string& file, Parse parse) {
         error.what = file + ": " + error.what;
         return error;
     };
-    return plant::read_file(file).and_then(
+    return api::plant_file::read_file(file).and_then(
         [&](const auto& text) { return parse(text).map_error(name_file); });
 }
 
@@ -84,9 +84,9 @@ int plan_scenario(const PlanInput& input, std::ostream& out) {
     if (!algorithm) return unreadable(input, algorithm.error().what, out);
     const auto cost = planning::unit_cell_cost(input.k_same, input.k_diff);
     if (!cost) return unreadable(input, cost.error().what, out);
-    const auto grid = read(input.map, plant::parse_moving_ai_map);
+    const auto grid = read(input.map, api::plant_file::parse_moving_ai_map);
     if (!grid) return unreadable(input, grid.error().what, out);
-    const auto problems = read(input.scenario, plant::parse_moving_ai_scenario);
+    const auto problems = read(input.scenario, api::plant_file::parse_moving_ai_scenario);
     if (!problems) return unreadable(input, problems.error().what, out);
 
     const auto begin = Timer::now();

@@ -47,7 +47,7 @@ void print_faults(const std::vector<plant::Fault>& faults, const std::string& se
 /// The plant when it has no fault, with warnings about its layout; prints what is wrong otherwise.
 int read_sound_plant(const std::string& file, bool as_json, std::ostream& out,
                      plant::Plant& plant) {
-    auto read = plant::read_plant_file(file);
+    auto read = api::plant_file::read_plant_file(file);
     if (!read) {
         for (const Error& error : read.error()) {
             if (as_json) {
@@ -110,7 +110,7 @@ int plant_export(const std::string& database, const std::string& plant_file, std
         const auto plant = db::load_plant(reader);
         if (!plant)
             return unreadable(database + ": it holds no plant; import one first.", false, out);
-        const Status saved = plant::save_plant_file(*plant, plant_file);
+        const Status saved = api::plant_file::save_plant_file(*plant, plant_file);
         if (!saved) return unreadable(saved.error().what, false, out);
         out << "plant " << plant->id << " revision " << plant->revision << " written to "
             << plant_file << "\n";

@@ -33,7 +33,7 @@ Result<plant::Plant> load_plant(Storage& storage, const Options& options) {
         return fail(Errc::kInvalid, "plant_missing",
                     "the database holds no plant yet; name a plant file with --plant");
     }
-    auto plant = plant::load_plant_file(options.plant_file);
+    auto plant = api::plant_file::load_plant_file(options.plant_file);
     if (!plant) return plant;
     const auto faults = plant::validate(*plant);
     if (!faults.empty()) {

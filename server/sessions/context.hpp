@@ -30,7 +30,7 @@ struct Context {
     Metrics& metrics;
     CameraStore& images;
     FleetRuntime& runtime;
-    access::AccessControl& access;
+    api::access::AccessControl& access;
     fleet::History& history;
     StreamHub& hub;
     VehicleGateway& gateway;

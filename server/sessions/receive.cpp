@@ -83,7 +83,7 @@ BodyRule body_rule(Context& context, api::Request request, const Parser& parser)
         auto admitted = api::admit(request, context.policy);
         rule.refusal = std::move(admitted.refusal);
     }
-    const bool stranger = request.identity.kind == access::Identity::Kind::kAnonymous;
+    const bool stranger = request.identity.kind == api::access::Identity::Kind::kAnonymous;
     rule.most_bytes = stranger ? limits.stranger_body_bytes : limits.body_bytes;
     if (!stranger && known.route) {
         rule.most_bytes = std::max(rule.most_bytes, known.route->body_bytes);

@@ -43,7 +43,7 @@ private:
 };
 
 struct Stream {
-    Stream(Context& c, ByteStream s, access::Identity who)
+    Stream(Context& c, ByteStream s, api::access::Identity who)
         : context(c),
           socket(std::move(s), {.most_bytes = c.options.limits.stream_message_bytes,
                                 .idle = c.options.limits.stream_dead,
@@ -54,7 +54,7 @@ struct Stream {
 
     Context& context;
     WebSocket socket;
-    access::Identity identity;
+    api::access::Identity identity;
     StreamClient client;
     Signal signal;
     Pace pace;

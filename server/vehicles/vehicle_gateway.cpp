@@ -71,7 +71,7 @@ net::awaitable<tl::expected<plant::VehicleId, api::Response>> VehicleGateway::ad
     const auto identity = ports_.access.vehicle_for_token(request.header("authorization"),
                                                           path->manufacturer, path->serial);
     if (!identity) {
-        if (request.identity.kind == access::Identity::Kind::kAnonymous) {
+        if (request.identity.kind == api::access::Identity::Kind::kAnonymous) {
             co_return refuse(request, 401, Errc::kUnauthenticated, "not_signed_in",
                              "Send the vehicle's token as Authorization: Bearer; `pulseline token "
                              "create --vehicle MAKER/SERIAL` makes one.");

@@ -43,7 +43,7 @@ public:
         const Limits& limits;
         const Clock& clock;
         FleetRuntime& runtime;
-        access::AccessControl& access;
+        api::access::AccessControl& access;
         Metrics& metrics;
         CameraStore& images;
         PoseTable& poses;

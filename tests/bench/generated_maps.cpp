@@ -115,7 +115,7 @@ plant::OccupancyGrid maze(std::mt19937& random, int side) {
     return grid;
 }
 
-void keep_longest(std::vector<plant::MovingAiProblem>& problems) {
+void keep_longest(std::vector<api::plant_file::MovingAiProblem>& problems) {
     std::stable_sort(problems.begin(), problems.end(),
                      [](const auto& a, const auto& b) { return a.length > b.length; });
     if (problems.size() > kProblems) problems.resize(kProblems);
@@ -153,8 +153,8 @@ std::vector<BenchMap> maps_in(const std::string& folder) {
     std::sort(scenarios.begin(), scenarios.end());
     std::vector<BenchMap> result;
     for (const fs::path& path : maps) {
-        const auto grid = plant::read_file(path).and_then(
-            [](const auto& t) { return plant::parse_moving_ai_map(t); });
+        const auto grid = api::plant_file::read_file(path).and_then(
+            [](const auto& t) { return api::plant_file::parse_moving_ai_map(t); });
         if (!grid) {
             std::cerr << path.string() << ": " << grid.error().what << '\n';
             continue;
@@ -162,8 +162,8 @@ std::vector<BenchMap> maps_in(const std::string& folder) {
         BenchMap map{path.stem().string(), *grid, {}};
         for (const fs::path& scenario : scenarios) {
             if (!scenario.filename().string().starts_with(map.name)) continue;
-            const auto problems = plant::read_file(scenario).and_then(
-                [](const auto& t) { return plant::parse_moving_ai_scenario(t); });
+            const auto problems = api::plant_file::read_file(scenario).and_then(
+                [](const auto& t) { return api::plant_file::parse_moving_ai_scenario(t); });
             if (!problems) {
                 std::cerr << scenario.string() << ": " << problems.error().what << '\n';
                 continue;

@@ -11,7 +11,7 @@ namespace pulseline::bench {
 struct BenchMap {
     std::string name;
     plant::OccupancyGrid grid;
-    std::vector<plant::MovingAiProblem> problems;  // the longest, at most 200
+    std::vector<api::plant_file::MovingAiProblem> problems;  // the longest, at most 200
 };
 
 /// Every NAME.map of a folder with the problems of all NAME*.scen beside it.

@@ -25,7 +25,7 @@ namespace {
 const plant::Plant& bench_plant() {
     static const plant::Plant plant = [] {
         const char* path = std::getenv("PULSELINE_BENCH_PLANT");
-        auto loaded = plant::load_plant_file(path ? path : PULSELINE_DEFAULT_PLANT);
+        auto loaded = api::plant_file::load_plant_file(path ? path : PULSELINE_DEFAULT_PLANT);
         if (!loaded) {
             std::cerr << loaded.error().what << '\n';
             std::exit(2);

@@ -11,7 +11,7 @@
 namespace pulseline::bench {
 
 World plant_world(const std::string& path) {
-    const auto plant = plant::load_plant_file(path);
+    const auto plant = api::plant_file::load_plant_file(path);
     if (!plant) {
         std::fprintf(stderr, "%s: %s\n", path.c_str(), plant.error().what.c_str());
         std::exit(2);

@@ -13,11 +13,12 @@ namespace pulseline::db {
 namespace {
 
 plant::Plant demo(const std::string& name) {
-    return plant::load_plant_file(std::string(PULSELINE_PLANTS) + "/" + name + ".json").value();
+    return api::plant_file::load_plant_file(std::string(PULSELINE_PLANTS) + "/" + name + ".json")
+        .value();
 }
 
 void expect_same(const plant::Plant& a, const plant::Plant& b) {
-    EXPECT_EQ(plant::plant_to_json(a), plant::plant_to_json(b));
+    EXPECT_EQ(api::plant_file::plant_to_json(a), api::plant_file::plant_to_json(b));
     ASSERT_EQ(a.halls.size(), b.halls.size());
     for (std::size_t i = 0; i < a.halls.size(); ++i) {
         EXPECT_EQ(a.halls[i].grid.width, b.halls[i].grid.width);

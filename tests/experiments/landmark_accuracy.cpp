@@ -54,7 +54,8 @@ class Rig {
 public:
     Rig(const Options& options)
         : random_(options.seed), size_m_(plant::usual_size_m(MarkerKind::kLandmark)) {
-        const auto camera = vision::read_camera_file(options.folder + "/landmark_camera.json");
+        const auto camera =
+            api::localization::read_camera_file(options.folder + "/landmark_camera.json");
         if (!camera) throw std::runtime_error(camera.error().what);
         camera_ = *camera;
     }

@@ -265,7 +265,7 @@ bool navigation(const Options& options) {
     const int drives = options.runs.value_or(kDrives);
     const auto errors = localisation::ErrorBudget::named(options.errors);
     const auto plant =
-        plant::load_plant_file(options.folder + "/../../db/plants/final-assembly.json");
+        api::plant_file::load_plant_file(options.folder + "/../../db/plants/final-assembly.json");
     if (!plant) throw std::runtime_error(plant.error().what);
     bool good = print_equation_5();
     fmt::print(

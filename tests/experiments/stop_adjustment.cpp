@@ -194,7 +194,8 @@ void print_budget(int starts) {
 }  // namespace
 
 bool stop_adjustment(const Options& options) {
-    const auto camera = vision::read_camera_file(options.folder + "/landmark_camera.json");
+    const auto camera =
+        api::localization::read_camera_file(options.folder + "/landmark_camera.json");
     if (!camera) throw std::runtime_error(camera.error().what);
     const int starts = options.runs.value_or(kStarts);
     print_budget(starts);

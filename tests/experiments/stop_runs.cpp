@@ -257,7 +257,7 @@ std::vector<StopFamily> stop_families() {
 
 std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
                             const StopRuns& runs) {
-    const auto plant = plant::load_plant_file(plant_file);
+    const auto plant = api::plant_file::load_plant_file(plant_file);
     if (!plant) throw std::runtime_error(plant.error().what);
     std::vector<Stop> stops;
     for (int v = 0; v < runs.vehicles; ++v) {

@@ -79,7 +79,7 @@ bool stops(const Options& options) {
     runs.errors = localisation::ErrorBudget::named(options.errors);
     runs.spoil_m = options.spoil_mm / 1e3;
     const std::string file = options.folder + "/../../db/plants/final-assembly.json";
-    const auto plant = plant::load_plant_file(file);
+    const auto plant = api::plant_file::load_plant_file(file);
     if (!plant) throw std::runtime_error(plant.error().what);
     fmt::print(
         "\n{} machines a family with {} stops each, {} errors; by the true pose against the "

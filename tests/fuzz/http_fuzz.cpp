@@ -18,7 +18,7 @@ using namespace pulseline;
 
 /// What a handler would get of it, in one line.
 std::string line_of(api::Request request) {
-    request.identity.kind = access::Identity::Kind::kToken;  // nothing is refused for who asks
+    request.identity.kind = api::access::Identity::Kind::kToken;  // nothing is refused for who asks
     request.identity.role = access::Role::kAdmin;
     const auto admitted = api::admit(request, {{"https://hall.example"}});
     const auto status = admitted.refusal ? admitted.refusal->status : 200;

@@ -9,7 +9,8 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace pulseline;
     cv::setNumThreads(1);
-    const auto image = vision::decode_grey({reinterpret_cast<const char*>(data), size}, "input");
+    const auto image =
+        api::localization::decode_grey({reinterpret_cast<const char*>(data), size}, "input");
     if (!image || image->total() > 400'000) return 0;
     plant::Camera camera;
     camera.width_px = image->cols;

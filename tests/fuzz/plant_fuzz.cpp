@@ -10,16 +10,16 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
     using namespace pulseline;
     const std::string_view text(reinterpret_cast<const char*>(data), size);
-    (void)plant::parse_map_yaml(text, "map.yaml");
-    (void)plant::decode_image(text, "map.pgm");
+    (void)api::plant_file::parse_map_yaml(text, "map.yaml");
+    (void)api::plant_file::decode_image(text, "map.pgm");
     const auto json = json::parse_json(text, {32, 100'000});
     if (!json) return 0;
     json::FieldErrors errors;
-    const auto plant = plant::decode_plant(*json, errors);
+    const auto plant = api::plant_file::decode_plant(*json, errors);
     if (!errors.empty()) return 0;
     (void)plant::validate(plant);
-    const auto again = json::parse_json(plant::plant_to_json(plant), {32, 1'000'000});
+    const auto again = json::parse_json(api::plant_file::plant_to_json(plant), {32, 1'000'000});
     json::FieldErrors none;
-    if (!again || (plant::decode_plant(*again, none), !none.empty())) std::abort();
+    if (!again || (api::plant_file::decode_plant(*again, none), !none.empty())) std::abort();
     return 0;
 }

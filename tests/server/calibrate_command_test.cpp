@@ -90,14 +90,14 @@ protected:
     /// With the lens known and the mounting as drawn, centimetres and degrees off.
     MountingInput mounting() {
         MountingInput input;
-        input.camera_file = write("lens.json", vision::encode_camera(true_camera()));
+        input.camera_file = write("lens.json", api::localization::encode_camera(true_camera()));
         input.start = {5.3, 0, 0, 0.46};
         input.out = file("camera.json");
         input.residuals = file("residuals.png");
         return input;
     }
     void expect_true_mounting(double foot_m, double tilt_rad) {
-        const auto found = vision::read_camera_file(file("camera.json"));
+        const auto found = api::localization::read_camera_file(file("camera.json"));
         ASSERT_TRUE(found) << out_.str();
         EXPECT_NEAR(found->height_m, true_camera().height_m, foot_m);
         EXPECT_NEAR(found->tilt_u_rad, true_camera().tilt_u_rad, tilt_rad);
@@ -135,7 +135,7 @@ TEST_F(Calibrate, FindsTheLensFromTiltedBoards) {
 
     ASSERT_EQ(calibrate_lens(input, out_), 0) << out_.str();
 
-    const auto found = vision::read_camera_file(input.out);
+    const auto found = api::localization::read_camera_file(input.out);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->f_px, 3290, 1);
     EXPECT_NEAR(found->cu_px, 645, 1);
@@ -159,7 +159,7 @@ TEST_F(Calibrate, FindsTheMountingFromABoardOnTheFloor) {
 TEST_F(Calibrate, KeepsTheMountingUnderLoadBesideTheOther) {
     const Pose2 at = below(true_camera(), radians(4));
     MountingInput input = mounting();
-    const auto before = vision::read_camera_file(input.camera_file);
+    const auto before = api::localization::read_camera_file(input.camera_file);
     input.image = write("floor.png", picture_of_board(true_camera(), at));
     input.board = {kCorners, kSquare_m};
     input.board_at = {at.x_m, at.y_m, degrees(at.heading_rad)};
@@ -167,7 +167,7 @@ TEST_F(Calibrate, KeepsTheMountingUnderLoadBesideTheOther) {
 
     ASSERT_EQ(calibrate_mounting(input, out_), 0) << out_.str();
 
-    const auto found = vision::read_camera_file(file("camera.json"));
+    const auto found = api::localization::read_camera_file(file("camera.json"));
     ASSERT_TRUE(before && found && found->loaded) << out_.str();
     EXPECT_NEAR(found->loaded->height_m, true_camera().height_m, 2e-4);
     EXPECT_NEAR(found->loaded->body_from_camera.x_m, true_camera().body_from_camera.x_m, 2e-4);

@@ -25,7 +25,7 @@ protected:
                   (std::string("pulseline_locate_") +
                    testing::UnitTest::GetInstance()->current_test_info()->name());
         fs::create_directories(folder_);
-        input_.camera_file = write("camera.json", vision::encode_camera({}));
+        input_.camera_file = write("camera.json", api::localization::encode_camera({}));
         input_.json = true;
     }
     void TearDown() override { fs::remove_all(folder_); }

@@ -25,12 +25,12 @@ protected:
     std::string database() const { return folder_.file("fleet.db"); }
     /// A plant file with two faults.
     std::string broken() {
-        plant::Plant plant = plant::load_plant_file(kPulseLine).value();
+        plant::Plant plant = api::plant_file::load_plant_file(kPulseLine).value();
         plant.stations[1].number = 1;
         plant.vehicle_types[0].max_speed_mps = 0;
         plant.halls[0].occupancy_yaml.clear();
         const std::string path = folder_.file("broken.json");
-        EXPECT_TRUE(plant::save_plant_file(plant, path));
+        EXPECT_TRUE(api::plant_file::save_plant_file(plant, path));
         return path;
     }
 };
@@ -56,14 +56,14 @@ TEST_F(PlantCommands, ValidateWritesJsonLines) {
 }
 
 TEST_F(PlantCommands, WarnsOfStationsWhereRestingVehiclesAreInTheWay) {
-    plant::Plant plant = plant::load_plant_file(kPulseLine).value();
+    plant::Plant plant = api::plant_file::load_plant_file(kPulseLine).value();
     plant::Vehicle second = plant.vehicles[0];
     second.id = plant::VehicleId("TP-02");
     second.serial_number = "TP-02";
     second.home = plant.stations[3].id;
     plant.vehicles.push_back(second);
     const std::string file = folder_.file("two.json");
-    ASSERT_TRUE(plant::save_plant_file(plant, file));
+    ASSERT_TRUE(api::plant_file::save_plant_file(plant, file));
 
     EXPECT_EQ(plant_validate(file, false, out_), kPlantSound) << out_.str();
     EXPECT_NE(out_.str().find("warning: /stations/"), std::string::npos) << out_.str();
@@ -96,10 +96,11 @@ TEST_F(PlantCommands, ImportedPlantIsExportedByteForByteTheSame) {
     ASSERT_EQ(plant_import(database(), kPulseLine, false, out_), kPlantSound) << out_.str();
     ASSERT_EQ(plant_export(database(), folder_.file("copy.json"), out_), kPlantSound) << out_.str();
 
-    EXPECT_EQ(plant::read_file(folder_.file("copy.json")).value(),
-              plant::plant_to_json(plant::load_plant_file(kPulseLine).value()));
-    EXPECT_TRUE(plant::read_file(folder_.file("pulse-line.pgm")).value() ==
-                plant::read_file(std::string(PULSELINE_PLANTS) + "/pulse-line.pgm").value());
+    EXPECT_EQ(api::plant_file::read_file(folder_.file("copy.json")).value(),
+              api::plant_file::plant_to_json(api::plant_file::load_plant_file(kPulseLine).value()));
+    EXPECT_TRUE(
+        api::plant_file::read_file(folder_.file("pulse-line.pgm")).value() ==
+        api::plant_file::read_file(std::string(PULSELINE_PLANTS) + "/pulse-line.pgm").value());
     EXPECT_EQ(plant_validate(folder_.file("copy.json"), false, out_), kPlantSound) << out_.str();
 }
 

@@ -357,7 +357,7 @@ Options options_from(int argc, char** argv) {
 }
 
 int run(const Options& options) {
-    const auto plant = plant::load_plant_file(options.plant);
+    const auto plant = api::plant_file::load_plant_file(options.plant);
     if (!plant) {
         std::printf("%s\n", plant.error().what.c_str());
         return 2;

@@ -9,7 +9,7 @@ namespace pulseline::api {
 
 Documents make_documents(const plant::Plant& plant) {
     Documents documents;
-    documents.plant_json = dump(plant::encode_plant(plant, plant::PlantForm::kApi));
+    documents.plant_json = dump(plant_file::encode_plant(plant, plant_file::PlantForm::kApi));
     documents.plant_etag = etag_of(plant.revision);
     for (const plant::Hall& hall : plant.halls) {
         if (!hall.grid.empty()) documents.grid_png[hall.id.str()] = grid_png(hall.grid);

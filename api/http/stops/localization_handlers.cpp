@@ -9,7 +9,7 @@
 namespace pulseline::api {
 namespace {
 
-Json camera_json(const vision::CameraFinding& finding) {
+Json camera_json(const localization::CameraFinding& finding) {
     Json json{{"camera", finding.camera},
               {"found", finding.reading.has_value()},
               {"picture", to_base64(finding.picture)}};
@@ -28,7 +28,7 @@ Json camera_json(const vision::CameraFinding& finding) {
     return json;
 }
 
-Json answer_json(const vision::Localization& answer) {
+Json answer_json(const localization::Localization& answer) {
     Json json{{"cameras", list_json(answer.cameras, camera_json)}};
     if (!answer.fix) {
         json["reason"] = reason_json(answer.fix.error().reason);
@@ -54,7 +54,7 @@ Json answer_json(const vision::Localization& answer) {
 Response localize(const HistoryContext& context, const Request& request) {
     const auto question = read_localization(request);
     if (!question) return problem(400, question.error(), request);
-    const auto answer = vision::localize(context.plant, *question);
+    const auto answer = localization::localize(context.plant, *question);
     // The request is well formed; what it names or holds is not to be had. That is 422, never 404.
     if (!answer) return problem(422, answer.error(), request);
     return json_response(200, answer_json(*answer));

@@ -44,16 +44,16 @@ Status read_which_stops(const Request& request, Query& query) {
 
 }  // namespace
 
-Result<vision::LocalizationQuestion> read_localization(const Request& request) {
-    return read_object<vision::LocalizationQuestion>(request, [](ObjectReader& in) {
-        vision::LocalizationQuestion read;
+Result<localization::LocalizationQuestion> read_localization(const Request& request) {
+    return read_object<localization::LocalizationQuestion>(request, [](ObjectReader& in) {
+        localization::LocalizationQuestion read;
         read.vehicle = plant::VehicleId(in.text("vehicle", kName));
         if (in.has("station")) {
             read.station = static_cast<int>(in.integer("station", {0, kMaxStation}));
         }
         in.items("images", {1, kMaxImages}, [&](const Json& item, const std::string& pointer) {
             ObjectReader image(item, pointer, in.errors());
-            vision::CameraImage& added = read.images.emplace_back();
+            localization::CameraImage& added = read.images.emplace_back();
             added.camera = image.text("camera", kName);
             const std::string coded = image.text("image", {1, kMaxImageText});
             if (auto bytes = from_base64(coded)) {

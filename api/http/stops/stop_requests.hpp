@@ -7,7 +7,7 @@
 
 namespace pulseline::api {
 
-Result<vision::LocalizationQuestion> read_localization(const Request& request);
+Result<localization::LocalizationQuestion> read_localization(const Request& request);
 Result<fleet::StopQuery> read_stop_query(const Request& request);
 Result<fleet::UnmeasuredQuery> read_unmeasured_query(const Request& request);
 

@@ -11,7 +11,7 @@
 #include "core/plant/plant.hpp"
 
 /// What the handlers are given. The server makes them once and keeps them alive.
-namespace pulseline::access {
+namespace pulseline::api::access {
 class AccessControl;
 }
 namespace pulseline::fleet {

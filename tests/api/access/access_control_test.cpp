@@ -8,7 +8,7 @@
 #include "api/access/secrets.hpp"
 #include "tests/api/access/memory_store.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 namespace {
 
 using std::chrono::hours;
@@ -28,7 +28,7 @@ protected:
             store,
             [this](const Change& change) {
                 if (disk_full) throw std::runtime_error("disk full");
-                pulseline::access::apply(store, change);
+                api::access::apply(store, change);
             },
             now, last_stored, Limits{}, kCheap);
     }
@@ -436,4 +436,4 @@ TEST_F(AccessControlTest, ASessionThatEndedMeanwhileIsNotStoredAgainByItsUse) {
 }
 
 }  // namespace
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -7,7 +7,7 @@
 
 #include "core/access/access.hpp"
 
-namespace pulseline::access {
+namespace pulseline::api::access {
 
 /// access::Store in memory: what a restart would find.
 class MemoryStore : public Store {
@@ -39,4 +39,4 @@ private:
     std::map<std::string, Token> tokens_;
 };
 
-}  // namespace pulseline::access
+}  // namespace pulseline::api::access

@@ -8,7 +8,10 @@
 
 #include "core/simulation/world/floor_camera.hpp"
 
-namespace pulseline::vision {
+namespace pulseline::api::localization {
+
+using namespace vision;
+
 namespace {
 
 using geometry::Pose2;
@@ -226,4 +229,4 @@ TEST_F(Localize, WhatThePlantDoesNotHaveIsRefusedWithTheField) {
 }
 
 }  // namespace
-}  // namespace pulseline::vision
+}  // namespace pulseline::api::localization

@@ -10,7 +10,10 @@
 #include "core/plant/validate.hpp"
 
 // The shipped plants: without a fault, and their vehicles can do what the demos ask of them.
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 Plant demo(const std::string& name) {
@@ -184,4 +187,4 @@ TEST(FinalAssembly, HasFortyStationsAndTwelveVehiclesOfFourTypes) {
 }
 
 }  // namespace
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

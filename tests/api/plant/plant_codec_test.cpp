@@ -8,7 +8,10 @@
 #include "api/plant/plant_file.hpp"
 #include "tests/api/plant/schema_check.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 using json::Json;
@@ -229,4 +232,4 @@ TEST(PlantCodec, HeadingsAreWrapped) {
 }
 
 }  // namespace
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

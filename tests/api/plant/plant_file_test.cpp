@@ -10,7 +10,10 @@
 #include "api/plant/occupancy_file.hpp"
 #include "api/plant/plant_codec.hpp"
 
-namespace pulseline::plant {
+namespace pulseline::api::plant_file {
+
+using namespace plant;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -174,4 +177,4 @@ TEST_F(PlantFiles, GridFilesOutsideTheFolderAreRefused) {
 }
 
 }  // namespace
-}  // namespace pulseline::plant
+}  // namespace pulseline::api::plant_file

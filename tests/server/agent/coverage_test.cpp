@@ -45,7 +45,7 @@ vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& s
 class Coverage : public ::testing::TestWithParam<Case> {
 protected:
     Coverage()
-        : plant_(*plant::load_plant_file(
+        : plant_(*api::plant_file::load_plant_file(
               (std::filesystem::path(PULSELINE_PLANTS) / GetParam().plant).string())),
           vehicle_(*plant::find_vehicle(plant_, plant::VehicleId(GetParam().vehicle))),
           type_(*plant::find_vehicle_type(plant_, vehicle_.type)),
