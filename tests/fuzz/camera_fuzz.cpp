@@ -4,6 +4,6 @@
 #include "api/localization/camera_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-    (void)api::localization::decode_camera({reinterpret_cast<const char*>(data), size});
+    (void)pulseline::api::localization::decode_camera({reinterpret_cast<const char*>(data), size});
     return 0;
 }
