@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/square.hpp"
 #include "core/kinematics/motion.hpp"
 
 namespace pulseline::localisation {
@@ -79,13 +80,14 @@ double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget
     const double place_m = std::hypot(code_sigma_m(budget, camera, radius_m, 0), kSurvey_m);
     const double heading_rad = std::hypot(code_sigma_rad(budget, 0), budget.marker.survey_rad);
     const double arm_m = norm(camera.body_from_camera.position());
-    const auto square = [](double x) { return x * x; };
     const auto across_m = [&](double way_m) {
         const double reach_m = way_m + arm_m;
         const double wander2 =
-            square(noise.sigma_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
-        return std::sqrt(square(place_m) + square(noise.sigma_m_per_sqrt_m) * way_m +
-                         square(heading_rad * reach_m) + wander2);
+            square(noise.heading_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
+        const double bent_m = noise.bend_rad_per_m * way_m * (way_m / 2 + arm_m);
+        return std::sqrt(square(place_m) + square(noise.left_m_per_sqrt_m) * way_m +
+                         square(heading_rad * reach_m) + wander2 + square(noise.crab_rad * way_m) +
+                         square(bent_m));
     };
     if (kSigmas * across_m(0) > radius_m) return 0;
     double caught_m = 0;

@@ -24,8 +24,10 @@ bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> camer
 
 /// The longest way [m] without a code after which the camera still catches the next one: three
 /// sigma across the way, and the view's radius. 0: it cannot see a code of that size whole. Li 2022
-/// eq. 5 as corrected (second line), with errors that grow as random walks instead of as shares of
-/// the way, and with the error of the heading, which it leaves out and which is most of it.
+/// eq. 5 as corrected (second line), with errors that grow as OdometryNoise says instead of as
+/// shares of the way alone, and with the error of the heading, which it leaves out and which is
+/// most of it. What codes have shown of the machine is not counted: the first two codes of a way
+/// lie as far apart as the last two.
 double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget = {},
                    const OdometryNoise& noise = {});
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/square.hpp"
+
 namespace pulseline::localisation {
 namespace {
 
@@ -18,36 +20,69 @@ Eigen::Matrix3d matrix(const std::array<std::array<double, 3>, 3>& rows) {
     return m;
 }
 
-double square(double x) { return x * x; }
-
 }  // namespace
 
-void PoseFilter::drive(const Odometry& odometry, const OdometryNoise& noise) {
+PoseFilter::PoseFilter(const Pose2& start, const Eigen::Matrix3d& covariance,
+                       const OdometryNoise& noise)
+    : noise_(noise), pose_(start) {
+    covariance_.topLeftCorner<3, 3>() = covariance;
+    covariance_(3, 3) = square(noise_.scale);
+    covariance_(4, 4) = square(noise_.crab_rad);
+    covariance_(5, 5) = square(noise_.bend_rad_per_m);
+}
+
+void PoseFilter::drive(const Odometry& told) {
+    const double scale = 1 + constants_[0];
+    const double forward_m = scale * told.forward_m - constants_[1] * told.left_m;
+    const double left_m = scale * told.left_m + constants_[1] * told.forward_m;
+    const double turn_rad = told.turn_rad + constants_[2] * told.forward_m;
     // The chord of an arc points along the heading of half way.
-    const double middle = pose_.heading_rad + odometry.turn_rad / 2;
+    const double middle = pose_.heading_rad + turn_rad / 2;
     const double c = std::cos(middle);
     const double s = std::sin(middle);
-    const double dx = c * odometry.forward_m - s * odometry.left_m;
-    const double dy = s * odometry.forward_m + c * odometry.left_m;
-    Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
-    f(0, 2) = -dy;
-    f(1, 2) = dx;
+    const double dx = c * forward_m - s * left_m;
+    const double dy = s * forward_m + c * left_m;
+    StateMatrix f = StateMatrix::Identity();
+    f.col(2).head<2>() << -dy, dx;
+    f.col(3).head<2>() << c * told.forward_m - s * told.left_m,
+        s * told.forward_m + c * told.left_m;
+    f.col(4).head<2>() << -c * told.left_m - s * told.forward_m,
+        -s * told.left_m + c * told.forward_m;
     // The turn bends the way: half of its error acts on the chord.
-    Eigen::Matrix3d g;
-    g << c, -s, -dy / 2, s, c, dx / 2, 0, 0, 1;
-    const double way = std::hypot(odometry.forward_m, odometry.left_m);
-    const double step2 = square(noise.sigma_m_per_sqrt_m) * way;
-    const double turn2 = square(noise.sigma_rad_per_sqrt_rad) * std::abs(odometry.turn_rad) +
-                         square(noise.sigma_rad_per_sqrt_m) * way;
-    const Eigen::Matrix3d q = Eigen::Vector3d(step2, step2, turn2).asDiagonal();
-    covariance_ = f * covariance_ * f.transpose() + g * q * g.transpose();
-    pose_ = {pose_.x_m + dx, pose_.y_m + dy, wrap(pose_.heading_rad + odometry.turn_rad)};
+    f.col(5).head<3>() << -dy / 2 * told.forward_m, dx / 2 * told.forward_m, told.forward_m;
+    Eigen::Matrix<double, 6, 3> g = Eigen::Matrix<double, 6, 3>::Zero();
+    g.topRows<3>() << c, -s, -dy / 2, s, c, dx / 2, 0, 0, 1;
+    const double way_m = std::hypot(told.forward_m, told.left_m);
+    const double aside_m = std::abs(told.left_m);
+    const double turned_rad = std::abs(told.turn_rad);
+    const Eigen::Vector3d q{
+        square(noise_.forward_m_per_sqrt_m) * way_m,
+        square(noise_.left_m_per_sqrt_m) * way_m + square(noise_.sideways_m_per_sqrt_m) * aside_m,
+        square(noise_.heading_rad_per_sqrt_m) * way_m +
+            square(noise_.sideways_rad_per_sqrt_m) * aside_m +
+            square(noise_.heading_rad_per_sqrt_rad) * turned_rad};
+    covariance_ = f * covariance_ * f.transpose() + g * q.asDiagonal() * g.transpose();
+    // Never more than at first.
+    const auto forget = [&](int i, double slope, double most) {
+        double& variance = covariance_(i, i);
+        variance =
+            std::max(variance, std::min(square(most), variance + square(slope) * turned_rad));
+    };
+    forget(3, noise_.slope_scale, noise_.scale);
+    forget(4, noise_.slope_crab_rad, noise_.crab_rad);
+    pose_ = {pose_.x_m + dx, pose_.y_m + dy, wrap(pose_.heading_rad + turn_rad)};
+}
+
+void PoseFilter::rest(double speed_share) {
+    const double place2 = square(noise_.fine_m + speed_share * noise_.settle_m);
+    const double heading2 = square(noise_.fine_rad + speed_share * noise_.settle_rad);
+    covariance_.diagonal().head<3>() += Eigen::Vector3d(place2, place2, heading2);
 }
 
 Status PoseFilter::correct(const PoseFix& fix) {
     const Eigen::Vector3d innovation{fix.pose.x_m - pose_.x_m, fix.pose.y_m - pose_.y_m,
                                      wrap(fix.pose.heading_rad - pose_.heading_rad)};
-    return update(innovation, Eigen::Matrix3d::Identity(), matrix(fix.covariance));
+    return update(innovation, Observation::Identity(), matrix(fix.covariance));
 }
 
 Status PoseFilter::correct(const CodeObservation& seen, const SurveyedCode& code) {
@@ -56,7 +91,7 @@ Status PoseFilter::correct(const CodeObservation& seen, const SurveyedCode& code
     const Eigen::Vector3d innovation{code.pose.x_m - pose_.x_m - arm.x_m,
                                      code.pose.y_m - pose_.y_m - arm.y_m,
                                      wrap(code.pose.heading_rad - pose_.heading_rad - seen.up_rad)};
-    Eigen::Matrix3d h = Eigen::Matrix3d::Identity();
+    Observation h = Observation::Identity();
     h(0, 2) = -arm.y_m;
     h(1, 2) = arm.x_m;
     const double place2 = square(seen.sigma_m) + square(code.sigma_m);
@@ -64,7 +99,14 @@ Status PoseFilter::correct(const CodeObservation& seen, const SurveyedCode& code
     return update(innovation, h, Eigen::Vector3d(place2, place2, angle2).asDiagonal());
 }
 
-Status PoseFilter::update(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& jacobian,
+void PoseFilter::restart(const Pose2& pose, const Eigen::Matrix3d& covariance) {
+    pose_ = pose;
+    covariance_.topRows<3>().setZero();
+    covariance_.leftCols<3>().setZero();
+    covariance_.topLeftCorner<3, 3>() = covariance;
+}
+
+Status PoseFilter::update(const Eigen::Vector3d& innovation, const Observation& jacobian,
                           const Eigen::Matrix3d& noise) {
     const Eigen::Matrix3d s = jacobian * covariance_ * jacobian.transpose() + noise;
     const Eigen::LDLT<Eigen::Matrix3d> solver(s);
@@ -74,12 +116,13 @@ Status PoseFilter::update(const Eigen::Vector3d& innovation, const Eigen::Matrix
                     "The code contradicts the way driven. A code was moved or exchanged, or the "
                     "wheels slip.",
                     {}, {{"chi2", chi2}, {"limit", kGate}});
-    const Eigen::Matrix3d gain = solver.solve(jacobian * covariance_).transpose();
-    const Eigen::Vector3d change = gain * innovation;
+    const Eigen::Matrix<double, 6, 3> gain = solver.solve(jacobian * covariance_).transpose();
+    const State change = gain * innovation;
     // Joseph's form stays symmetric and positive whatever rounding does.
-    const Eigen::Matrix3d rest = Eigen::Matrix3d::Identity() - gain * jacobian;
+    const StateMatrix rest = StateMatrix::Identity() - gain * jacobian;
     covariance_ = rest * covariance_ * rest.transpose() + gain * noise * gain.transpose();
     pose_ = {pose_.x_m + change[0], pose_.y_m + change[1], wrap(pose_.heading_rad + change[2])};
+    constants_ += change.tail<3>();
     return {};
 }
 

@@ -4,6 +4,7 @@
 
 #include "core/base/result.hpp"
 #include "core/localisation/dual_camera.hpp"
+#include "core/localisation/odometry_noise.hpp"
 
 namespace pulseline::localisation {
 
@@ -14,43 +15,51 @@ struct Odometry {
     double turn_rad = 0;  // counter-clockwise
 };
 
-/// Growth of the odometry's error, one sigma, as random walks: what a step adds does not depend on
-/// how the way is cut into steps. About twice what a machine as it comes from assembly does
-/// (DriveErrors), its constant errors over some ten metres among it, so that one that nobody has
-/// looked after is covered, too.
-struct OdometryNoise {
-    double sigma_m_per_sqrt_m = 1.5e-3;  // along and across, each
-    double sigma_rad_per_sqrt_m = 2.5e-4;
-    double sigma_rad_per_sqrt_rad = 1e-3;
-};
-
-/// Extended Kalman filter over (x_m, y_m, heading_rad) in the hall frame. Odometry moves it, codes
-/// correct it; a code that contradicts it by more than chance allows is refused and leaves the pose
-/// alone. The heading is small-error linearised, wrapped after each step.
+/// Extended Kalman filter over where the vehicle is (x_m, y_m, heading_rad in the hall frame) and
+/// what its odometry makes wrong in every step: scale, crab and bend (OdometryNoise). Odometry
+/// moves it, codes correct it and, by what they correct, show the constants; a code that
+/// contradicts it by more than chance allows is refused and leaves all of it alone. Small-error
+/// linearised, the heading wrapped after each step.
 class PoseFilter {
 public:
-    PoseFilter(const Pose2& start, const Eigen::Matrix3d& covariance)
-        : pose_(start), covariance_(covariance) {}
+    PoseFilter(const Pose2& start, const Eigen::Matrix3d& covariance,
+               const OdometryNoise& noise = {});
 
-    void drive(const Odometry& odometry, const OdometryNoise& noise = {});
+    void drive(const Odometry& odometry);
+    /// It has come to rest from this share of its full speed.
+    void rest(double speed_share);
 
     /// A whole pose, from localisation::locate. Fails with innovation_gate {chi2, limit}.
     Status correct(const PoseFix& fix);
     /// One code in view: its place and angle in the body frame against the survey. Fails with
     /// innovation_gate {chi2, limit}.
     Status correct(const CodeObservation& seen, const SurveyedCode& code);
+    /// It is here, whatever it believed. What it knows of its odometry stays.
+    void restart(const Pose2& pose, const Eigen::Matrix3d& covariance);
 
     const Pose2& pose() const { return pose_; }
-    const Eigen::Matrix3d& covariance() const { return covariance_; }
+    Eigen::Matrix3d covariance() const { return covariance_.topLeftCorner<3, 3>(); }
     double sigma_xy_m() const;  // the worse direction
     double sigma_heading_rad() const;
 
+    /// What it has learned: the motion is (1 + scale) times what the wheels tell, `crab_rad`
+    /// farther counter-clockwise, and turns by `bend_rad_per_m` more a metre ahead.
+    double scale() const { return constants_[0]; }
+    double crab_rad() const { return constants_[1]; }
+    double bend_rad_per_m() const { return constants_[2]; }
+
 private:
-    Status update(const Eigen::Vector3d& innovation, const Eigen::Matrix3d& jacobian,
+    using State = Eigen::Matrix<double, 6, 1>;  // as errors: x, y, heading, scale, crab, bend
+    using StateMatrix = Eigen::Matrix<double, 6, 6>;
+    using Observation = Eigen::Matrix<double, 3, 6>;
+
+    Status update(const Eigen::Vector3d& innovation, const Observation& jacobian,
                   const Eigen::Matrix3d& noise);
 
+    OdometryNoise noise_;
     Pose2 pose_;
-    Eigen::Matrix3d covariance_;
+    Eigen::Vector3d constants_ = Eigen::Vector3d::Zero();
+    StateMatrix covariance_ = StateMatrix::Zero();
 };
 
 /// VDA 5050 localizationScore: 1 when the pose is much better known than the tolerance asks, 0.5

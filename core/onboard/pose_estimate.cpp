@@ -39,26 +39,35 @@ Eigen::Matrix3d covariance_of(const localisation::PoseFix& fix) {
 
 }  // namespace
 
-PoseEstimate::PoseEstimate(const Pose2& start)
-    : filter_(start, told()), driven_(start), now_(start) {}
+PoseEstimate::PoseEstimate(const Pose2& start, const localisation::OdometryNoise& noise)
+    : filter_(start, told(), noise), driven_(start), now_(start) {}
 
 void PoseEstimate::drive_to(const Pose2& believed) {
     now_ = believed;
     const Pose2 way = inverse(driven_) * believed;
     if (norm(way.position()) < kStep_m && std::abs(way.heading_rad) < kStep_rad) return;
-    filter_.drive(odometry_of(way));
-    driven_ = believed;
+    catch_up();
+}
+
+void PoseEstimate::catch_up() {
+    filter_.drive(odometry_of(inverse(driven_) * now_));
+    driven_ = now_;
+}
+
+void PoseEstimate::rest(double speed_share) {
+    catch_up();
+    filter_.rest(speed_share);
 }
 
 void PoseEstimate::take(const localisation::PoseFix& fix) {
-    if (!filter_.correct(fix)) filter_ = localisation::PoseFilter(fix.pose, covariance_of(fix));
+    catch_up();
+    if (!filter_.correct(fix)) filter_.restart(fix.pose, covariance_of(fix));
     driven_ = now_ = fix.pose;
 }
 
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
-    filter_.drive(odometry_of(inverse(driven_) * now_));
-    driven_ = now_;
+    catch_up();
     return filter_.correct(seen, code);
 }
 
@@ -68,7 +77,7 @@ void PoseEstimate::led_to(const Pose2& believed) {
 }
 
 void PoseEstimate::start_at(const Pose2& pose) {
-    filter_ = localisation::PoseFilter(pose, told());
+    filter_.restart(pose, told());
     driven_ = now_ = pose;
 }
 

@@ -25,7 +25,8 @@ constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 constexpr int kLookShare = 10;
 constexpr double kOwnStep_s = 0.1;
 constexpr double kRounding = 1e-9;
-constexpr double kSeen_m = 30;  // a scanner's range and two long bodies
+constexpr double kLeastShare = 1e-6;  // of the full speed: turns on the spot
+constexpr double kSeen_m = 30;        // a scanner's range and two long bodies
 
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> chargers(const plant::Plant& plant) {
@@ -61,19 +62,32 @@ geometry::Polygon thing_at(geometry::Point2 place) {
     return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
 }
 
+bool drives_by_wheels(const plant::VehicleType& type, const VehicleSettings& settings) {
+    return settings.servo_drive &&
+           std::any_of(type.wheels.begin(), type.wheels.end(),
+                       [](const plant::Wheel& wheel) { return wheel.driven; });
+}
+
 std::unique_ptr<simulation::SimulatedDrive> make_drive(const plant::VehicleType& type,
                                                        const plant::Vehicle& vehicle,
                                                        const geometry::Pose2& true_pose,
                                                        const VehicleSettings& settings,
                                                        const localisation::ErrorBudget& errors) {
     const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
-    const bool driven = std::any_of(type.wheels.begin(), type.wheels.end(),
-                                    [](const plant::Wheel& wheel) { return wheel.driven; });
-    if (settings.servo_drive && driven) {
+    if (drives_by_wheels(type, settings)) {
         return std::make_unique<simulation::ServoDrive>(type, true_pose, seed, settings.time_factor,
                                                         vehicle.load_kg, errors);
     }
     return std::make_unique<simulation::VehicleMotion>(type, true_pose, seed, settings.time_factor);
+}
+
+/// Of the drive that make_drive() makes.
+localisation::OdometryNoise odometry_noise(const plant::VehicleType& type,
+                                           const VehicleSettings& settings,
+                                           const localisation::ErrorBudget& errors) {
+    return drives_by_wheels(type, settings)
+               ? localisation::odometry_noise(errors.drive, type)
+               : simulation::odometry_noise(simulation::MotionErrors{});
 }
 
 }  // namespace
@@ -96,7 +110,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                                               std::in_place, settings.learned, vehicle.id.str())),
       executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
-      estimate_(geometry::Pose2{}),
+      estimate_(geometry::Pose2{}, odometry_noise(type_, settings, world.errors)),
       watch_(sensing_, *drive_, estimate_),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
@@ -156,6 +170,7 @@ void Vehicle::drive(double dt_s) {
 }
 
 void Vehicle::know_pose(double dt_s) {
+    note_rest();
     if (const auto fix = sensing_.take_fix()) {
         estimate_.take(*fix);
     } else {
@@ -167,6 +182,16 @@ void Vehicle::know_pose(double dt_s) {
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
     state_due_ |= refused != watch_.refused();
+}
+
+void Vehicle::note_rest() {
+    const double share =
+        std::abs(drive_->velocity_mps()) / drive_->time_factor() / type_.max_speed_mps;
+    if (!drive_->standing()) {
+        fastest_share_ = std::min(1.0, std::max({fastest_share_, share, kLeastShare}));
+    } else if (fastest_share_ > 0) {
+        estimate_.rest(std::exchange(fastest_share_, 0));
+    }
 }
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {

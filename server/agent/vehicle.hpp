@@ -87,6 +87,7 @@ private:
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
     void know_pose(double dt_s);
+    void note_rest();
     void look_while_standing(Steady::time_point now);
     void apply_faults(double dt_s);
     void apply(const Fault& fault);
@@ -112,7 +113,8 @@ private:
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;
-    bool stopping_ = false;  // at a stop, measuring or adjusting
+    double fastest_share_ = 0;  // of its full speed, since it stood last; 0: it stands
+    bool stopping_ = false;     // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;
     double age_s_ = 0;

@@ -104,7 +104,7 @@ private:
     WheelSet wheels_;
     WheelContact contact_;
     MeasuringWheels measuring_;
-    RollingWheels odometry_;
+    kinematics::RollingWheels odometry_;
     PathReference reference_;  // in the vehicle's own time
 
     Pose2 true_;

@@ -14,8 +14,27 @@ constexpr double kNoMove = 1e-6;     // metres or radians that count as none
 constexpr double kSubstep_s = 0.02;  // of the vehicle's own, not accelerated, time
 constexpr double kConverge_m = 1.0;  // way over which a path deviation falls to 1/e
 constexpr double kConverge_rad = 0.1;
+constexpr double kFineMove_m = 0.01;  // a usual one
 
 }  // namespace
+
+localisation::OdometryNoise odometry_noise(const MotionErrors& errors) {
+    localisation::OdometryNoise noise;
+    noise.forward_m_per_sqrt_m = noise.left_m_per_sqrt_m = errors.slip_m_per_sqrt_m;
+    noise.heading_rad_per_sqrt_m = errors.heading_rad_per_sqrt_m;
+    // Its scale of turns is a constant that codes under way do not show.
+    noise.heading_rad_per_sqrt_rad =
+        std::hypot(errors.heading_rad_per_sqrt_rad, errors.turn_scale * std::sqrt(kPi));
+    noise.sideways_m_per_sqrt_m = noise.sideways_rad_per_sqrt_m = 0;
+    noise.scale = errors.distance_scale;
+    noise.crab_rad = errors.steering_bias_rad;
+    noise.bend_rad_per_m = noise.slope_scale = noise.slope_crab_rad = 0;
+    noise.fine_m = std::hypot(errors.fine_m, errors.fine_offset_m, errors.fine_scale * kFineMove_m);
+    noise.fine_rad = std::hypot(errors.fine_rad, errors.fine_offset_rad);
+    noise.settle_m = errors.settle_m;
+    noise.settle_rad = errors.settle_rad;
+    return noise;
+}
 
 VehicleMotion::VehicleMotion(plant::VehicleType type, const Pose2& true_pose, std::uint64_t seed,
                              double time_factor, const MotionErrors& errors)

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/localisation/odometry_noise.hpp"
 #include "core/simulation/machine/path_reference.hpp"
 #include "core/simulation/machine/simulated_drive.hpp"
 
@@ -34,6 +35,9 @@ struct MotionErrors {
     double fine_m = 2e-4;  // along and across
     double fine_rad = 0.005 * kPi / 180;
 };
+
+/// What its program supposes of a drive that errs so.
+localisation::OdometryNoise odometry_noise(const MotionErrors& errors);
 
 /// The statistical drive: a pose that follows the reference with seeded errors, without wheels or
 /// motors. It is cheap, so that thousands of hours of large fleets can be simulated.

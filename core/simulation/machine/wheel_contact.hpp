@@ -6,23 +6,12 @@
 #include <vector>
 
 #include "core/geometry/pose2.hpp"
-#include "core/kinematics/wheels.hpp"
+#include "core/kinematics/rolling_wheels.hpp"
 #include "core/localisation/error_budget.hpp"
 
 namespace pulseline::simulation {
 
 using geometry::Pose2;
-
-/// The wheels that say how the body moves, as a type of its own: the driven ones, or all when one
-/// driven wheel alone leaves something open.
-struct RollingWheels {
-    plant::VehicleType type;
-    std::vector<std::size_t> index;  // of each among the vehicle's wheels
-
-    explicit RollingWheels(const plant::VehicleType& vehicle);
-    /// Twist and contradiction of the vehicle's wheel motions (kinematics::body_of).
-    kinematics::BodyMotion body_of(std::span<const kinematics::WheelMotion> all) const;
-};
 
 /// How fast a wheel standing at `angle_rad` rolls when the body moves with `twist`.
 double rolling_speed(const plant::VehicleType& type, const plant::Wheel& wheel, double angle_rad,
@@ -58,8 +47,8 @@ private:
 
     localisation::DriveErrors errors_;
     const plant::VehicleType type_;
-    RollingWheels nominal_;
-    RollingWheels actual_;  // wheels where they truly are
+    kinematics::RollingWheels nominal_;
+    kinematics::RollingWheels actual_;  // wheels where they truly are
     std::vector<double> slip_;
     std::vector<double> driven_kg_;  // mass that each wheel pushes; 0: not driven
     std::vector<kinematics::WheelMotion> contact_;

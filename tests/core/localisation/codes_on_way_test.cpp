@@ -73,7 +73,7 @@ TEST(BlindWay, IsLongerWithALargerViewAndShorterWithWorseWheels) {
     EXPECT_LT(usual_m, 40);
     EXPECT_GT(blind_way_m(camera, 0.03), usual_m) << "the print of eq. 5 has the sign wrong";
     OdometryNoise worse;
-    worse.sigma_rad_per_sqrt_m *= 3;
+    worse.heading_rad_per_sqrt_m *= 3;
     EXPECT_LT(blind_way_m(camera, 0.05, {}, worse), usual_m);
     EXPECT_EQ(blind_way_m(camera, 0.2), 0) << "larger than the picture";
 }
@@ -93,10 +93,13 @@ TEST(BlindWay, ThreeSigmaOfTheDrivesCatchTheNextCode) {
     for (int drive = 0; drive < kDrives; ++drive) {
         double heading_rad = normal(random) * 5.4e-4;  // what the first code leaves
         double across_m = normal(random) * 6e-4;
+        const double crab_rad = normal(random) * noise.crab_rad;
+        const double bend_rad_per_m = normal(random) * noise.bend_rad_per_m;
         for (double s_m = 0; s_m < way_m; s_m += kStep_m) {
-            across_m += kStep_m * heading_rad +
-                        normal(random) * noise.sigma_m_per_sqrt_m * std::sqrt(kStep_m);
-            heading_rad += normal(random) * noise.sigma_rad_per_sqrt_m * std::sqrt(kStep_m);
+            across_m += kStep_m * (heading_rad + crab_rad) +
+                        normal(random) * noise.left_m_per_sqrt_m * std::sqrt(kStep_m);
+            heading_rad += kStep_m * bend_rad_per_m +
+                           normal(random) * noise.heading_rad_per_sqrt_m * std::sqrt(kStep_m);
         }
         across_m += heading_rad * camera.body_from_camera.x_m;
         missed += std::abs(across_m) > radius_m ? 1 : 0;
