@@ -84,6 +84,10 @@ void MarkerWatch::take(const WayReading& reading) {
     if (past_.empty() || reading.age_s > past_.back().age_s) return;
     if (std::ranges::find(read_, reading.marker.payload) != read_.end()) return;
     read_.push_back(reading.marker.payload);
+    if (reading.seen.payload != reading.marker.payload) {
+        refused_ = reading.seen.payload;
+        return;
+    }
     const Pose2 now_from_then = inverse(odometry_) * odometry_at(reading.age_s);
     const Pose2 code = now_from_then *
                        Pose2{reading.seen.centre.x_m, reading.seen.centre.y_m, reading.seen.up_rad};

@@ -32,7 +32,7 @@ public:
 
     /// Payloads of the codes taken since the last call.
     std::vector<std::string> take_taken() { return std::exchange(taken_, {}); }
-    /// Payload of a code that was refused, until another one is taken; empty: none.
+    /// Payload of a code that was refused, as it reads, until another one is taken; empty: none.
     const std::string& refused() const { return refused_; }
 
 private:

@@ -10,8 +10,8 @@ namespace pulseline::onboard {
 
 /// A code read in a picture that was taken while the vehicle drove.
 struct WayReading {
-    vda5050::SurveyedMarker marker;  // the expected one that it is
-    localisation::CodeObservation seen;
+    vda5050::SurveyedMarker marker;      // the expected one that lies there
+    localisation::CodeObservation seen;  // of another payload: the codes were exchanged
     double age_s = 0;  // since the exposure, of the vehicle's own time
 };
 

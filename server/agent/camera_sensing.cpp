@@ -152,7 +152,7 @@ void CameraSensing::expose(std::size_t camera, const vda5050::SurveyedMarker& ma
         simulation::sense_stop(std::span(&actual_[camera], 1), std::span(&calibrated, 1),
                                motion_.true_pose(), codes, options, random_);
     const auto& seen = view.readings.front();
-    if (!seen.found || seen.payload != marker.payload) return;
+    if (!seen.found) return;
     std::normal_distribution<double> clock(0, kClockSigma_s);
     const double smear_m = norm(velocity) * std::hypot(kExposure_s, kClockSigma_s);
     OnTheWay read;

@@ -112,11 +112,11 @@ export class System {
     for (const id of ids) this.tokenOf(id);
   }
 
-  startAgent(id, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
+  startAgent(id, { seed = 1, timeFactor = 10, sensing = "rendered", world = this.plant.file, extra = [] } = {}) {
     const { manufacturer, serial_number } = this.plant.vehicle(id);
     const [program, ...before] = [...this.onVehicles, AGENT];
     const agent = this.start(program, [...before, "--server", this.url.replace("http", "ws"), "--vehicle", `${manufacturer}/${serial_number}`, "--token", this.tokenOf(id),
-      "--world", this.plant.file, "--seed", String(seed), "--truth-log", `${this.truthLog}.${id}`, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], `agent-${id}`);
+      "--world", world, "--seed", String(seed), "--truth-log", `${this.truthLog}.${id}`, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], `agent-${id}`);
     this.agents.set(id, agent);
     return agent;
   }

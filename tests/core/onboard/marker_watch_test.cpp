@@ -20,7 +20,8 @@ constexpr double kStep_s = MarkerWatch::kFineStep_s;
 constexpr double kPiece_m = 2.5;
 
 /// A camera at the body's centre that sees codes within 40 mm of its foot, 25 times a second, and
-/// says so `late_s` after the exposure. Codes lie where the survey says, the first `moved`.
+/// says so `late_s` after the exposure. Codes lie where the survey says, the first one `moved` and,
+/// if not empty, with `other` printed on it.
 class Floor : public WaySensing {
 public:
     explicit Floor(const SimulatedDrive& drive) : drive_(drive) {}
@@ -35,7 +36,7 @@ public:
             const double noise = 1e-4;
             coming_.push_back(
                 {marker,
-                 {marker.payload,
+                 {marker.pose.x_m < 10 && !other.empty() ? other : marker.payload,
                   {code.x_m + noise * normal_(random_), code.y_m + noise * normal_(random_)},
                   code.heading_rad + noise * normal_(random_),
                   noise,
@@ -50,6 +51,7 @@ public:
     }
 
     Pose2 moved;
+    std::string other;
     double late_s = 0.08;
 
 private:
@@ -201,6 +203,17 @@ TEST(MarkerWatch, ACodeThatWasMovedIsRefusedAndTheNextOneTaken) {
         EXPECT_EQ(way.watch.refused(), "") << "another one was taken since";
         EXPECT_LT(way.off_m(20), 0.006);
     }
+}
+
+/// It lies where one is expected and is another one: whichever of the two was moved, it is no place
+/// to correct the pose by.
+TEST(MarkerWatch, ACodeThatWasExchangedIsNamedAndNotTaken) {
+    Way way(mecanum(), 3, 20, 9.3);
+    way.floor.other = "B7";
+    way.run();
+    EXPECT_EQ(way.refused, std::vector<std::string>{"B7"});
+    EXPECT_EQ(way.taken, std::vector<std::string>{std::to_string(18.6)});
+    EXPECT_EQ(way.watch.refused(), "") << "another one was taken since";
 }
 
 /// It begins beside its line and turned, and learns so at the first code: the wheels may not

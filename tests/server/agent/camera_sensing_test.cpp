@@ -88,10 +88,15 @@ TEST(CameraSensing, ReadsACodeThatItPassesOver) {
     }
 }
 
-TEST(CameraSensing, UnderWayItSeesNothingInTheDarkAndTakesNoOtherCode) {
+TEST(CameraSensing, UnderWayItSeesNothingInTheDarkAndNamesACodeThatLiesInAnothersPlace) {
     EXPECT_TRUE(passed(true, "ST01-F", true).empty());
     EXPECT_TRUE(passed(false, "ST01-F", true).empty());
-    EXPECT_TRUE(passed(true, "ST02-F", false).empty());
+    for (const bool rendered : {false, true}) {
+        const auto readings = passed(rendered, "ST02-F", false);
+        ASSERT_FALSE(readings.empty()) << rendered;
+        EXPECT_EQ(readings[0].marker.payload, "ST02-F");
+        EXPECT_EQ(readings[0].seen.payload, "ST01-F");
+    }
     EXPECT_TRUE(passed(false, "ST01-F", false, 10.5).empty()) << "none was exposed there";
 }
 
