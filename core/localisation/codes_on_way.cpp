@@ -31,14 +31,15 @@ void look_along(const plant::Marker& marker, const plant::Camera& camera, const 
     const Point2 at = marker.pose.position();
     const double radius_m = view_radius_m(camera, marker.size_m);
     const double way_m = foot_way_m(segment, camera);
-    const Point2 first = segment.start * camera.body_from_camera.position();
-    if (distance(first, at) > way_m + radius_m) return;
     const int looks = 1 + static_cast<int>(std::ceil(way_m / kLookEvery_m));
-    for (int i = 0; i <= looks; ++i) {
+    for (int i = 0; i <= looks;) {
         const double share = static_cast<double>(i) / looks;
         const geometry::Pose2 body = kinematics::pose_at(segment, share);
-        const Point2 foot = body * camera.body_from_camera.position();
-        if (distance(foot, at) <= radius_m && act(share)) return;
+        const double off_m = distance(body * camera.body_from_camera.position(), at);
+        if (off_m <= radius_m && act(share)) return;
+        // No look is needed before it can have come into view.
+        const double until_m = std::min(off_m - radius_m, way_m);
+        i += std::max(1, static_cast<int>(until_m / (way_m / looks)));
     }
 }
 

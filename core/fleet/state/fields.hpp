@@ -59,12 +59,12 @@ void fields(V& visit, S& it) {
     auto& [type, loaded, hall, start, from_station, target, target_pose, mode] = it;
     visit(loaded, hall, start, from_station, target, target_pose, mode);
 }
-// What is filled in for people only is left out.
+// What only the choice of a plan and people need is left out.
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, LegPlan>
 void fields(V& visit, S& it) {
     auto& [mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
-           closures, clearance_m, nearest, wheels, swept_area_m2, swept] = it;
+           closures, blind, clearance_m, nearest, wheels, swept_area_m2, swept] = it;
     visit(mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
           closures);
 }

@@ -6,6 +6,7 @@
 
 #include "core/kinematics/primitives.hpp"
 #include "core/kinematics/trajectory.hpp"
+#include "core/planning/legs/blind_way.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -85,6 +86,7 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     plan.cost = draft.cost;
     plan.duration_s = sums.duration_s;
     plan.expected = expected_of(*task.request.type, plan.segments);
+    plan.blind = blind_way(task, plan.segments);
     if (plan.route.empty()) draft.closures = closed_floor_on(task, plan.segments, pieces);
     for (const std::size_t closure : draft.closures) {
         const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
@@ -93,6 +95,36 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     }
     return plan;
 }
+
+/// The first one that leads over no closed floor and past the codes it needs; else the first that
+/// leads over none; else the first; else why the first is blocked.
+class Best {
+public:
+    /// True: nothing better is to be had.
+    bool offer(Result<LegPlan> plan) {
+        if (!plan) {
+            if (!refusal_) refusal_ = plan.error();
+            return false;
+        }
+        const int rank = !plan->closures.empty() ? 0 : plan->blind.loses_itself() ? 1 : kBest;
+        if (rank > rank_) {
+            rank_ = rank;
+            plan_ = std::move(*plan);
+        }
+        return rank_ == kBest;
+    }
+    bool has_plan() const { return plan_.has_value(); }
+    Result<LegPlan> take() {
+        if (plan_) return std::move(*plan_);
+        return fail(std::move(*refusal_));
+    }
+
+private:
+    static constexpr int kBest = 2;
+    int rank_ = -1;
+    std::optional<LegPlan> plan_;
+    std::optional<Error> refusal_;
+};
 
 }  // namespace
 
@@ -159,21 +191,18 @@ Result<LegPlan> assess_mode(const LegTask& task, MotionMode mode) {
     const auto variants = kinematics::motion_variants(*task.request.type, task.request.start,
                                                       task.station.pose, mode);
     if (!variants) return fail(variants.error());
-    std::optional<Error> refusal;
-    std::optional<LegPlan> over_closed_floor;
+    Best best;
     for (const auto& motion : *variants) {
-        auto plan = finish(task, mode, draft_direct(task, motion));
-        if (plan && plan->closures.empty()) return plan;
-        if (plan && !over_closed_floor) over_closed_floor = std::move(*plan);
-        if (!plan && !refusal) refusal = plan.error();
+        if (best.offer(finish(task, mode, draft_direct(task, motion)))) return best.take();
     }
+    // Why there is no way along lanes says more than why a direct one is blocked.
     if (mode == MotionMode::kLinear && !task.request.target_pose) {
-        auto plan = draft_road_leg(task).and_then(
+        auto along_roads = draft_road_leg(task).and_then(
             [&](LegDraft draft) { return finish(task, mode, std::move(draft)); });
-        if (!over_closed_floor || (plan && plan->closures.empty())) return plan;
+        if (!best.has_plan()) return along_roads;
+        best.offer(std::move(along_roads));
     }
-    if (over_closed_floor) return std::move(*over_closed_floor);
-    return fail(std::move(*refusal));
+    return best.take();
 }
 
 }  // namespace pulseline::planning

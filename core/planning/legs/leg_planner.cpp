@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/leg_assessment.hpp"
 #include "core/planning/legs/leg_memo.hpp"
 #include "core/planning/legs/mode_choice.hpp"
@@ -96,14 +97,16 @@ struct LegPlanner::Tables {
     using Key = std::pair<plant::VehicleTypeId, bool>;
     /// What legs of one body need to know of the roadmap.
     struct Prepared {
-        Prepared(const Tables& of, std::shared_ptr<const Passage> shared_passage)
+        Prepared(const Tables& of, std::shared_ptr<const Passage> shared_passage, CodeReach known)
             : shared(std::move(shared_passage)),
               passage(*shared),
+              reach(std::move(known)),
               lanes(of.roads, passage, of.plant.routing) {
             if (!of.closures.empty()) lanes.set_closures(of.closures);
         }
         std::shared_ptr<const Passage> shared;
         const Passage& passage;
+        CodeReach reach;
         LegRoads lanes;
     };
 
@@ -122,13 +125,14 @@ struct LegPlanner::Tables {
           free(other.plant),
           memo(other.memo) {
         for (const auto& [key, known] : other.prepared) {
-            prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared));
+            prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared, known->reach));
         }
     }
 
     std::unique_ptr<Prepared> prepare_for(const plant::VehicleType& type, bool loaded) const {
         return std::make_unique<Prepared>(
-            *this, std::make_shared<const Passage>(roads.passage(type, loaded)));
+            *this, std::make_shared<const Passage>(roads.passage(type, loaded)),
+            CodeReach(type, loaded));
     }
 
     void prepare(const plant::VehicleType& type, bool loaded) {
@@ -160,10 +164,17 @@ struct LegPlanner::Tables {
         for (const Polygon& piece : by.passage.body.pieces) {
             body.push_back(geometry::transformed(request.start, piece));
         }
-        return LegTask{
-            request,  *station,   plant.routing,
-            roads,    by.passage, by.lanes,
-            closures, *obstacles, obstacles->limits_from(body, by.passage.body.clearance_m)};
+        return LegTask{plant,
+                       request,
+                       *station,
+                       plant.routing,
+                       roads,
+                       by.passage,
+                       by.reach,
+                       by.lanes,
+                       closures,
+                       *obstacles,
+                       obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
 
     /// Options of the given modes, without what only people want to know. A free manoeuvre is

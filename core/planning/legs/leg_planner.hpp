@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -29,6 +30,15 @@ struct LegRequest {
     bool operator==(const LegRequest&) const = default;
 };
 
+/// The longest way of a leg without a code below the vehicle's cameras: from where it starts, which
+/// it knows, between codes, and to the station's.
+struct BlindWay {
+    double way_m = 0;
+    /// After which the next code is still in view, with three sigma (localisation::blind_way_m).
+    double at_most_m = std::numeric_limits<double>::infinity();
+    bool loses_itself() const { return way_m > at_most_m; }
+};
+
 /// One way to drive a leg.
 struct LegPlan {
     plant::MotionMode mode = plant::MotionMode::kLinear;
@@ -43,6 +53,7 @@ struct LegPlan {
     /// Closed floor it leads over because there is no other way: ids of a smallest set that has to
     /// be reopened.
     std::vector<std::string> closures;
+    BlindWay blind;
     // For people, filled in by assess_modes only: it costs more than the planning.
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
@@ -53,7 +64,8 @@ struct LegPlan {
 
 /// Of the feasible modes kAuto takes the one that is ready soonest, counting the drive, the
 /// adjusting of its expected deviation, and caution beside what it comes near to; over closed floor
-/// only where no mode leads round it.
+/// only where no mode leads round it, and over floor where the vehicle loses itself (BlindWay) only
+/// where no mode leads past codes.
 struct ModeOption {
     plant::MotionMode mode = plant::MotionMode::kLinear;
     Result<LegPlan> plan;
@@ -90,14 +102,15 @@ public:
 
     /// Every motion mode of the vehicle type with its plan or the reason against it, in the order
     /// of plant::kMotionModes. A mode other than kAuto that is refused stays refused; `linear`
-    /// drives straight when that is free, else along the roadmap route (turning at its nodes,
-    /// forwards or backwards) found by the direction-penalised A*. Standing bodies are gone round
-    /// where a mode has a way, as the order will go; else they lower `clearance_m` and set
-    /// `nearest` and make nothing infeasible, since they may have left by the time the leg starts
-    /// (traffic sends idle ones away and waits for the others). Reason codes besides those of
-    /// plan_motion: blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or obstacle), no_route
-    /// {from, to, blocked_by?}, footprint_too_large {edge, by, clearance_m, limit_m},
-    /// station_not_for_type {station, vehicle_type}, unknown_station, other_hall {from, to}.
+    /// drives straight when that is free and it does not lose itself, else along the roadmap
+    /// route (turning at its nodes, forwards or backwards) found by the direction-penalised A*.
+    /// Standing bodies are gone round where a mode has a way, as the order will go; else they lower
+    /// `clearance_m` and set `nearest` and make nothing infeasible, since they may have left by the
+    /// time the leg starts (traffic sends idle ones away and waits for the others). Reason codes
+    /// besides those of plan_motion: blocked {by, at_x_m, at_y_m, clearance_m, limit_m} (wall or
+    /// obstacle), no_route {from, to, blocked_by?}, footprint_too_large {edge, by, clearance_m,
+    /// limit_m}, station_not_for_type {station, vehicle_type}, unknown_station, other_hall {from,
+    /// to}.
     std::vector<ModeOption> assess_modes(const LegRequest& request,
                                          const std::vector<StandingBody>& standing) const;
 

@@ -32,12 +32,11 @@ void suggest(const LegTask& task, std::vector<ModeOption>& options) {
     for (ModeOption& option : options) {
         if (option.plan) feasible.push_back(&option);
     }
-    const auto over_closed_floor = [](const ModeOption* option) {
-        return !option->plan->closures.empty();
+    const auto prefer_others = [&](auto drawback) {
+        if (!std::ranges::all_of(feasible, drawback)) std::erase_if(feasible, drawback);
     };
-    if (!std::ranges::all_of(feasible, over_closed_floor)) {
-        std::erase_if(feasible, over_closed_floor);
-    }
+    prefer_others([](const ModeOption* option) { return !option->plan->closures.empty(); });
+    prefer_others([](const ModeOption* option) { return option->plan->blind.loses_itself(); });
     const auto soonest = std::ranges::min_element(
         feasible, {}, [&](const ModeOption* option) { return ready_s(task, *option->plan); });
     if (soonest == feasible.end()) return;

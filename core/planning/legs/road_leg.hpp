@@ -6,13 +6,17 @@
 
 namespace pulseline::planning {
 
+class CodeReach;
+
 /// One leg to plan, with everything looked up.
 struct LegTask {
+    const plant::Plant& plant;
     const LegRequest& request;
     plant::Station station;  // one without a name or a node for a pose
     const plant::RoutingCost& cost;
     const RoadmapIndex& roads;
     const Passage& passage;
+    const CodeReach& reach;
     LegRoads& lanes;
     const std::vector<ClosedFloor>& closures;
     const Obstacles& obstacles;

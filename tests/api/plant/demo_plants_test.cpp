@@ -113,6 +113,30 @@ TEST_P(DemoPlant, EveryVehicleCanDriveHomeFromEveryStationOfItsTypeAndBack) {
     }
 }
 
+/// Wherever it goes from a station to another, it catches the next code.
+TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
+    const Plant plant = demo(GetParam());
+    const planning::LegPlanner planner(plant);
+    const auto serves = [](const Station& station, const Vehicle& vehicle) {
+        const auto& types = station.vehicle_types;
+        return types.empty() || std::find(types.begin(), types.end(), vehicle.type) != types.end();
+    };
+    for (const Vehicle& vehicle : plant.vehicles) {
+        for (const Station& from : plant.stations) {
+            for (const Station& to : plant.stations) {
+                if (from.id == to.id || !serves(from, vehicle) || !serves(to, vehicle)) continue;
+                const auto plan =
+                    planner.plan_leg(leg(plant, vehicle, from, to, MotionMode::kAuto));
+                if (!plan) continue;
+                EXPECT_FALSE(plan->blind.loses_itself())
+                    << vehicle.id.str() << " from " << from.number << " to " << to.number << ": "
+                    << plan->blind.way_m << " m without a code, " << plan->blind.at_most_m
+                    << " m are sure";
+            }
+        }
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlant,
                          testing::Values("pulse-line", "measuring-hall", "landmark-lab",
                                          "igps-cell", "final-assembly"),
