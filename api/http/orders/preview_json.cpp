@@ -100,6 +100,10 @@ Json mode_option_json(const planning::ModeOption& option, const Arrivals& arriva
     if (!plan.closures.empty()) {
         json["closures"] = list_json(plan.closures, [](const std::string& id) { return Json(id); });
     }
+    if (std::isfinite(plan.blind.at_most_m)) {
+        json["codes_on_way"] = {{"widest_gap_m", plan.blind.way_m},
+                                {"at_most_m", plan.blind.at_most_m}};
+    }
     json["clearance_m"] = plan.clearance_m;
     json["nearest"] = plan.nearest;
     json["swept_area_m2"] = plan.swept_area_m2;

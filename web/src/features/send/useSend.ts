@@ -11,7 +11,7 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
-import { floorCheck } from "./steps/floorCheck";
+import { codesCheck, floorCheck } from "./steps/wayChecks";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
 import { useOnScreen } from "./useOnScreen";
@@ -72,7 +72,8 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const option = chosen?.feasible ? chosen : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
   const floor = floorCheck(option, closures);
-  const checks = data && [...data.checks, ...(floor ? [floor] : [])];
+  const codes = codesCheck(option);
+  const checks = data && [...data.checks, ...(floor ? [floor] : []), ...(codes ? [codes] : [])];
   const ready = readiness({
     vehicle,
     entry,

@@ -1,5 +1,5 @@
 import type { DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
-import type { ShownCheck } from "../steps/floorCheck";
+import type { ShownCheck } from "../steps/wayChecks";
 import type { Refusal } from "../start/startCommand";
 import type { StationEntry } from "../steps/stationEntry";
 

@@ -2,7 +2,7 @@ import { useTranslation } from "react-i18next";
 import { CheckRow, StatusSymbol } from "@/shared/ui";
 import { useWords } from "@/shared/words/useWords";
 import { checksSummary, checkWords } from "./checkWords";
-import type { ShownCheck } from "./floorCheck";
+import type { ShownCheck } from "./wayChecks";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { countChecks, foldChecks, makesWait, type Preview } from "../preview/preview";
 import "./ChecksStep.css";

@@ -1,5 +1,5 @@
 import type { Params, Reason } from "@/shared/api/types";
-import type { ShownCheck } from "./floorCheck";
+import type { ShownCheck } from "./wayChecks";
 import { countChecks } from "../preview/preview";
 import { degrees, millimetres } from "@/shared/words/format";
 import { listed, sentence, type Names, type Translate } from "@/shared/words/sentence";

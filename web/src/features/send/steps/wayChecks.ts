@@ -1,7 +1,7 @@
 import type { Check, Closure, ModeOption } from "@/shared/api/types";
 
-/** The server's checks, and one that the screen makes of closed floor. */
-export type ShownCheck = Omit<Check, "code"> & { code: Check["code"] | "floor" };
+/** The server's checks, and those that the screen makes of the chosen way. */
+export type ShownCheck = Omit<Check, "code"> & { code: Check["code"] | "floor" | "codes_on_way" };
 
 /** Closed floor on the only way there: the order would wait until a person reopens it, so it is not begun. */
 export function floorCheck(
@@ -15,4 +15,15 @@ export function floorCheck(
   const by = [...new Set(known.map((c) => c.created_by))].join(", ");
   const names = known.map((c) => c.name).join(", ");
   return { code: "floor", result: "fail", params: names === "" ? {} : { closure: names, by } };
+}
+
+/** Farther without a code than it may drive to catch the next one: said, not refused. */
+export function codesCheck(option: ModeOption | undefined): ShownCheck | undefined {
+  const gap = option?.feasible === true ? option.codes_on_way : undefined;
+  if (gap === undefined || gap.widest_gap_m <= gap.at_most_m) return undefined;
+  return {
+    code: "codes_on_way",
+    result: "note",
+    params: { widest_gap_m: gap.widest_gap_m, at_most_m: gap.at_most_m },
+  };
 }

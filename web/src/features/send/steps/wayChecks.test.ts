@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Closure, ModeOption } from "@/shared/api/types";
-import { floorCheck } from "./floorCheck";
+import { codesCheck, floorCheck } from "./wayChecks";
 
 const option = (over: Partial<ModeOption>): ModeOption => ({
   mode: "linear",
@@ -27,4 +27,21 @@ describe("the check of closed floor", () => {
     }));
   it("fails also when the closure is not known here yet", () =>
     expect(floorCheck(option({ closures: ["c"] }), closures)).toMatchObject({ result: "fail", params: {} }));
+});
+
+describe("the check of codes on the way", () => {
+  const gap = (widest_gap_m: number, at_most_m: number) =>
+    option({ codes_on_way: { widest_gap_m, at_most_m } });
+  it("says nothing where the vehicle needs none, and where it catches each", () => {
+    expect(codesCheck(undefined)).toBeUndefined();
+    expect(codesCheck(option({}))).toBeUndefined();
+    expect(codesCheck(gap(9.2, 17.3))).toBeUndefined();
+    expect(codesCheck({ ...gap(52, 17.3), feasible: false })).toBeUndefined();
+  });
+  it("notes how far it would drive without one", () =>
+    expect(codesCheck(gap(52, 17.3))).toEqual({
+      code: "codes_on_way",
+      result: "note",
+      params: { widest_gap_m: 52, at_most_m: 17.3 },
+    }));
 });
