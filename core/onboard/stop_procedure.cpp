@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "core/onboard/stop_search.hpp"
+
 namespace pulseline::onboard {
 namespace {
 
@@ -12,6 +14,10 @@ constexpr int kBlindPasses = 4;
 constexpr int kApproaches = 2;
 constexpr double kSettle_s = 0.4;      // until the chassis no longer swings in the image
 constexpr double kLookEvery_m = 0.02;  // a third of a code: none is passed unseen
+// How far off it is brought back from: where a search sees, and what an order's node allows.
+constexpr double kSeen_m = 0.3;
+constexpr double kSeen_rad = radians(3.0);
+constexpr double kMargin = 1.02;  // moves end a little off
 
 bool inside(const vda5050::StopMeasurement& measured, const vda5050::StopTarget& target) {
     return std::abs(measured.pose.x_m - target.target.x_m) <= target.tolerance_x_m &&
@@ -62,6 +68,7 @@ void StopProcedure::start(const vda5050::StopTarget& target, bool correct) {
     late_ = on_the_way_ = false;
     approaches_ = 0;
     blind_passes_ = 0;
+    to_search_.reset();
     last_.reset();
     driven_.clear();
     settling_s_ = kSettle_s / motion_.time_factor();
@@ -117,12 +124,14 @@ void StopProcedure::look_on_the_way() {
 std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     const auto measured = sensing_.measure(target_);
     if (!measured) {
-        if (correct_ && !last_ && look_where_it_should_be()) return std::nullopt;
+        const bool goes_on = correct_ && !last_ && (look_where_it_should_be() || search());
+        if (goes_on) return std::nullopt;
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
     learn(*measured);
     // Only a look before any move shows where the drive itself had ended.
-    if (!arrived_ && blind_passes_ == 0 && !on_the_way_) arrived_ = measured->pose;
+    if (!arrived_ && blind_passes_ == 0 && !to_search_ && !on_the_way_) arrived_ = measured->pose;
+    if (!last_) reach_from(inverse(measured->pose) * target_.target);
     last_ = *measured;
     last_->arrived = arrived_;
     motion_.set_believed(measured->pose);
@@ -139,11 +148,36 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
 /// It may know better where it is than when it drove here: a person has said so since.
 bool StopProcedure::look_where_it_should_be() {
     const Pose2 off = inverse(motion_.believed_pose()) * target_.target;
-    if (blind_passes_ == kBlindPasses || adjustment_.is_good(off)) return false;
+    if (to_search_ || blind_passes_ == kBlindPasses || adjustment_.is_good(off)) return false;
     ++blind_passes_;
     if (begin_approach(off)) return true;
     control::Adjustment blind(motion_.type(), limits_);
     return begin_pass(blind, off).has_value();
+}
+
+bool StopProcedure::search() {
+    if (!to_search_) {
+        to_search_ = search_places(motion_.type(), target_, limits_.reach_m);
+        std::ranges::reverse(*to_search_);
+    }
+    while (!to_search_->empty()) {
+        const Pose2 off = inverse(motion_.believed_pose()) * to_search_->back();
+        to_search_->pop_back();
+        control::Adjustment blind(motion_.type(), limits_);
+        if (!blind.is_good(off) && begin_pass(blind, off)) return true;
+    }
+    return false;
+}
+
+/// It stands beside the floor that it holds: the way to the target is the only one that leads onto
+/// it, and no way may lead farther off.
+void StopProcedure::reach_from(const Pose2& body_from_target) {
+    const double off_m = norm(body_from_target.position());
+    const double off_rad = std::abs(body_from_target.heading_rad);
+    if (off_m > kSeen_m || off_rad > kSeen_rad) return;
+    target_limits_.reach_m = std::max(target_limits_.reach_m, kMargin * off_m);
+    target_limits_.reach_rad = std::max(target_limits_.reach_rad, kMargin * off_rad);
+    adjustment_ = control::Adjustment(motion_.type(), target_limits_);
 }
 
 /// An approach that ended elsewhere than it believed is not tried again for ever.

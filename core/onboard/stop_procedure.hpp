@@ -16,7 +16,9 @@ namespace pulseline::onboard {
 /// Measuring a stop, or correcting it until it is good (measureStop, adjustToMarker): from some
 /// millimetres away a WindowApproach where that helps, then the loop of control::Adjustment, whose
 /// motion compensation learns from every pass. The believed pose becomes each measured one; when
-/// the first look found nothing, also those that it gets on the way to where the codes should be.
+/// the first look found nothing, also those that it gets on the way to where the codes should be
+/// and, when they are not there either, while it searches (search_places). A vehicle that stands
+/// farther off than small moves reach, and sees so, is brought back: it gets no farther off.
 /// Refused with what was reached: as control::Adjustment does, and out_of_time.
 class StopProcedure {
 public:
@@ -48,6 +50,8 @@ private:
     void look_on_the_way();
     bool begin_approach(const Pose2& body_from_target);
     bool look_where_it_should_be();
+    bool search();
+    void reach_from(const Pose2& body_from_target);
     Status too_late(const Pose2& body_from_target) const;
     void learn(const vda5050::StopMeasurement& after);
     Outcome finish(bool succeeded, std::string why_not);
@@ -70,6 +74,7 @@ private:
     double looked_at_m_ = 0;   // left to the target when it last looked on the way
     double settling_s_ = 0;
     int blind_passes_ = 0;
+    std::optional<std::vector<Pose2>> to_search_;  // not looked from yet, last first
     std::optional<vda5050::StopMeasurement> last_;
     std::optional<Pose2> arrived_;       // seen first, where the drive had ended
     std::vector<control::Move> driven_;  // since last_, as commanded

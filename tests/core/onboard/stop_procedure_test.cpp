@@ -130,11 +130,31 @@ TEST(StopProcedure, SaysWhatWasReachedWhenTheTargetIsTooFar) {
     VehicleMotion motion(mecanum(), {}, 1);
     TruePose sensing(motion);
     StopProcedure procedure(motion, sensing);
-    const auto outcome = adjusted(procedure, motion, target_at({0.15, 0, 0}), [](const Pose2&) {});
+    const auto outcome = adjusted(procedure, motion, target_at({0.35, 0, 0}), [](const Pose2&) {});
     EXPECT_FALSE(outcome.succeeded);
-    EXPECT_EQ(outcome.why_not.rfind("too_far_from_target: 150.0 mm and 0.000 deg left", 0), 0u)
+    EXPECT_EQ(outcome.why_not.rfind("too_far_from_target: 350.0 mm and 0.000 deg left", 0), 0u)
         << outcome.why_not;
     EXPECT_TRUE(outcome.measurement);
+}
+
+/// Beside the floor that it holds the only way is back.
+TEST(StopProcedure, WhoSeesThatItStandsFarOffIsBroughtBackAndGetsNoFartherOff) {
+    const Pose2 target{5, 3, 0.4};
+    for (const auto& type : {mecanum(), pulseline::testing::platform()}) {
+        for (const Pose2 off : {Pose2{-0.15, 0.05, 0.01}, Pose2{0.1, 0.2, -0.04}}) {
+            VehicleMotion motion(type, target * inverse(off), 1);
+            TruePose sensing(motion);
+            StopProcedure procedure(motion, sensing);
+            const auto outcome =
+                adjusted(procedure, motion, target_at(target), [&](const Pose2& now) {
+                    const Pose2 left = inverse(now) * target;
+                    ASSERT_LE(norm(left.position()), 1.05 * norm(off.position()));
+                    ASSERT_LE(std::abs(left.heading_rad), 1.05 * std::abs(off.heading_rad) + 1e-3);
+                });
+            EXPECT_TRUE(outcome.succeeded) << type.name << ": " << outcome.why_not;
+            EXPECT_LE(distance(motion.true_pose().position(), target.position()), 0.005);
+        }
+    }
 }
 
 }  // namespace
