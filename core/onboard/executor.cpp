@@ -199,7 +199,9 @@ void Executor::go_round(const planning::Detour& detour) {
 /// Node actions one after the other, standing: all that we announce are HARD or treated so.
 void Executor::run_actions(double dt_s) {
     if (procedure_.running()) {
+        const bool searched = procedure_.searching();
         if (const auto outcome = procedure_.step(dt_s)) finish_stop(*outcome);
+        changed_ |= searched != procedure_.searching();
         return;
     }
     if (waiting_.empty() || paused_ || !cancel_id_.empty() || !motion_.idle()) return;
@@ -357,6 +359,13 @@ void Executor::write_state(vda5050::StateMessage& state) const {
     state.action_states.insert(state.action_states.end(), instant_actions_.begin(),
                                instant_actions_.end());
     state.errors = errors_;
+    if (procedure_.searching()) {
+        state.errors.push_back({"codesNotInView",
+                                false,
+                                "No code of the station is in view where it should be. The vehicle "
+                                "looks for them round there.",
+                                {}});
+    }
 }
 
 }  // namespace pulseline::onboard

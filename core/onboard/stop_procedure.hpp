@@ -38,6 +38,8 @@ public:
     /// The outcome once it is over.
     std::optional<Outcome> step(double dt_s);
     bool running() const { return running_; }
+    /// No code was in view where it should be, and it looks for one round there.
+    bool searching() const { return running_ && to_search_ && !last_; }
     const control::MotionCompensation& compensation() const { return compensation_; }
     /// Gives up; a correction under way is braked first: running() until it stands.
     void abort();

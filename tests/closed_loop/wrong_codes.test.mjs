@@ -1,35 +1,27 @@
 // Codes of the lanes do not lie where the survey says: two were exchanged, one was moved. A vehicle that passes them names
 // them, steers by none of them, and stops where it should. The world is another plant file than the server's.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
-import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
+import { writeWorld } from "../harness/world.mjs";
 
 const MM = 1e-3;
 const ID = "DL-01";
 const EXCHANGED = ["lane-317", "lane-311"], MOVED = "lane-314", MOVED_BY_M = 0.03;
 let system, client;
 
-/** The plant as its survey has it, and beside it what truly lies on the floor. */
-function trueWorld(file) {
-  const world = JSON.parse(readFileSync(file, "utf8"));
-  for (const hall of world.halls) if (hall.occupancy_yaml) hall.occupancy_yaml = join(dirname(file), hall.occupancy_yaml);
-  const code = (id) => world.markers.find((marker) => marker.id === id);
-  const [one, other] = EXCHANGED.map(code);
-  [one.payload, other.payload] = [other.payload, one.payload];
-  code(MOVED).pose.y_m += MOVED_BY_M;
-  return world;
-}
-
 before(async () => {
   system = await System.create("final-assembly");
   system.prepareVehicles([ID]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  const world = join(system.directory, "world.json");
-  writeFileSync(world, JSON.stringify(trueWorld(system.plant.file)));
+  const world = writeWorld(system, ({ markers }) => {
+    const code = (id) => markers.find((marker) => marker.id === id);
+    const [one, other] = EXCHANGED.map(code);
+    [one.payload, other.payload] = [other.payload, one.payload];
+    code(MOVED).pose.y_m += MOVED_BY_M;
+  });
   system.startAgent(ID, { seed: 21, world });
   await client.untilReady(ID);
 });
