@@ -32,8 +32,8 @@ constexpr double k95 = 1.96;  // sigmas of a normal distribution
 // A drive begins at a measured stop.
 constexpr double kStart_m = 3e-4;
 constexpr double kStart_rad = 3e-4;
-// Of where a drive with codes ends; what a camera still sees of the code there.
-constexpr double kEnd_mm = 15;
+// Of where a drive with codes ends.
+constexpr double kEnd_mm = 5;
 // Of all that is stated with 95 %, what holds.
 constexpr double kCovered = 0.95;
 constexpr double kCoveredWithin = 0.03;
