@@ -63,13 +63,13 @@ async function look() {
       else if (reason?.code === "cancelled") ++cancelled;
       else bad(`an order of ${vehicle} was aborted: ${reason?.code}`);
     } else if (random() < CANCELLED_A_LOOK) {
-      await client.request("POST", `/api/v1/job-orders/${id}/cancel`, { body: {} });
+      await client.request("POST", `/api/v1/job-orders/${id}/cancel`);
     } else if ((Date.now() - since_ms) / 1000 * FACTOR > PATIENCE_S * OPEN_EACH) {
       bad(`an order of ${vehicle} takes longer than ${PATIENCE_S * OPEN_EACH} s: ${state} ${reason?.code ?? ""}`);
       open.get(id).since_ms = Date.now();
     }
   }
-  const { items } = await client.get("/api/v1/vehicles?limit=100");
+  const { items } = await client.get("/api/v1/vehicles");
   for (const { id, needs_resume, pose_known, reason } of items) {
     const calls = needs_resume ? `needs a person: ${reason?.code}` : pose_known ? "" : "lost its pose";
     if (calls && waiting.get(id) !== calls) bad(`${id} ${calls}`);
