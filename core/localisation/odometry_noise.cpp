@@ -8,7 +8,6 @@
 namespace pulseline::localisation {
 namespace {
 
-using kinematics::BodyMotion;
 using kinematics::RollingWheels;
 using kinematics::Twist;
 using kinematics::WheelMotion;
