@@ -57,7 +57,10 @@ void StopProcedure::start(const vda5050::StopTarget& target, bool correct) {
     // What is measured where an adjustment has ended is still of the drive before that one.
     const bool adjusted = !correct && last_ && target.station_id == target_.station_id &&
                           motion_.believed_pose() == last_->pose;
-    if (!adjusted) arrived_.reset();
+    if (!adjusted) {
+        arrived_.reset();
+        moved_unseen_ = false;
+    }
     target_ = target;
     correct_ = correct;
     running_ = true;
@@ -125,12 +128,15 @@ std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     const auto measured = sensing_.measure(target_);
     if (!measured) {
         const bool goes_on = correct_ && !last_ && (look_where_it_should_be() || search());
-        if (goes_on) return std::nullopt;
+        if (goes_on) {
+            moved_unseen_ = true;
+            return std::nullopt;
+        }
         return finish(false, measured.error().reason.code + ": " + measured.error().what);
     }
     learn(*measured);
     // Only a look before any move shows where the drive itself had ended.
-    if (!arrived_ && blind_passes_ == 0 && !to_search_ && !on_the_way_) arrived_ = measured->pose;
+    if (!arrived_ && !moved_unseen_) arrived_ = measured->pose;
     if (!last_) reach_from(inverse(measured->pose) * target_.target);
     last_ = *measured;
     last_->arrived = arrived_;

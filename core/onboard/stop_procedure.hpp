@@ -79,6 +79,7 @@ private:
     std::optional<std::vector<Pose2>> to_search_;  // not looked from yet, last first
     std::optional<vda5050::StopMeasurement> last_;
     std::optional<Pose2> arrived_;       // seen first, where the drive had ended
+    bool moved_unseen_ = false;          // since then, so that nobody knows where that was
     std::vector<control::Move> driven_;  // since last_, as commanded
 };
 

@@ -67,6 +67,12 @@ protected:
                 farthest_m = std::max(farthest_m, norm(believed.position()));
             if (!outcome) continue;
             looks = sensing.looks;
+            if (outcome->succeeded) {
+                procedure.start(target, false);
+                std::optional<StopProcedure::Outcome> measured;
+                for (int k = 0; k < 100 && !measured; ++k) measured = procedure.step(kStep_s);
+                knows_arrival = measured && measured->measurement && measured->measurement->arrived;
+            }
             off_m = distance(motion.true_pose().position(), target.target.position());
             believed_off_m = norm(believed.position());
             return *outcome;
@@ -74,6 +80,7 @@ protected:
         ADD_FAILURE() << "the procedure does not end";
         return {};
     }
+    bool knows_arrival = false;
     double farthest_m = 0;  // from the target as it believed while it searched
     double off_m = 0;       // at the end
     double believed_off_m = 0;
@@ -93,6 +100,7 @@ TEST_F(StopSearch, FindsTheCodesAllRoundWhereTheyShouldBe) {
                 EXPECT_LE(farthest_m, kReach_m) << "it holds no floor beyond";
                 EXPECT_FALSE(outcome.measurement && outcome.measurement->arrived)
                     << "nobody saw where the drive had ended";
+                EXPECT_FALSE(knows_arrival) << "measured where it was adjusted to";
             }
         }
     }
