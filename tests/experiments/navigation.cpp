@@ -33,7 +33,7 @@ constexpr double k95 = 1.96;  // sigmas of a normal distribution
 constexpr double kStart_m = 3e-4;
 constexpr double kStart_rad = 3e-4;
 // Of where a drive with codes ends.
-constexpr double kEnd_mm = 5;
+constexpr double kEnd_mm = 10;
 // Of all that is stated with 95 %, what holds.
 constexpr double kCovered = 0.95;
 constexpr double kCoveredWithin = 0.03;
