@@ -32,6 +32,7 @@ void look_along(const plant::Marker& marker, const plant::Camera& camera, const 
     const double radius_m = view_radius_m(camera, marker.size_m);
     const double way_m = foot_way_m(segment, camera);
     const int looks = 1 + static_cast<int>(std::ceil(way_m / kLookEvery_m));
+    const double look_m = way_m / looks;
     for (int i = 0; i <= looks;) {
         const double share = static_cast<double>(i) / looks;
         const geometry::Pose2 body = kinematics::pose_at(segment, share);
@@ -39,7 +40,7 @@ void look_along(const plant::Marker& marker, const plant::Camera& camera, const 
         if (off_m <= radius_m && act(share)) return;
         // No look is needed before it can have come into view.
         const double until_m = std::min(off_m - radius_m, way_m);
-        i += std::max(1, static_cast<int>(until_m / (way_m / looks)));
+        i += until_m > look_m ? static_cast<int>(until_m / look_m) : 1;
     }
 }
 

@@ -9,8 +9,8 @@
 namespace pulseline::localisation {
 namespace {
 
-// Chi-square of 3 degrees of freedom at 99.999 %. After a right code that is refused the next one may
-// not come into view, and then none; a wrong one is off by many times what is known.
+// Chi-square of 3 degrees of freedom at 99.999 %. After a right code that is refused the next one
+// may not come into view, and then none; a wrong one is off by many times what is known.
 constexpr double kGate = 25.9;
 
 Eigen::Matrix3d matrix(const std::array<std::array<double, 3>, 3>& rows) {

@@ -12,7 +12,7 @@ namespace pulseline::onboard {
 struct WayReading {
     vda5050::SurveyedMarker marker;      // the expected one that lies there
     localisation::CodeObservation seen;  // of another payload: the codes were exchanged
-    double age_s = 0;  // since the exposure, of the vehicle's own time
+    double age_s = 0;                    // since the exposure, of the vehicle's own time
 };
 
 /// Port: the cameras of a vehicle that drives. They expose by a clock of their own, and only where

@@ -22,8 +22,8 @@ namespace pulseline::onboard {
 /// 0.4 to 0.7 mm off, which need moves anyway, and moves that have been learned; and by
 /// differential vehicles, which would have to turn to the target by more than the reach allows.
 ///
-/// The reach stays that of the moves, 0.1 m and 1 deg, or where the vehicle was seen first if that is
-/// farther off: the floor a vehicle has at a stop is its outline and traffic's margin of 0.1 m
+/// The reach stays that of the moves, 0.1 m and 1 deg, or where the vehicle was seen first if that
+/// is farther off: the floor a vehicle has at a stop is its outline and traffic's margin of 0.1 m
 /// (core/fleet/tables/floor_graph.hpp), and beside it every way but the one back leads farther off.
 ///
 /// One object drives one approach.

@@ -96,8 +96,7 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     return plan;
 }
 
-/// The first one that leads over no closed floor and past the codes it needs; else the first that
-/// leads over none; else the first; else why the first is blocked.
+/// The first plan of the least drawback, or why the first is blocked.
 class Best {
 public:
     /// True: nothing better is to be had.
@@ -106,12 +105,8 @@ public:
             if (!refusal_) refusal_ = plan.error();
             return false;
         }
-        const int rank = !plan->closures.empty() ? 0 : plan->blind.loses_itself() ? 1 : kBest;
-        if (rank > rank_) {
-            rank_ = rank;
-            plan_ = std::move(*plan);
-        }
-        return rank_ == kBest;
+        if (!plan_ || plan->drawback() < plan_->drawback()) plan_ = std::move(*plan);
+        return plan_->drawback() == Drawback::kNone;
     }
     bool has_plan() const { return plan_.has_value(); }
     Result<LegPlan> take() {
@@ -120,8 +115,6 @@ public:
     }
 
 private:
-    static constexpr int kBest = 2;
-    int rank_ = -1;
     std::optional<LegPlan> plan_;
     std::optional<Error> refusal_;
 };

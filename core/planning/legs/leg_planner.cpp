@@ -74,23 +74,6 @@ Result<plant::Station> target_of(const plant::Plant& plant, const LegRequest& re
     return *station;
 }
 
-/// One that no other closed floor has.
-std::string name_of(const ClosedFloor& closed) {
-    std::string name = closed.id + '/' + closed.hall.str();
-    const auto add = [&](double number) {
-        name.append(reinterpret_cast<const char*>(&number), sizeof number);
-    };
-    add(closed.margin_m);
-    for (const auto& piece : closed.pieces) {
-        add(static_cast<double>(piece.size()));
-        for (const auto& point : piece) {
-            add(point.x_m);
-            add(point.y_m);
-        }
-    }
-    return name;
-}
-
 }  // namespace
 
 struct LegPlanner::Tables {
@@ -390,7 +373,7 @@ std::vector<LegAlternative> LegPlanner::alternatives(
 void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
     tables_->closures = std::move(closures);
     std::string closed;
-    for (const auto& closure : tables_->closures) closed += name_of(closure);
+    for (const auto& closure : tables_->closures) closed += key_of(closure);
     tables_->closed = std::make_shared<const std::string>(std::move(closed));
     for (auto& [key, prepared] : tables_->prepared) {
         prepared->lanes.set_closures(tables_->closures);

@@ -39,6 +39,9 @@ struct BlindWay {
     bool loses_itself() const { return way_m > at_most_m; }
 };
 
+/// What another way is taken for where there is one, the least first.
+enum class Drawback : std::uint8_t { kNone, kLosesItself, kClosedFloor };
+
 /// One way to drive a leg.
 struct LegPlan {
     plant::MotionMode mode = plant::MotionMode::kLinear;
@@ -60,6 +63,11 @@ struct LegPlan {
     std::optional<kinematics::WheelPeaks> wheels;  // absent when the type states no wheels
     double swept_area_m2 = 0;
     std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
+
+    Drawback drawback() const {
+        if (!closures.empty()) return Drawback::kClosedFloor;
+        return blind.loses_itself() ? Drawback::kLosesItself : Drawback::kNone;
+    }
 };
 
 /// Of the feasible modes kAuto takes the one that is ready soonest, counting the drive, the

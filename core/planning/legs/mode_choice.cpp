@@ -32,14 +32,12 @@ void suggest(const LegTask& task, std::vector<ModeOption>& options) {
     for (ModeOption& option : options) {
         if (option.plan) feasible.push_back(&option);
     }
-    const auto prefer_others = [&](auto drawback) {
-        if (!std::ranges::all_of(feasible, drawback)) std::erase_if(feasible, drawback);
-    };
-    prefer_others([](const ModeOption* option) { return !option->plan->closures.empty(); });
-    prefer_others([](const ModeOption* option) { return option->plan->blind.loses_itself(); });
+    const auto drawback = [](const ModeOption* option) { return option->plan->drawback(); };
+    if (feasible.empty()) return;
+    const Drawback least = drawback(*std::ranges::min_element(feasible, {}, drawback));
+    std::erase_if(feasible, [&](const ModeOption* option) { return drawback(option) > least; });
     const auto soonest = std::ranges::min_element(
         feasible, {}, [&](const ModeOption* option) { return ready_s(task, *option->plan); });
-    if (soonest == feasible.end()) return;
     // How near a way comes to things costs more to know than all the rest: only where it counts.
     const double limit_s = ready_s(task, *(*soonest)->plan) + kCaution_s;
     std::erase_if(feasible,

@@ -50,6 +50,22 @@ bool any_near(const std::vector<ClosedFloor>& closures, const plant::HallId& hal
 
 }  // namespace
 
+std::string key_of(const ClosedFloor& closed) {
+    std::string key = closed.id + '/' + closed.hall.str();
+    const auto add = [&](double number) {
+        key.append(reinterpret_cast<const char*>(&number), sizeof number);
+    };
+    add(closed.margin_m);
+    for (const auto& piece : closed.pieces) {
+        add(static_cast<double>(piece.size()));
+        for (const auto& point : piece) {
+            add(point.x_m);
+            add(point.y_m);
+        }
+    }
+    return key;
+}
+
 std::vector<std::size_t> driven_over(const std::vector<ClosedFloor>& closures,
                                      const plant::HallId& hall,
                                      const std::vector<geometry::Polygon>& swept) {

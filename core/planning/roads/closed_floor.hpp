@@ -18,6 +18,9 @@ struct ClosedFloor {
     double margin_m = 0;                    // bodies keep this far away
 };
 
+/// Text that no other closed floor has.
+std::string key_of(const ClosedFloor& closed);
+
 /// The closures that a motion of the body would drive over, by their place in `closures`.
 std::vector<std::size_t> driven_over(const std::vector<ClosedFloor>& closures,
                                      const plant::HallId& hall,

@@ -66,6 +66,19 @@ TEST(CodesOnWay, AreSeenWhereTheCameraIsAboveThem) {
     EXPECT_TRUE(seen_at(code_at(9, 0), camera_ahead(), straight(2)).empty());
 }
 
+/// A turn on the spot of a camera at the body's middle moves it by nothing.
+TEST(CodesOnWay, AWayOfNoLengthSeesWhatLiesBelowIt) {
+    plant::Camera camera;
+    Segment turn;
+    turn.kind = Segment::Kind::kRotate;
+    turn.start = {2, 0, 0};
+    turn.end = {2, 0, 1};
+    turn.turn_rad = 1;
+    const std::vector<plant::Camera> cameras{camera};
+    EXPECT_FALSE(seen_at(code_at(2, 0), cameras, turn).empty());
+    EXPECT_TRUE(seen_at(code_at(9, 0), cameras, turn).empty());
+}
+
 TEST(BlindWay, IsLongerWithALargerViewAndShorterWithWorseWheels) {
     const plant::Camera camera = camera_ahead().front();
     const double usual_m = blind_way_m(camera, 0.05);
