@@ -28,8 +28,8 @@ struct KnownPose {
     double heading_rad = 0;
 };
 
-/// The longest way [m] by odometry alone after which three sigma across it, of a point `arm_m` ahead
-/// in the body, stay within `within_m`. 0: they never do.
+/// The longest way [m] by odometry alone after which three sigma across it, of a point `arm_m`
+/// ahead in the body, stay within `within_m`. 0: they never do.
 double sure_way_m(const KnownPose& known, double arm_m, double within_m,
                   const OdometryNoise& noise);
 

@@ -66,7 +66,8 @@ Covariances covariances(std::span<const Located> located, const RigidFit& fit,
         sum.lasting += square(errors.place_m) * by_receiver * by_receiver.transpose();
     }
     for (std::size_t t = 0; t < transmitters.size(); ++t) {
-        sum.lasting += square(transmitters[t].sigma_place_m) * by_place[t] * by_place[t].transpose();
+        sum.lasting +=
+            square(transmitters[t].sigma_place_m) * by_place[t] * by_place[t].transpose();
         sum.lasting += square(transmitters[t].sigma_turn_rad) * by_turn[t] * by_turn[t].transpose();
     }
     return sum;
@@ -87,9 +88,8 @@ double sigma_of(const ReceiverFix& fix, const ReceiverErrors& errors) {
 }
 
 void note(IgpsFix& fix, const std::string& name, const char* code) {
-    const bool known = std::ranges::any_of(fix.left_out, [&](const LeftOut& out) {
-        return out.name == name && out.code == code;
-    });
+    const bool known = std::ranges::any_of(
+        fix.left_out, [&](const LeftOut& out) { return out.name == name && out.code == code; });
     if (!known) fix.left_out.push_back({name, code});
 }
 
@@ -169,7 +169,8 @@ Result<IgpsFix> fit_receivers(std::vector<ReceiverResult> results,
     pose.residual_m = fit.worst_m;
     found.lasting = rows(sums.lasting);
     for (const Located& one : located) {
-        found.floor_m += (one.fix.position.z() - one.receiver->z_m) / static_cast<double>(located.size());
+        found.floor_m +=
+            (one.fix.position.z() - one.receiver->z_m) / static_cast<double>(located.size());
         for (const LightRow& row : one.fix.rows) {
             const std::string& name = transmitters[row.transmitter].id.str();
             if (std::ranges::find(pose.payloads, name) == pose.payloads.end()) {

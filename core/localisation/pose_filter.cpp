@@ -110,8 +110,7 @@ void PoseFilter::restart(const Pose2& pose, const Eigen::Matrix3d& covariance) {
 Status PoseFilter::update(const Eigen::Vector3d& innovation, const Observation& jacobian,
                           const Eigen::Matrix3d& noise, const Eigen::Matrix3d& lasting) {
     const Eigen::Matrix3d s = jacobian * covariance_ * jacobian.transpose() + noise;
-    const double chi2 =
-        innovation.dot(Eigen::LDLT<Eigen::Matrix3d>(s + lasting).solve(innovation));
+    const double chi2 = innovation.dot(Eigen::LDLT<Eigen::Matrix3d>(s + lasting).solve(innovation));
     if (!(chi2 <= kGate))
         return fail(Errc::kConflict, "innovation_gate",
                     "The code contradicts the way driven. A code was moved or exchanged, or the "

@@ -29,7 +29,9 @@ public:
     /// It has come to rest from this share of its full speed.
     void rest(double speed_share);
     /// Its pose is less well known by so much.
-    void blur(const Eigen::Matrix3d& covariance) { covariance_.topLeftCorner<3, 3>() += covariance; }
+    void blur(const Eigen::Matrix3d& covariance) {
+        covariance_.topLeftCorner<3, 3>() += covariance;
+    }
 
     /// A whole pose, from localisation::locate. `lasting`: the part of its covariance that later
     /// ones share, so that many of them are no better than one; it counts when the fix is checked,

@@ -29,9 +29,7 @@ struct Beam {
 struct Solution {
     ReceiverFix fix;
     double chi2 = 0;
-    bool agrees() const {
-        return chi2 <= chi2_limit(static_cast<int>(fix.rows.size()) - 3);
-    }
+    bool agrees() const { return chi2 <= chi2_limit(static_cast<int>(fix.rows.size()) - 3); }
     double sigma_m() const {
         const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(fix.covariance, Eigen::EigenvaluesOnly);
         return std::sqrt(std::max(0.0, axes.eigenvalues()[2]));
@@ -61,10 +59,10 @@ std::vector<LightRow> rows_of(std::span<const Beam> beams) {
     rows.reserve(2 * beams.size());
     for (const Beam& beam : beams) {
         const Matrix3d turn = hall_from_head(*beam.from);
-        rows.push_back(row_of(beam, turn, beam.from->first, beam.light->first_rad,
-                              beam.light->way_first));
-        rows.push_back(row_of(beam, turn, beam.from->second, beam.light->second_rad,
-                              beam.light->way_second));
+        rows.push_back(
+            row_of(beam, turn, beam.from->first, beam.light->first_rad, beam.light->way_first));
+        rows.push_back(
+            row_of(beam, turn, beam.from->second, beam.light->second_rad, beam.light->way_second));
     }
     return rows;
 }
@@ -132,7 +130,8 @@ Result<ReceiverFix> locate_receiver(std::span<const LightAngles> light,
                                     std::span<const plant::Transmitter> transmitters) {
     std::vector<Beam> beams;
     for (const LightAngles& seen : light) {
-        const auto from = std::ranges::find(transmitters, seen.transmitter, &plant::Transmitter::id);
+        const auto from =
+            std::ranges::find(transmitters, seen.transmitter, &plant::Transmitter::id);
         if (from == transmitters.end()) continue;
         beams.push_back({static_cast<std::size_t>(from - transmitters.begin()), &*from, &seen});
     }

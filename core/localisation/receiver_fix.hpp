@@ -14,11 +14,11 @@ namespace pulseline::localisation {
 struct LightRow {
     std::size_t transmitter = 0;  // its place among those given
     Eigen::Vector3d normal;
-    double constant_m = 0;      // normal . X + constant_m = 0
-    double per_rad_m = 0;       // how a radian of its angle moves it, at the receiver
+    double constant_m = 0;       // normal . X + constant_m = 0
+    double per_rad_m = 0;        // how a radian of its angle moves it, at the receiver
     Eigen::Vector3d per_turn_m;  // and a radian of its transmitter's turn about each axis
-    double sigma_m = 0;         // with all that is known of the transmitter
-    Eigen::Vector3d gain;       // how its error moves the receiver's place
+    double sigma_m = 0;          // with all that is known of the transmitter
+    Eigen::Vector3d gain;        // how its error moves the receiver's place
 };
 
 struct ReceiverFix {

@@ -18,8 +18,8 @@ constexpr double kNothing = 1e-3;
 Twist within_reach(const plant::VehicleType& type, Twist wanted) {
     const double way = std::hypot(wanted.vx_mps, wanted.vy_mps);
     if (way < kNothing) wanted.vx_mps = wanted.vy_mps = 0;
-    const bool sideways = type.kinematics != plant::Kinematics::kMecanum &&
-                          std::abs(wanted.vy_mps) > kNothing;
+    const bool sideways =
+        type.kinematics != plant::Kinematics::kMecanum && std::abs(wanted.vy_mps) > kNothing;
     if (sideways || std::abs(wanted.turn_radps) < kNothing) wanted.turn_radps = 0;
     const double turn = std::abs(wanted.turn_radps);
     const double slower = std::min({1.0, HandDrive::kFastest_mps / std::max(way, kNothing),

@@ -100,8 +100,7 @@ void LightWatch::blur(localisation::PoseFix& fix) const {
 /// Of the way that the wheels have told since the sheets passed.
 Eigen::Matrix3d LightWatch::odometry_since(double heading_rad) const {
     const kinematics::Twist twist = drive_.twist();
-    const double way_m =
-        std::hypot(twist.vx_mps, twist.vy_mps) / drive_.time_factor() * kSeenAgo_s;
+    const double way_m = std::hypot(twist.vx_mps, twist.vy_mps) / drive_.time_factor() * kSeenAgo_s;
     const auto& noise = estimate_.noise();
     const Eigen::Vector3d variance(square(noise.forward_m_per_sqrt_m) * way_m,
                                    square(noise.left_m_per_sqrt_m) * way_m,

@@ -19,9 +19,9 @@ public:
     /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
     /// the pose alone, when it contradicts the way driven.
     Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
-    /// A pose by iGPS, of where the vehicle is now; seen some centimetres ago, which the wheels have
-    /// told since with errors of `since`. The filter's own way has the same errors, so that this fix
-    /// cannot take them away. Fails as the other one.
+    /// A pose by iGPS, of where the vehicle is now; seen some centimetres ago, which the wheels
+    /// have told since with errors of `since`. The filter's own way has the same errors, so that
+    /// this fix cannot take them away. Fails as the other one.
     Status see(const localisation::IgpsFix& seen,
                const Eigen::Matrix3d& since = Eigen::Matrix3d::Zero());
     /// It stands where iGPS puts it, whatever its odometry says.

@@ -7,8 +7,8 @@
 namespace pulseline::plant::detail {
 namespace {
 
-constexpr std::size_t kMostInHall = 16;    // bounds the work of a fix
-constexpr double kSameRate_hz = 0.01;      // closer, one gains less than a turn in 100 s
+constexpr std::size_t kMostInHall = 16;  // bounds what a vehicle has to work out 25 times a second
+constexpr double kSameRate_hz = 0.01;    // closer, one gains less than a turn in 100 s
 constexpr double kReceiversApart_m = 0.1;  // closer, 0.1 mm of noise is over 1 mrad of heading
 constexpr std::size_t kFewest = 2;         // one direction gives no place, one place no heading
 

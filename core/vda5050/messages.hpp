@@ -156,7 +156,7 @@ struct ReceiverReading {
     bool found = false;
     geometry::Point2 place;
     double z_m = 0;
-    double sigma_m = 0;  // per axis of the floor's plane
+    double sigma_m = 0;                     // per axis of the floor's plane
     std::vector<std::string> transmitters;  // whose light falls on it
     std::string why_not;                    // when not found
 };

@@ -190,8 +190,7 @@ Result<Fault> parse_fault(const std::string& text) {
         const auto colon = fault.part.rfind(':');
         if (colon == std::string::npos || colon == 0) return bad();
         const char* end = fault.part.data() + fault.part.size();
-        const auto [rest, error] =
-            std::from_chars(fault.part.data() + colon + 1, end, fault.share);
+        const auto [rest, error] = std::from_chars(fault.part.data() + colon + 1, end, fault.share);
         if (error != std::errc{} || rest != end || !(fault.share > 0 && fault.share <= 1)) {
             return bad();
         }

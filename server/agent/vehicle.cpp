@@ -161,8 +161,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
 /// It looks out and is steered by steps of its own time, however fast that runs.
 void Vehicle::drive(double dt_s) {
     for (double left_s = dt_s; left_s > 0;) {
-        const double parts =
-            std::ceil(left_s * settings_.time_factor / most_step_s() - kRounding);
+        const double parts = std::ceil(left_s * settings_.time_factor / most_step_s() - kRounding);
         const double part_s = parts > 1 ? left_s / parts : left_s;
         // Whoever drives it by hand looks out.
         if (look_out_ && !executor_.in_hand()) {

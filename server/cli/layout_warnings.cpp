@@ -80,14 +80,15 @@ plant::Fault code_gap(const Reason& reason) {
 
 plant::Fault light_gap(const Reason& reason) {
     const auto places = value_of<std::int64_t>(reason, "count");
-    return {"/transmitters", reason.code,
-            fmt::format("Vehicles of type {} do not know where they are near x {:.1f} m, y {:.1f} m "
-                        "({}): {}",
-                        value_of<std::string>(reason, "class"), value_of<double>(reason, "at_x_m"),
-                        value_of<double>(reason, "at_y_m"),
-                        places == 1 ? std::string("one place") : fmt::format("{} places", places),
-                        value_of<std::string>(reason, "why")),
-            "Set up a transmitter that shines there and add it to transmitters."};
+    return {
+        "/transmitters", reason.code,
+        fmt::format("Vehicles of type {} do not know where they are near x {:.1f} m, y {:.1f} m "
+                    "({}): {}",
+                    value_of<std::string>(reason, "class"), value_of<double>(reason, "at_x_m"),
+                    value_of<double>(reason, "at_y_m"),
+                    places == 1 ? std::string("one place") : fmt::format("{} places", places),
+                    value_of<std::string>(reason, "why")),
+        "Set up a transmitter that shines there and add it to transmitters."};
 }
 
 }  // namespace

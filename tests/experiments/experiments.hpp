@@ -35,7 +35,8 @@ bool navigation(const Options& options);
 bool igps(const Options& options);
 
 /// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum, iGPS), Li 2020
-/// (differential vehicle, landmark), with the whole error budget. False when one is refused or misses what is asked of it.
+/// (differential vehicle, landmark), with the whole error budget. False when one is refused or
+/// misses what is asked of it.
 bool stops(const Options& options);
 
 }  // namespace pulseline::experiments

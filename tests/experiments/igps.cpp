@@ -19,8 +19,8 @@ using geometry::Pose2;
 
 constexpr int kStops = 200;
 constexpr int kStopsOfAVehicle = 10;
-constexpr int kStation = 3;  // four transmitters shine there; the wing panel shades the others
-constexpr int kOther = 2;    // so that each stop ends a drive
+constexpr int kStation = 3;       // four transmitters shine there; the wing panel shades the others
+constexpr int kOther = 2;         // so that each stop ends a drive
 constexpr double kWang_mm = 0.5;  // section 5, Fig. 11
 constexpr double k95 = 1.959964;
 constexpr double kCoveredAtLeast = 0.9;  // machines of one world share its transmitters' errors
@@ -100,12 +100,13 @@ bool print_stops(const Options& options) {
     bool good = true;
     for (const Loss& loss : losses) {
         family.dark = loss.dark;
-        const Summary sum = summary_of(run_stops(family, options.folder + "/../../db/plants", runs));
+        const Summary sum =
+            summary_of(run_stops(family, options.folder + "/../../db/plants", runs));
         // One transmitter tells no place: then each machine has to say so instead of standing
         // somewhere.
         const bool kept = loss.left >= 2 ? sum.refused == 0 && sum.axis_mm <= kWang_mm &&
-                                          sum.covered >= kCoveredAtLeast
-                                    : sum.refused == runs.vehicles && sum.stops == 0;
+                                               sum.covered >= kCoveredAtLeast
+                                         : sum.refused == runs.vehicles && sum.stops == 0;
         good &= kept;
         fmt::print("{:<34}{:>7}{:>9.3f}{:>10.3f}{:>9.3f}{:>8.1f}%{:>10}{}\n", loss.name, sum.stops,
                    sum.mean_mm, sum.axis_mm, sum.sigma_mm, 100 * sum.covered, sum.refused,
@@ -131,7 +132,8 @@ void print_map(const Options& options) {
             const auto fix = localisation::expected_fix(plant, hall.id, type, {x_m, y_m, 0});
             const double sigma_mm = fix ? 1e3 * fix->fix.sigma_xy_m : 0;
             fix ? sigmas_mm.push_back(sigma_mm) : void(++dark);
-            const int shade = fix ? std::clamp(static_cast<int>(255 - 1000 * sigma_mm), 30, 240) : 0;
+            const int shade =
+                fix ? std::clamp(static_cast<int>(255 - 1000 * sigma_mm), 30, 240) : 0;
             cells += fmt::format(
                 "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
                 (x_m - box.min.x_m) / kCell_m * kPixel, (box.max.y_m - y_m) / kCell_m * kPixel,

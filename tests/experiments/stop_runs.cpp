@@ -234,8 +234,7 @@ std::vector<StopFamily> stop_families() {
 
 std::vector<Stop> run_stops(const StopFamily& family, const std::string& plants,
                             const StopRuns& runs) {
-    const auto plant =
-        api::plant_file::load_plant_file(plants + "/" + family.plant + ".json");
+    const auto plant = api::plant_file::load_plant_file(plants + "/" + family.plant + ".json");
     if (!plant) throw std::runtime_error(plant.error().what);
     std::vector<Stop> stops;
     for (int v = 0; v < runs.vehicles; ++v) {

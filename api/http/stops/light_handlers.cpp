@@ -86,8 +86,9 @@ Result<std::vector<localisation::LightAngles>> angles_of(
     for (std::size_t i = 0; i < receiver.turns.size(); ++i) {
         const LightPulses& turn = receiver.turns[i];
         const std::string at = pointer + "/turns/" + std::to_string(i);
-        const bool twice = std::ranges::find(light, turn.transmitter,
-                                             &localisation::LightAngles::transmitter) != light.end();
+        const bool twice =
+            std::ranges::find(light, turn.transmitter, &localisation::LightAngles::transmitter) !=
+            light.end();
         if (twice) {
             return fail(Errc::kInvalid, "twice",
                         "Send one turn of each transmitter, the newest; \"" +

@@ -22,8 +22,7 @@ std::optional<Reason> light_gap_of(const plant::Plant& plant, const FloorClass& 
         const int looks =
             1 + static_cast<int>(std::ceil(std::abs(way.segment.length_m) / kLookEvery_m));
         for (int i = 0; i <= looks; ++i) {
-            const Pose2 pose =
-                kinematics::pose_at(way.segment, static_cast<double>(i) / looks);
+            const Pose2 pose = kinematics::pose_at(way.segment, static_cast<double>(i) / looks);
             const auto fix = localisation::expected_fix(plant, hall, type, pose);
             if (fix) continue;
             ++count;

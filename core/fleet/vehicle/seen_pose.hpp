@@ -4,7 +4,8 @@
 
 #include "core/fleet/state/fleet_state.hpp"
 
-/// Where a vehicle stands by what it says that it sees, worked out here: the server owns the survey.
+/// Where a vehicle stands by what it says that it sees, worked out here: the server owns the
+/// survey.
 namespace pulseline::fleet {
 
 struct SeenPose {

@@ -108,15 +108,16 @@ double CodeReach::at_most_m(double size_m) const {
 
 double CodeReach::in_the_dark_m() const {
     if (!in_the_dark_m_) {
-        in_the_dark_m_ =
-            localisation::sure_way_m({kByLight_m, kByLight_rad}, 0, kBeside_m, noise_);
+        in_the_dark_m_ = localisation::sure_way_m({kByLight_m, kByLight_rad}, 0, kBeside_m, noise_);
     }
     return *in_the_dark_m_;
 }
 
 bool CodeReach::is_lit(const plant::Plant& plant, const plant::HallId& hall,
                        geometry::Point2 at) const {
-    const auto cell = [](double way_m) { return static_cast<int>(std::floor(way_m / kLookEvery_m)); };
+    const auto cell = [](double way_m) {
+        return static_cast<int>(std::floor(way_m / kLookEvery_m));
+    };
     const auto [known, added] =
         lit_.try_emplace(std::tuple(hall, cell(at.x_m), cell(at.y_m)), false);
     if (added) {

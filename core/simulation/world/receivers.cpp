@@ -27,8 +27,8 @@ std::optional<double> meets(Point2 a, Point2 b, Point2 c, Point2 d) {
 
 bool shades(const geometry::Polygon& body, const plant::Transmitter& from, const Vector3d& point) {
     for (std::size_t i = 0; i < body.size(); ++i) {
-        const auto share = meets(from.position, {point.x(), point.y()}, body[i],
-                                 body[(i + 1) % body.size()]);
+        const auto share =
+            meets(from.position, {point.x(), point.y()}, body[i], body[(i + 1) % body.size()]);
         if (share && from.z_m + *share * (point.z() - from.z_m) < kBody_m) return true;
     }
     return false;
@@ -80,9 +80,8 @@ bool SimulatedReceivers::is_lit(const plant::Transmitter& transmitter,
                                 const Vector3d& point) const {
     if (transmitter.hall != hall_ || covered_.contains(transmitter.id)) return false;
     if (!localisation::sees(world_.plant, transmitter, {point.x(), point.y()})) return false;
-    return std::ranges::none_of(bodies_, [&](const geometry::Polygon& body) {
-        return shades(body, transmitter, point);
-    });
+    return std::ranges::none_of(
+        bodies_, [&](const geometry::Polygon& body) { return shades(body, transmitter, point); });
 }
 
 /// Of the last turn that has ended. The sheets pass a receiver that drives where it is then.

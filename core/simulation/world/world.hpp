@@ -27,12 +27,12 @@ struct World {
     plant::Plant plant;
     std::vector<TrueMarker> markers;
     std::vector<plant::Transmitter> transmitters;  // as they truly stand
-    localisation::ErrorBudget errors;  // of which its machines are drawn, too
+    localisation::ErrorBudget errors;              // of which its machines are drawn, too
 };
 
 /// The codes lie where the survey says + an error of its sigma, and are printed with the budget's
-/// errors; transmitters stand and are turned as theirs say. All are drawn from the seed. Every program with the same plant, seed and budget sees the
-/// same world.
+/// errors; transmitters stand and are turned as theirs say. All are drawn from the seed. Every
+/// program with the same plant, seed and budget sees the same world.
 World make_world(plant::Plant plant, std::uint64_t seed,
                  const localisation::ErrorBudget& errors = localisation::ErrorBudget::nominal());
 

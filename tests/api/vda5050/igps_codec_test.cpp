@@ -78,7 +78,8 @@ TEST(SetTransmitters, NoneIsNoneAndNotForgotten) {
 }
 
 TEST(SetTransmitters, WhatCannotBeIsNamedByItsField) {
-    Json message = parsed(encode_instant_actions(set_transmitters({transmitter("tx-1")}), header()));
+    Json message =
+        parsed(encode_instant_actions(set_transmitters({transmitter("tx-1")}), header()));
     Json& parameter = message["actions"][0]["actionParameters"][0];
     ASSERT_EQ(parameter["key"], "transmitters");
     for (const auto& [field, value] : {std::pair<const char*, Json>{"z_m", "high"},

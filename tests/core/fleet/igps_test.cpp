@@ -1,4 +1,5 @@
-// Vehicles with receivers of iGPS: what they are told of the transmitters, and what the fleet makes of what they see.
+// Vehicles with receivers of iGPS: what they are told of the transmitters, and what the fleet makes
+// of what they see.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -101,19 +102,21 @@ TEST(Igps, ReceiversTellAVehicleWhereItStands) {
 
 TEST(Igps, ReceiversThatCannotBeTrueTellNothing) {
     const Pose2 stands{12.02, 20.01, 0};
-    const auto told = [&](const std::function<void(std::vector<vda5050::ReceiverReading>&)>& spoil) {
-        World world(lit_plant());
-        auto& vehicle = world.vehicle("V1");
-        vehicle.state.position_initialized = false;
-        vehicle.state.pose.reset();
-        vehicle.state.receivers = {seen(world, "front", stands), seen(world, "rear", stands)};
-        spoil(vehicle.state.receivers);
-        world.connect_all();
-        world.run(3);
-        return view(world).pose_known;
-    };
+    const auto told =
+        [&](const std::function<void(std::vector<vda5050::ReceiverReading>&)>& spoil) {
+            World world(lit_plant());
+            auto& vehicle = world.vehicle("V1");
+            vehicle.state.position_initialized = false;
+            vehicle.state.pose.reset();
+            vehicle.state.receivers = {seen(world, "front", stands), seen(world, "rear", stands)};
+            spoil(vehicle.state.receivers);
+            world.connect_all();
+            world.run(3);
+            return view(world).pose_known;
+        };
     EXPECT_TRUE(told([](auto&) {}));
-    EXPECT_FALSE(told([](auto& all) { all[0].place.x_m += 0.05; })) << "farther apart than they sit";
+    EXPECT_FALSE(told([](auto& all) { all[0].place.x_m += 0.05; }))
+        << "farther apart than they sit";
     EXPECT_FALSE(told([](auto& all) { all[0].receiver = "elsewhere"; }));
     EXPECT_FALSE(told([](auto& all) { all[1] = all[0]; })) << "the same one twice";
     EXPECT_FALSE(told([](auto& all) { all[1].found = false; }));
@@ -121,6 +124,18 @@ TEST(Igps, ReceiversThatCannotBeTrueTellNothing) {
         for (auto& one : all) one.place.x_m += 500;
     })) << "outside the walls";
     EXPECT_FALSE(told([](auto& all) { all[0].place.x_m = std::nan(""); }));
+}
+
+TEST(Igps, WhoStandsNearlyThereIsCorrectedWithoutADrive) {
+    World world(lit_plant());
+    auto& vehicle = world.vehicle("V1");
+    vehicle.state.position_initialized = true;
+    vehicle.state.pose = Pose2{12.03, 20.02, 0.002};
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {1}));
+    world.run(1);
+    ASSERT_EQ(vehicle.order().nodes.size(), 1U);
+    EXPECT_EQ(vehicle.order().nodes.front().actions.size(), 2U);
 }
 
 TEST(Igps, AStopWithoutCodesIsMeasured) {

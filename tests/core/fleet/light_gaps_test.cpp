@@ -8,7 +8,8 @@
 namespace pulseline::fleet::testing {
 namespace {
 
-/// One lane of 40 m along x, driven by vehicles with receivers, between two transmitters on its left.
+/// One lane of 40 m along x, driven by vehicles with receivers, between two transmitters on its
+/// left.
 plant::Plant lit_lane() {
     plant::Plant plant =
         plant_of({{"west", 20, 40, 1}, {"east", 60, 40, 2}}, {{"west", "east"}}, 1);

@@ -92,8 +92,8 @@ TEST(LightOn, PutsBothSheetsOntoThePoint) {
         for (const Transmitter& t : corners()) {
             const auto light = light_on(t, point);
             if (!light) continue;
-            const Vector3d seen =
-                hall_from_head(t).transpose() * (point - Vector3d(t.position.x_m, t.position.y_m, t.z_m));
+            const Vector3d seen = hall_from_head(t).transpose() *
+                                  (point - Vector3d(t.position.x_m, t.position.y_m, t.z_m));
             const auto check = [&](const plant::LightPlane& sheet, double angle_rad, double side) {
                 const Eigen::AngleAxisd turn(angle_rad, Vector3d::UnitZ());
                 const Vector3d normal = turn * Vector3d(sheet.a, sheet.b, 1);
@@ -273,8 +273,8 @@ TEST(LocateByLight, ItsCovarianceIsHonest) {
         Eigen::Matrix3d covariance;
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-                covariance(i, j) = found->fix.covariance[static_cast<std::size_t>(i)]
-                                                        [static_cast<std::size_t>(j)];
+                covariance(i, j) =
+                    found->fix.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
         sum += off.dot(covariance.inverse() * off) / kMachines;
         EXPECT_LT(found->fix.sigma_xy_m, 2e-4);
     }

@@ -35,7 +35,8 @@ plant::Plant cell() {
     hall.id = plant::HallId("cell");
     hall.outline = {{-5, -8}, {25, -8}, {25, 8}, {-5, 8}};
     plant.halls = {hall};
-    const std::vector<geometry::Point2> corners{{-4.5, -7.5}, {24.5, -7.5}, {24.5, 7.5}, {-4.5, 7.5}};
+    const std::vector<geometry::Point2> corners{
+        {-4.5, -7.5}, {24.5, -7.5}, {24.5, 7.5}, {-4.5, 7.5}};
     for (std::size_t i = 0; i < corners.size(); ++i) {
         plant::Transmitter transmitter;
         transmitter.id = plant::TransmitterId("tx-" + std::to_string(i + 1));
