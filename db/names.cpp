@@ -31,7 +31,8 @@ constexpr std::array kIntegrations = {std::pair{fleet::Integration::kIgnore, "ig
 constexpr std::array kBases = {std::pair{fleet::PoseBasis::Kind::kVehicle, "vehicle"},
                                std::pair{fleet::PoseBasis::Kind::kCodes, "codes"},
                                std::pair{fleet::PoseBasis::Kind::kStop, "stop"},
-                               std::pair{fleet::PoseBasis::Kind::kStatement, "statement"}};
+                               std::pair{fleet::PoseBasis::Kind::kStatement, "statement"},
+                               std::pair{fleet::PoseBasis::Kind::kReceivers, "receivers"}};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw Error(Error::Kind::kBadValue,

@@ -7,6 +7,7 @@
 #include "api/http/routing/traffic_handlers.hpp"
 #include "api/http/session/service_handlers.hpp"
 #include "api/http/session/session_handlers.hpp"
+#include "api/http/stops/light_handlers.hpp"
 #include "api/http/stops/localization_handlers.hpp"
 #include "api/http/stops/stop_record_handlers.hpp"
 #include "api/http/vehicles/motion_preview_handlers.hpp"
@@ -152,6 +153,14 @@ std::span<const Route> routes() {
          localize,
          true,
          kImageBody,
+         true},
+
+        {"POST",
+         "/api/v1/igps/measurements",
+         "measureByLight",
+         kOperator,
+         {},
+         measure_by_light,
          true},
 
         {"GET",

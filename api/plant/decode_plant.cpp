@@ -1,8 +1,6 @@
-#include <algorithm>
-#include <initializer_list>
-#include <string_view>
-
 #include "api/plant/plant_codec.hpp"
+
+#include "api/plant/decode_parts.hpp"
 
 // Only what a field alone can get wrong is refused here (type, size, unknown name); what must hold
 // between elements, and every physical limit, is core/plant/validate.
@@ -12,55 +10,11 @@ using namespace plant;
 
 namespace {
 
-using json::CountLimits;
 using json::FieldErrors;
-using json::Json;
-using json::ObjectReader;
-using json::TextLimits;
+using namespace decoding;
 
-constexpr TextLimits kId{1, 64};
-constexpr TextLimits kName{0, 200};
-constexpr json::NumberLimits kMetres{-1e6, 1e6};
-constexpr json::NumberLimits kHeading{-6.2832, 6.2832};
-constexpr json::NumberLimits kQuantity{-1e9, 1e9};
-constexpr json::NumberLimits kTilt{-0.5, 0.5};  // radians
-constexpr json::NumberLimits kPercent{0, 100};
 constexpr json::IntegerLimits kNumber{0, 1'000'000};
-constexpr json::IntegerLimits kPixels{0, 100'000};
-constexpr CountLimits kRingPoints{0, 1000};
 constexpr CountLimits kMany{0, 100'000};
-constexpr CountLimits kFew{0, 1000};
-
-Point2 decode_point(ObjectReader in) {
-    const Point2 point{in.number("x_m", kMetres), in.number("y_m", kMetres)};
-    in.refuse_unknown();
-    return point;
-}
-
-Pose2 decode_pose(ObjectReader in) {
-    const Pose2 pose{in.number("x_m", kMetres), in.number("y_m", kMetres),
-                     wrap(in.number("heading_rad", kHeading))};
-    in.refuse_unknown();
-    return pose;
-}
-
-Polygon decode_ring(ObjectReader& in, const char* name, bool required = true) {
-    Polygon polygon;
-    const auto add = [&](const Json& item, const std::string& at) {
-        polygon.push_back(decode_point({item, at, in.errors()}));
-    };
-    if (required) {
-        in.items(name, kRingPoints, add);
-    } else {
-        in.items_if_any(name, kRingPoints, add);
-    }
-    return polygon;
-}
-
-template <class K>
-K decode_key(ObjectReader& in, const char* name) {
-    return K(in.text(name, kId));
-}
 
 template <class K>
 std::vector<K> decode_keys(ObjectReader& in, const char* name) {
@@ -69,52 +23,6 @@ std::vector<K> decode_keys(ObjectReader& in, const char* name) {
         keys.push_back(K(json::read_text(item, at, in.errors(), kId)));
     });
     return keys;
-}
-
-template <class T, class Decode>
-void decode_all(ObjectReader& in, const char* name, CountLimits limits, std::vector<T>& to,
-                Decode decode) {
-    in.items(name, limits, [&](const Json& item, const std::string& at) {
-        ObjectReader element(item, at, in.errors());
-        to.push_back(decode(element));
-        element.refuse_unknown();
-    });
-}
-
-/// A language tag as BCP 47 begins them: "zh", "pt-BR".
-bool is_language(std::string_view tag) {
-    const auto end = std::ranges::find(tag, '-');
-    const auto letters = end - tag.begin();
-    const auto is_lower = [](char c) { return 'a' <= c && c <= 'z'; };
-    const auto is_part = [&](char c) {
-        return is_lower(c) || ('A' <= c && c <= 'Z') || ('0' <= c && c <= '9') || c == '-';
-    };
-    return (letters == 2 || letters == 3) && tag.size() <= 35 && tag.back() != '-' &&
-           std::all_of(tag.begin(), end, is_lower) && std::all_of(end, tag.end(), is_part);
-}
-
-/// {"zh": "..."}: what it is called in other languages.
-Names decode_names(ObjectReader& in) {
-    static constexpr std::size_t kLanguages = 16;
-    Names names;
-    const Json* object = in.find("names");
-    if (object == nullptr) return names;
-    const std::string pointer = json::child_pointer(in.pointer(), std::string_view("names"));
-    if (!object->is_object() || object->size() > kLanguages) {
-        in.errors().add(pointer, {"wrong_type", {{"expected", std::string("object")}}},
-                        "Expected an object of at most 16 names by language here.");
-        return names;
-    }
-    for (const auto& [language, name] : object->items()) {
-        const std::string at = json::child_pointer(pointer, std::string_view(language));
-        if (!is_language(language)) {
-            in.errors().add(at, {"not_a_language", {}},
-                            "Name a language by its tag, such as zh or pt-BR.");
-            continue;
-        }
-        names[language] = json::read_text(name, at, in.errors(), kName);
-    }
-    return names;
 }
 
 Hall decode_hall(ObjectReader& in) {
@@ -170,6 +78,33 @@ Marker decode_marker(ObjectReader& in) {
     return marker;
 }
 
+LightPlane decode_light_plane(ObjectReader in) {
+    const LightPlane plane{in.number("a", kQuantity), in.number("b", kQuantity),
+                           in.number_or("offset_m", 0, kMetres)};
+    in.refuse_unknown();
+    return plane;
+}
+
+Transmitter decode_transmitter(ObjectReader& in) {
+    Transmitter t;
+    t.id = decode_key<TransmitterId>(in, "id");
+    t.hall = decode_key<HallId>(in, "hall");
+    t.position = decode_point(in.object("position"));
+    t.z_m = in.number("z_m", kMetres);
+    t.roll_rad = wrap(in.number_or("roll_rad", t.roll_rad, kHeading));
+    t.pitch_rad = wrap(in.number_or("pitch_rad", t.pitch_rad, kHeading));
+    t.heading_rad = wrap(in.number("heading_rad", kHeading));
+    t.rate_hz = in.number("rate_hz", kQuantity);
+    if (auto plane = in.object_if_any("first")) t.first = decode_light_plane(*plane);
+    if (auto plane = in.object_if_any("second")) t.second = decode_light_plane(*plane);
+    t.range_m = in.number_or("range_m", t.range_m, kMetres);
+    t.elevation_rad = in.number_or("elevation_rad", t.elevation_rad, kQuantity);
+    t.sigma_rad = in.number_or("sigma_rad", t.sigma_rad, kQuantity);
+    t.sigma_place_m = in.number_or("sigma_place_m", t.sigma_place_m, kMetres);
+    t.sigma_turn_rad = in.number_or("sigma_turn_rad", t.sigma_turn_rad, kQuantity);
+    return t;
+}
+
 Area decode_area(ObjectReader& in) {
     Area area;
     area.id = decode_key<AreaId>(in, "id");
@@ -180,117 +115,6 @@ Area decode_area(ObjectReader& in) {
     area.hall = decode_key<HallId>(in, "hall");
     area.outline = decode_ring(in, "outline");
     return area;
-}
-
-Wheel decode_wheel(ObjectReader& in) {
-    Wheel wheel;
-    wheel.name = in.text("name", kName);
-    wheel.position = decode_point(in.object("position"));
-    wheel.driven = in.boolean("driven");
-    wheel.steered = in.boolean("steered");
-    wheel.diameter_m = in.number("diameter_m", kMetres);
-    return wheel;
-}
-
-CameraMounting decode_mounting(ObjectReader& in) {
-    return {decode_pose(in.object("body_from_camera")), in.number("height_m", kMetres),
-            in.number_or("tilt_u_rad", 0, kTilt), in.number_or("tilt_v_rad", 0, kTilt)};
-}
-
-Camera decode_camera(ObjectReader& in) {
-    Camera camera;
-    static_cast<CameraMounting&>(camera) = decode_mounting(in);
-    camera.name = in.text("name", kId);
-    camera.f_px = in.number("f_px", kQuantity);
-    camera.width_px = static_cast<int>(in.integer("width_px", kPixels));
-    camera.height_px = static_cast<int>(in.integer("height_px", kPixels));
-    camera.cu_px = in.number("cu_px", kQuantity);
-    camera.cv_px = in.number("cv_px", kQuantity);
-    camera.k1 = in.number_or("k1", 0, kQuantity);
-    if (auto loaded = in.object_if_any("loaded")) {
-        camera.loaded = decode_mounting(*loaded);
-        loaded->refuse_unknown();
-    }
-    return camera;
-}
-
-Bracket decode_bracket(ObjectReader& in) {
-    Bracket bracket;
-    bracket.name = in.text("name", kName);
-    bracket.position = decode_point(in.object("position"));
-    return bracket;
-}
-
-void decode_limits(ObjectReader& in, VehicleType& type) {
-    type.max_speed_mps = in.number("max_speed_mps", kQuantity);
-    type.max_accel_mps2 = in.number("max_accel_mps2", kQuantity);
-    type.max_turn_rate_radps = in.number("max_turn_rate_radps", kQuantity);
-    type.max_turn_accel_radps2 = in.number("max_turn_accel_radps2", kQuantity);
-    type.max_steering_rate_radps =
-        in.number_or("max_steering_rate_radps", type.max_steering_rate_radps, kQuantity);
-    type.min_turn_radius_m = in.number_or("min_turn_radius_m", 0, kQuantity);
-    type.max_arc_radius_m = in.number_or("max_arc_radius_m", type.max_arc_radius_m, kQuantity);
-    type.clearance_m = in.number("clearance_m", kQuantity);
-    type.height_m = in.number_or("height_m", type.height_m, kQuantity);
-    type.mass_kg = in.number("mass_kg", kQuantity);
-    type.max_load_kg = in.number("max_load_kg", kQuantity);
-}
-
-BatteryLimits decode_battery(ObjectReader& in) {
-    BatteryLimits limits;
-    limits.critical_percent = in.number("critical_percent", kPercent);
-    limits.low_percent = in.number("low_percent", kPercent);
-    limits.enough_percent = in.number("enough_percent", kPercent);
-    in.refuse_unknown();
-    return limits;
-}
-
-UsualCode decode_usual_code(ObjectReader& in) {
-    UsualCode code;
-    code.kind = in.one_of("kind", {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark});
-    code.size_m = in.number("size_m", kMetres);
-    in.refuse_unknown();
-    return code;
-}
-
-SlipSensor decode_slip_sensor(ObjectReader& in) {
-    const SlipSensor sensor{in.number("noise_mps", kQuantity)};
-    in.refuse_unknown();
-    return sensor;
-}
-
-VehicleType decode_vehicle_type(ObjectReader& in) {
-    VehicleType type;
-    type.id = decode_key<VehicleTypeId>(in, "id");
-    type.name = in.text("name", kName);
-    type.names = decode_names(in);
-    type.kinematics = in.one_of("kinematics", {Kinematics::kSteeredPlatform, Kinematics::kMecanum,
-                                               Kinematics::kDifferential});
-    type.footprint = decode_ring(in, "footprint");
-    type.load_footprint = decode_ring(in, "load_footprint", false);
-    decode_limits(in, type);
-    if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
-    if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);
-    if (auto sensor = in.object_if_any("slip_sensor")) {
-        type.slip_sensor = decode_slip_sensor(*sensor);
-    }
-    in.items("motion_modes", kFew, [&](const Json& item, const std::string& at) {
-        const auto mode = parse_motion_mode(json::read_text(item, at, in.errors(), kId));
-        if (mode) {
-            type.motion_modes.push_back(*mode);
-        } else if (item.is_string()) {
-            std::string allowed;
-            for (const MotionMode m : kMotionModes) {
-                allowed += (allowed.empty() ? "" : ", ") + std::string(to_string(m));
-            }
-            in.errors().add(at, {"not_one_of", {{"allowed", allowed}}},
-                            "Expected one of: " + allowed + ".");
-        }
-    });
-    decode_all(in, "wheels", kFew, type.wheels, decode_wheel);
-    decode_all(in, "cameras", kFew, type.cameras, decode_camera);
-    decode_all(in, "brackets", kFew, type.brackets, decode_bracket);
-    return type;
 }
 
 Vehicle decode_vehicle(ObjectReader& in) {
@@ -353,6 +177,7 @@ Plant decode_plant(const Json& json, FieldErrors& errors) {
     decode_all(in, "halls", kFew, plant.halls, decode_hall);
     decode_all(in, "stations", kMany, plant.stations, decode_station);
     decode_all(in, "markers", kMany, plant.markers, decode_marker);
+    decode_all(in, "transmitters", kFew, plant.transmitters, decode_transmitter, false);
     decode_all(in, "areas", kMany, plant.areas, decode_area);
     decode_all(in, "vehicle_types", kFew, plant.vehicle_types, decode_vehicle_type);
     decode_all(in, "vehicles", kMany, plant.vehicles, decode_vehicle);

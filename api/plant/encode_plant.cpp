@@ -72,6 +72,26 @@ Json encode(const Marker& m) {
             {"sigma_xy_m", m.sigma_xy_m}, {"sigma_heading_rad", m.sigma_heading_rad}};
 }
 
+Json encode(const LightPlane& p) { return {{"a", p.a}, {"b", p.b}, {"offset_m", p.offset_m}}; }
+
+Json encode(const Transmitter& t) {
+    return {{"id", t.id.str()},
+            {"hall", t.hall.str()},
+            {"position", encode(t.position)},
+            {"z_m", t.z_m},
+            {"roll_rad", t.roll_rad},
+            {"pitch_rad", t.pitch_rad},
+            {"heading_rad", t.heading_rad},
+            {"rate_hz", t.rate_hz},
+            {"first", encode(t.first)},
+            {"second", encode(t.second)},
+            {"range_m", t.range_m},
+            {"elevation_rad", t.elevation_rad},
+            {"sigma_rad", t.sigma_rad},
+            {"sigma_place_m", t.sigma_place_m},
+            {"sigma_turn_rad", t.sigma_turn_rad}};
+}
+
 Json encode(const Area& a) {
     Json json = {{"id", a.id.str()},
                  {"kind", to_string(a.kind)},
@@ -108,6 +128,10 @@ Json encode(const Camera& c) {
                  {"k1", c.k1}});
     if (c.loaded) json["loaded"] = encode(*c.loaded);
     return json;
+}
+
+Json encode(const Receiver& r) {
+    return {{"name", r.name}, {"position", encode(r.position)}, {"z_m", r.z_m}};
 }
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
@@ -150,6 +174,7 @@ Json encode(const VehicleType& t) {
                   {{"critical_percent", t.battery.critical_percent},
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
+    if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
     json["usual_code"] = {{"kind", to_string(t.usual_code.kind)}, {"size_m", t.usual_code.size_m}};
     if (t.slip_sensor) json["slip_sensor"] = {{"noise_mps", t.slip_sensor->noise_mps}};
     put_names(json, t.names);
@@ -225,6 +250,7 @@ Json encode_plant(const Plant& plant, PlantForm form) {
                    {"k_diff", plant.routing.k_diff},
                    {"reference_step_m", plant.routing.reference_step_m},
                    {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    if (!plant.transmitters.empty()) json["transmitters"] = encode_all(plant.transmitters);
     put_names(json, plant.names);
     return json;
 }

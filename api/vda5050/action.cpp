@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "api/vda5050/limits.hpp"
+#include "api/vda5050/transmitters.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::vda5050 {
@@ -174,6 +175,9 @@ Json encode_action(const Action& action) {
     if (action.stop_target) object.update(stop_parameters(*action.stop_target));
     if (action.init_position) object.update(init_parameters(*action.init_position));
     if (!action.markers.empty()) object["markers"] = markers_json(action.markers);
+    if (action.type == kSetTransmitters) {
+        object["transmitters"] = transmitters_json(action.transmitters);
+    }
     Json parameters = Json::array();
     for (const auto& [key, value] : object.items()) {
         parameters.push_back({{"key", key}, {"value", value}});
@@ -199,6 +203,8 @@ Action decode_action(const Json& value, const std::string& pointer, json::FieldE
         action.init_position = read_init_position(read);
     } else if (action.type == kObserveMarkers) {
         action.markers = read_markers(read, {1, 64});
+    } else if (action.type == kSetTransmitters) {
+        action.transmitters = read_transmitters(read);
     } else {
         action.params = plain_parameters(read, parameters.object());
     }

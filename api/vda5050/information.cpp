@@ -1,5 +1,6 @@
 #include "api/vda5050/information.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -39,6 +40,40 @@ Json encode_camera(const CameraReading& reading) {
         references.emplace_back("why_not", reading.why_not);
     }
     return entry("camera", references);
+}
+
+// No payload of ours has it, and a plant's ids cannot: it separates them in one reference.
+constexpr char kBetween = ' ';
+
+std::string joined(const std::vector<std::string>& names) {
+    std::string text;
+    for (const auto& name : names) text += (text.empty() ? "" : std::string(1, kBetween)) + name;
+    return text;
+}
+
+std::vector<std::string> parted(const std::string& text) {
+    std::vector<std::string> names;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(kBetween, from), text.size());
+        if (to > from) names.push_back(text.substr(from, to - from));
+        from = to + 1;
+    }
+    return names;
+}
+
+Json encode_receiver(const ReceiverReading& reading) {
+    References references{{"receiver", reading.receiver},
+                          {"found", reading.found ? "true" : "false"},
+                          {"transmitters", joined(reading.transmitters)}};
+    if (reading.found) {
+        references.insert(references.end(), {{"x_m", number_text(reading.place.x_m)},
+                                             {"y_m", number_text(reading.place.y_m)},
+                                             {"z_m", number_text(reading.z_m)},
+                                             {"sigma_m", number_text(reading.sigma_m)}});
+    } else {
+        references.emplace_back("why_not", reading.why_not);
+    }
+    return entry("receiver", references);
 }
 
 /// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
@@ -103,6 +138,21 @@ CameraReading decode_camera(Values& in) {
     return reading;
 }
 
+ReceiverReading decode_receiver(Values& in) {
+    ReceiverReading reading;
+    reading.receiver = in.text("receiver");
+    reading.found = in.text("found") == "true";
+    reading.transmitters = parted(in.text_or_empty("transmitters"));
+    if (!reading.found) {
+        reading.why_not = in.text_or_empty("why_not");
+        return reading;
+    }
+    reading.place = {in.number("x_m", limits::kPlace_m), in.number("y_m", limits::kPlace_m)};
+    reading.z_m = in.number("z_m", limits::kPlace_m);
+    reading.sigma_m = in.number("sigma_m", limits::kSigma_m);
+    return reading;
+}
+
 template <class T>
 void keep(std::vector<T>& list, T item, const Values& in) {
     if (in.usable()) list.push_back(std::move(item));
@@ -124,6 +174,8 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
         keep(state.parking_feet, std::move(foot), in);
     } else if (type == "camera") {
         keep(state.cameras, decode_camera(in), in);
+    } else if (type == "receiver") {
+        keep(state.receivers, decode_receiver(in), in);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
@@ -148,6 +200,7 @@ Json encode_information(const StateMessage& state) {
         list.push_back(entry("wheel", references));
     }
     for (const auto& reading : state.cameras) list.push_back(encode_camera(reading));
+    for (const auto& reading : state.receivers) list.push_back(encode_receiver(reading));
     for (const auto& foot : state.parking_feet) {
         list.push_back(entry(
             "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));

@@ -75,30 +75,34 @@ bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> camer
     return false;
 }
 
-double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget,
-                   const OdometryNoise& noise) {
-    const double radius_m = view_radius_m(camera, size_m);
-    if (radius_m <= 0) return 0;
-    const double place_m = std::hypot(code_sigma_m(budget, camera, radius_m, 0), kSurvey_m);
-    const double heading_rad = std::hypot(code_sigma_rad(budget, 0), budget.marker.survey_rad);
-    const double arm_m = norm(camera.body_from_camera.position());
+double sure_way_m(const KnownPose& known, double arm_m, double within_m,
+                  const OdometryNoise& noise) {
     const auto across_m = [&](double way_m) {
         const double reach_m = way_m + arm_m;
         const double wander2 =
             square(noise.heading_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
         const double bent_m = noise.bend_rad_per_m * way_m * (way_m / 2 + arm_m);
-        return std::sqrt(square(place_m) + square(noise.left_m_per_sqrt_m) * way_m +
-                         square(heading_rad * reach_m) + wander2 + square(noise.crab_rad * way_m) +
-                         square(bent_m));
+        return std::sqrt(square(known.place_m) + square(noise.left_m_per_sqrt_m) * way_m +
+                         square(known.heading_rad * reach_m) + wander2 +
+                         square(noise.crab_rad * way_m) + square(bent_m));
     };
-    if (kSigmas * across_m(0) > radius_m) return 0;
-    double caught_m = 0;
-    double missed_m = kFarthest_m;
-    while (missed_m - caught_m > 0.01) {
-        const double middle_m = (caught_m + missed_m) / 2;
-        (kSigmas * across_m(middle_m) <= radius_m ? caught_m : missed_m) = middle_m;
+    if (kSigmas * across_m(0) > within_m) return 0;
+    double sure_m = 0;
+    double unsure_m = kFarthest_m;
+    while (unsure_m - sure_m > 0.01) {
+        const double middle_m = (sure_m + unsure_m) / 2;
+        (kSigmas * across_m(middle_m) <= within_m ? sure_m : unsure_m) = middle_m;
     }
-    return caught_m;
+    return sure_m;
+}
+
+double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget,
+                   const OdometryNoise& noise) {
+    const double radius_m = view_radius_m(camera, size_m);
+    if (radius_m <= 0) return 0;
+    const KnownPose known{std::hypot(code_sigma_m(budget, camera, radius_m, 0), kSurvey_m),
+                          std::hypot(code_sigma_rad(budget, 0), budget.marker.survey_rad)};
+    return sure_way_m(known, norm(camera.body_from_camera.position()), radius_m, noise);
 }
 
 }  // namespace pulseline::localisation

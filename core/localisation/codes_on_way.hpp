@@ -22,6 +22,17 @@ std::vector<double> seen_at(const plant::Marker& marker, std::span<const plant::
 bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> cameras,
                const kinematics::Segment& segment);
 
+/// One sigma of where a drive begins.
+struct KnownPose {
+    double place_m = 0;
+    double heading_rad = 0;
+};
+
+/// The longest way [m] by odometry alone after which three sigma across it, of a point `arm_m`
+/// ahead in the body, stay within `within_m`. 0: they never do.
+double sure_way_m(const KnownPose& known, double arm_m, double within_m,
+                  const OdometryNoise& noise);
+
 /// The longest way [m] without a code after which the camera still catches the next one: three
 /// sigma across the way, and the view's radius. 0: it cannot see a code of that size whole. Li 2022
 /// eq. 5 as corrected (second line), with errors that grow as OdometryNoise says instead of as

@@ -203,7 +203,15 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
 }
 
 const char* to_string(Method method) {
-    return method == Method::kDualCamera ? "dual_camera" : "single_camera";
+    switch (method) {
+        case Method::kSingleCamera:
+            return "single_camera";
+        case Method::kDualCamera:
+            return "dual_camera";
+        case Method::kIgps:
+            return "igps";
+    }
+    return "";
 }
 
 }  // namespace pulseline::localisation

@@ -34,7 +34,7 @@ struct SurveyedCode {
     double sigma_heading_rad = 0;
 };
 
-enum class Method { kSingleCamera, kDualCamera };
+enum class Method { kSingleCamera, kDualCamera, kIgps };
 
 struct PoseFix {
     Pose2 pose;
@@ -43,7 +43,7 @@ struct PoseFix {
     double sigma_xy_m = 0;  // the worse axis
     double sigma_heading_rad = 0;
     Method method = Method::kSingleCamera;
-    std::vector<std::string> payloads;
+    std::vector<std::string> payloads;  // of the codes; the transmitters of iGPS
     /// Measured minus surveyed distance of the pair of codes that disagrees most, and its limit
     /// (4 sigma). Nothing with a single code: there is no check then.
     std::optional<double> residual_m;

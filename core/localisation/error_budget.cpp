@@ -44,6 +44,8 @@ ErrorBudget ErrorBudget::harsh() {
     scale(budget.camera, kTimes);
     budget.marker.print_share *= kTimes;
     budget.marker.print_m *= kTimes;
+    budget.receiver.place_m *= kTimes;
+    budget.receiver.clock_s *= kTimes;
     budget.slip_sensor.scale *= kTimes;
     return budget;
 }

@@ -69,10 +69,18 @@ struct SlipSensorErrors {
     double scale = 0.005;  // share of the speed; constant of a vehicle
 };
 
+/// Between a receiver of iGPS and what the vehicle's program holds of it. What is not known of the
+/// transmitters comes with each (plant::Transmitter).
+struct ReceiverErrors {
+    double place_m = 2e-5;  // in the body, per axis, after calibration
+    double clock_s = 1e-4;  // of its stamps against the wheels', while it drives
+};
+
 struct ErrorBudget {
     DriveErrors drive;
     CameraErrors camera;
     MarkerErrors marker;
+    ReceiverErrors receiver;
     SlipSensorErrors slip_sensor;
 
     /// A machine as it comes from assembly: tilt and F from the drawing. What is demanded of stops

@@ -80,10 +80,10 @@ void PoseFilter::rest(double speed_share) {
     covariance_.diagonal().head<3>() += Eigen::Vector3d(place2, place2, heading2);
 }
 
-Status PoseFilter::correct(const PoseFix& fix) {
+Status PoseFilter::correct(const PoseFix& fix, const Eigen::Matrix3d& lasting) {
     const Eigen::Vector3d innovation{fix.pose.x_m - pose_.x_m, fix.pose.y_m - pose_.y_m,
                                      wrap(fix.pose.heading_rad - pose_.heading_rad)};
-    return update(innovation, Observation::Identity(), matrix(fix.covariance));
+    return update(innovation, Observation::Identity(), matrix(fix.covariance) - lasting, lasting);
 }
 
 Status PoseFilter::correct(const CodeObservation& seen, const SurveyedCode& code) {
@@ -108,15 +108,15 @@ void PoseFilter::restart(const Pose2& pose, const Eigen::Matrix3d& covariance) {
 }
 
 Status PoseFilter::update(const Eigen::Vector3d& innovation, const Observation& jacobian,
-                          const Eigen::Matrix3d& noise) {
+                          const Eigen::Matrix3d& noise, const Eigen::Matrix3d& lasting) {
     const Eigen::Matrix3d s = jacobian * covariance_ * jacobian.transpose() + noise;
-    const Eigen::LDLT<Eigen::Matrix3d> solver(s);
-    const double chi2 = innovation.dot(solver.solve(innovation));
+    const double chi2 = innovation.dot(Eigen::LDLT<Eigen::Matrix3d>(s + lasting).solve(innovation));
     if (!(chi2 <= kGate))
         return fail(Errc::kConflict, "innovation_gate",
                     "The code contradicts the way driven. A code was moved or exchanged, or the "
                     "wheels slip.",
                     {}, {{"chi2", chi2}, {"limit", kGate}});
+    const Eigen::LDLT<Eigen::Matrix3d> solver(s);
     const Eigen::Matrix<double, 6, 3> gain = solver.solve(jacobian * covariance_).transpose();
     const State change = gain * innovation;
     // Joseph's form stays symmetric and positive whatever rounding does.

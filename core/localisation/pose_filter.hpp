@@ -28,9 +28,15 @@ public:
     void drive(const Odometry& odometry);
     /// It has come to rest from this share of its full speed.
     void rest(double speed_share);
+    /// Its pose is less well known by so much.
+    void blur(const Eigen::Matrix3d& covariance) {
+        covariance_.topLeftCorner<3, 3>() += covariance;
+    }
 
-    /// A whole pose, from localisation::locate. Fails with innovation_gate {chi2, limit}.
-    Status correct(const PoseFix& fix);
+    /// A whole pose, from localisation::locate. `lasting`: the part of its covariance that later
+    /// ones share, so that many of them are no better than one; it counts when the fix is checked,
+    /// and covariance() leaves it out. Fails with innovation_gate {chi2, limit}.
+    Status correct(const PoseFix& fix, const Eigen::Matrix3d& lasting = Eigen::Matrix3d::Zero());
     /// One code in view: its place and angle in the body frame against the survey. Fails with
     /// innovation_gate {chi2, limit}.
     Status correct(const CodeObservation& seen, const SurveyedCode& code);
@@ -54,7 +60,8 @@ private:
     using Observation = Eigen::Matrix<double, 3, 6>;
 
     Status update(const Eigen::Vector3d& innovation, const Observation& jacobian,
-                  const Eigen::Matrix3d& noise);
+                  const Eigen::Matrix3d& noise,
+                  const Eigen::Matrix3d& lasting = Eigen::Matrix3d::Zero());
 
     OdometryNoise noise_;
     Pose2 pose_;

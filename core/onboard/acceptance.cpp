@@ -182,11 +182,12 @@ const std::vector<std::string>& edge_action_types() {
     return types;
 }
 
-const std::vector<std::string>& instant_action_types() {
-    static const std::vector<std::string> types{
+std::vector<std::string> instant_action_types(const plant::VehicleType& type) {
+    std::vector<std::string> types{
         vda5050::kCancelOrder,    vda5050::kStartPause,       vda5050::kStopPause,
         vda5050::kStateRequest,   vda5050::kFactsheetRequest, vda5050::kInitPosition,
         vda5050::kAdjustToMarker, vda5050::kMeasureStop,      vda5050::kStopCharging};
+    if (!type.receivers.empty()) types.emplace_back(vda5050::kSetTransmitters);
     return types;
 }
 

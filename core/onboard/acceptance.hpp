@@ -34,11 +34,11 @@ struct OrderDecision {
 
 OrderDecision decide_order(const vda5050::OrderMessage& order, const OrderContext& context);
 
-/// Types of action every vehicle runs at a node, on an edge, and as instant actions. The first need
-/// a target.
+/// Types of action a vehicle runs at a node, on an edge, and as instant actions. The first need a
+/// target.
 const std::vector<std::string>& stop_action_types();
 const std::vector<std::string>& edge_action_types();
-const std::vector<std::string>& instant_action_types();
+std::vector<std::string> instant_action_types(const plant::VehicleType& type);
 
 vda5050::VehicleError order_error(std::string type, std::string description,
                                   const vda5050::OrderMessage& order);

@@ -59,6 +59,8 @@ public:
     bool take_factsheet_request();
 
     bool position_initialized() const { return position_initialized_; }
+    /// Of iGPS, by the newest setTransmitters; they stay when the link is lost.
+    const std::vector<plant::Transmitter>& transmitters() const { return transmitters_; }
     const std::string& order_id() const { return order_id_; }
     std::int64_t last_node_sequence_id() const { return last_node_sequence_id_; }
     /// sequenceId of the last released node: the vehicle never drives past it.
@@ -91,6 +93,7 @@ private:
     /// What an order still has to do fails for this reason.
     void abort_actions(const char* why);
     void init_position(const vda5050::Action& action);
+    void set_transmitters(const vda5050::Action& action);
     void instant_stop(const vda5050::Action& action);
     void instant_equipment(const vda5050::Action& action);
 
@@ -130,6 +133,7 @@ private:
     vda5050::Action edge_passed_;                 // what was to be read on the last one with codes
     std::vector<std::string> codes_read_before_;  // on the last one with codes
     std::vector<vda5050::VehicleError> errors_;
+    std::vector<plant::Transmitter> transmitters_;
     bool position_initialized_ = false;
     bool driving_ = false;
     bool stopped_ = false;      // by the drive itself

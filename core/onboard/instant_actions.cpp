@@ -1,5 +1,6 @@
 // The instant actions of Executor.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "core/onboard/executor.hpp"
@@ -67,6 +68,7 @@ void Executor::handle(const vda5050::InstantActionsMessage& message) {
 void Executor::handle_instant(const Action& action) {
     if (action.type == vda5050::kCancelOrder) return cancel_order(action);
     if (action.type == vda5050::kInitPosition) return init_position(action);
+    if (action.type == vda5050::kSetTransmitters) return set_transmitters(action);
     if (action.type == vda5050::kMeasureStop || action.type == vda5050::kAdjustToMarker) {
         return instant_stop(action);
     }
@@ -149,6 +151,17 @@ void Executor::init_position(const Action& action) {
     motion_.set_believed(action.init_position->pose);
     motion_.acknowledge();
     position_initialized_ = true;
+    add_action(action, ActionStatus::kFinished);
+}
+
+void Executor::set_transmitters(const Action& action) {
+    if (motion_.type().receivers.empty()) {
+        return add_action(action, ActionStatus::kFailed, "this vehicle has no receivers of iGPS");
+    }
+    transmitters_.clear();
+    std::ranges::copy_if(
+        action.transmitters, std::back_inserter(transmitters_),
+        [&](const plant::Transmitter& transmitter) { return transmitter.hall.str() == map_id_; });
     add_action(action, ActionStatus::kFinished);
 }
 

@@ -6,8 +6,6 @@
 namespace pulseline::onboard {
 namespace {
 
-// Older readings are of no use: no camera takes so long.
-constexpr double kRemembered_s = 0.5;
 // Of a camera's foot from a code: farther than a view is wide and a fine step long.
 constexpr double kSoon_m = 0.4;
 // What the pose that the drive steers by is moved by at most: less than what its tracker takes for
@@ -18,29 +16,16 @@ constexpr double kLead_radps = 0.02;
 }  // namespace
 
 MarkerWatch::MarkerWatch(WaySensing& sensing, Drive& drive, PoseEstimate& estimate)
-    : sensing_(sensing), drive_(drive), estimate_(estimate), believed_(drive.believed_pose()) {}
+    : sensing_(sensing), drive_(drive), estimate_(estimate), trail_(drive) {}
 
 void MarkerWatch::step(double dt_s, const std::deque<vda5050::OrderEdge>& ahead) {
     const double own_s = dt_s * drive_.time_factor();
-    note_way(own_s);
+    trail_.step(own_s);
     expect(ahead);
     for (const auto& reading : sensing_.look_below(expected_, estimate_.pose(), own_s)) {
         take(reading);
     }
     if (!ahead.empty() && !drive_.standing()) lead_drive(own_s);
-}
-
-/// The way since the last step. A pose told or measured meanwhile looks like a jump in it; readings
-/// from before are then dropped.
-void MarkerWatch::note_way(double own_s) {
-    const Pose2 now = drive_.believed_pose();
-    const Pose2 way = inverse(believed_) * now;
-    believed_ = now;
-    if (drive_.standing()) past_.clear();
-    odometry_ = odometry_ * way;
-    for (Past& past : past_) past.age_s += own_s;
-    past_.push_front({0, odometry_});
-    while (past_.back().age_s > kRemembered_s) past_.pop_back();
 }
 
 /// Of this edge and the next one, those near a camera. Each counts once while it is near: what the
@@ -67,29 +52,16 @@ void MarkerWatch::expect(const std::deque<vda5050::OrderEdge>& ahead) {
     read_ = std::move(still_near);
 }
 
-Pose2 MarkerWatch::odometry_at(double age_s) const {
-    for (std::size_t i = 1; i < past_.size(); ++i) {
-        if (past_[i].age_s < age_s) continue;
-        const double span_s = past_[i].age_s - past_[i - 1].age_s;
-        const double share = span_s > 0 ? (age_s - past_[i - 1].age_s) / span_s : 0;
-        const Pose2 step = inverse(past_[i - 1].odometry) * past_[i].odometry;
-        return past_[i - 1].odometry *
-               Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
-    }
-    return past_.back().odometry;
-}
-
 /// Where the code lies seen from the body now: the vehicle has driven on since the exposure.
 void MarkerWatch::take(const WayReading& reading) {
-    if (past_.empty() || reading.age_s > past_.back().age_s) return;
+    if (!trail_.remembers(reading.age_s)) return;
     if (std::ranges::find(read_, reading.marker.payload) != read_.end()) return;
     read_.push_back(reading.marker.payload);
     if (reading.seen.payload != reading.marker.payload) {
         refused_ = reading.seen.payload;
         return;
     }
-    const Pose2 now_from_then = inverse(odometry_) * odometry_at(reading.age_s);
-    const Pose2 code = now_from_then *
+    const Pose2 code = trail_.now_from_then(reading.age_s) *
                        Pose2{reading.seen.centre.x_m, reading.seen.centre.y_m, reading.seen.up_rad};
     localisation::CodeObservation seen = reading.seen;
     seen.centre = code.position();
@@ -105,15 +77,15 @@ void MarkerWatch::take(const WayReading& reading) {
 }
 
 void MarkerWatch::lead_drive(double own_s) {
-    const Pose2 off = inverse(believed_) * estimate_.pose();
+    const Pose2 off = inverse(trail_.believed()) * estimate_.pose();
     const double off_m = norm(off.position());
     const double share = off_m > 0 ? std::min(1.0, kLead_mps * own_s / off_m) : 0;
     const double turn_rad = std::clamp(off.heading_rad, -kLead_radps * own_s, kLead_radps * own_s);
     if (share * off_m == 0 && turn_rad == 0) return;
-    const Pose2 led = believed_ * Pose2{share * off.x_m, share * off.y_m, turn_rad};
+    const Pose2 led = trail_.believed() * Pose2{share * off.x_m, share * off.y_m, turn_rad};
     drive_.set_believed(led);
     estimate_.led_to(led);
-    believed_ = led;
+    trail_.led_to(led);
 }
 
 }  // namespace pulseline::onboard

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/onboard/drive.hpp"
+#include "core/onboard/odometry_trail.hpp"
 #include "core/onboard/pose_estimate.hpp"
 #include "core/onboard/way_sensing.hpp"
 #include "core/vda5050/messages.hpp"
@@ -34,27 +35,19 @@ public:
     std::vector<std::string> take_taken() { return std::exchange(taken_, {}); }
     /// Payload of a code that was refused, as it reads, until another one is taken; empty: none.
     const std::string& refused() const { return refused_; }
+    const OdometryTrail& trail() const { return trail_; }
 
 private:
-    struct Past {
-        double age_s = 0;
-        Pose2 odometry;
-    };
-
-    void note_way(double own_s);
     void expect(const std::deque<vda5050::OrderEdge>& ahead);
     void take(const WayReading& reading);
     void lead_drive(double own_s);
-    Pose2 odometry_at(double age_s) const;
 
     WaySensing& sensing_;
     Drive& drive_;
     PoseEstimate& estimate_;
+    OdometryTrail trail_;
     std::vector<vda5050::SurveyedMarker> expected_;
     std::vector<std::string> read_;  // of the codes near a camera
-    Pose2 odometry_;                 // the way driven, no correction in it
-    Pose2 believed_;                 // by the drive, at the end of the last step
-    std::deque<Past> past_;          // newest first
     std::vector<std::string> taken_;
     std::string refused_;
 };

@@ -1,5 +1,7 @@
 #include "core/onboard/pose_estimate.hpp"
 
+#include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 namespace pulseline::onboard {
@@ -29,18 +31,18 @@ localisation::Odometry odometry_of(const Pose2& way) {
     return {chord.x_m, chord.y_m, way.heading_rad};
 }
 
-Eigen::Matrix3d covariance_of(const localisation::PoseFix& fix) {
+Eigen::Matrix3d matrix(const std::array<std::array<double, 3>, 3>& rows) {
     Eigen::Matrix3d m;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-            m(i, j) = fix.covariance[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+            m(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
     return m;
 }
 
 }  // namespace
 
 PoseEstimate::PoseEstimate(const Pose2& start, const localisation::OdometryNoise& noise)
-    : filter_(start, told(), noise), driven_(start), now_(start) {}
+    : noise_(noise), filter_(start, told(), noise), driven_(start), now_(start) {}
 
 void PoseEstimate::drive_to(const Pose2& believed) {
     now_ = believed;
@@ -61,14 +63,32 @@ void PoseEstimate::rest(double speed_share) {
 
 void PoseEstimate::take(const localisation::PoseFix& fix) {
     catch_up();
-    if (!filter_.correct(fix)) filter_.restart(fix.pose, covariance_of(fix));
+    lasting_.setZero();
+    if (!filter_.correct(fix)) filter_.restart(fix.pose, matrix(fix.covariance));
     driven_ = now_ = fix.pose;
 }
 
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
-    return filter_.correct(seen, code);
+    const Status corrected = filter_.correct(seen, code);
+    if (corrected) lasting_.setZero();
+    return corrected;
+}
+
+Status PoseEstimate::see(const localisation::IgpsFix& seen, const Eigen::Matrix3d& since) {
+    catch_up();
+    const Status corrected = filter_.correct(seen.fix, matrix(seen.lasting));
+    if (!corrected) return corrected;
+    lasting_ = matrix(seen.lasting);
+    filter_.blur(since);
+    return {};
+}
+
+void PoseEstimate::restart_at(const localisation::IgpsFix& seen) {
+    catch_up();
+    lasting_ = matrix(seen.lasting);
+    filter_.restart(seen.fix.pose, matrix(seen.fix.covariance) - lasting_);
 }
 
 void PoseEstimate::led_to(const Pose2& believed) {
@@ -78,7 +98,25 @@ void PoseEstimate::led_to(const Pose2& believed) {
 
 void PoseEstimate::start_at(const Pose2& pose) {
     filter_.restart(pose, told());
+    lasting_.setZero();
     driven_ = now_ = pose;
+}
+
+/// With the way that the filter has not followed yet.
+Eigen::Matrix3d PoseEstimate::covariance() const {
+    localisation::PoseFilter now = filter_;
+    now.drive(odometry_of(inverse(driven_) * now_));
+    return now.covariance() + lasting_;
+}
+
+double PoseEstimate::sigma_xy_m() const {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance().topLeftCorner<2, 2>(),
+                                                              Eigen::EigenvaluesOnly);
+    return std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
+}
+
+double PoseEstimate::sigma_heading_rad() const {
+    return std::sqrt(std::max(0.0, covariance()(2, 2)));
 }
 
 double PoseEstimate::score() const {

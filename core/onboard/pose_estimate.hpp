@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/localisation/igps_pose.hpp"
 #include "core/localisation/pose_filter.hpp"
 
 namespace pulseline::onboard {
@@ -18,6 +19,13 @@ public:
     /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
     /// the pose alone, when it contradicts the way driven.
     Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
+    /// A pose by iGPS, of where the vehicle is now; seen some centimetres ago, which the wheels
+    /// have told since with errors of `since`. The filter's own way has the same errors, so that
+    /// this fix cannot take them away. Fails as the other one.
+    Status see(const localisation::IgpsFix& seen,
+               const Eigen::Matrix3d& since = Eigen::Matrix3d::Zero());
+    /// It stands where iGPS puts it, whatever its odometry says.
+    void restart_at(const localisation::IgpsFix& seen);
     /// Without a motion, the drive believes to be here from now on.
     void led_to(const geometry::Pose2& believed);
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
@@ -26,19 +34,23 @@ public:
     /// A person said where it stands.
     void start_at(const geometry::Pose2& pose);
 
+    const localisation::OdometryNoise& noise() const { return noise_; }
     /// Where it is now; the drive may believe something else until it was led there.
     geometry::Pose2 pose() const { return filter_.pose() * (inverse(driven_) * now_); }
     /// Of x_m, y_m, heading_rad in the hall frame.
-    Eigen::Matrix3d covariance() const { return filter_.covariance(); }
-    double sigma_xy_m() const { return filter_.sigma_xy_m(); }
-    double sigma_heading_rad() const { return filter_.sigma_heading_rad(); }
+    Eigen::Matrix3d covariance() const;
+    double sigma_xy_m() const;  // the worse direction
+    double sigma_heading_rad() const;
     /// VDA 5050 localizationScore, against the tolerance of a usual station.
     double score() const;
 
 private:
     void catch_up();
 
+    localisation::OdometryNoise noise_;
     localisation::PoseFilter filter_;
+    /// Of the last pose by iGPS: what all of them have in common, the filter does not count.
+    Eigen::Matrix3d lasting_ = Eigen::Matrix3d::Zero();
     geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
     geometry::Pose2 now_;     // by the drive's belief
 };

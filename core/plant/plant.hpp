@@ -27,6 +27,7 @@ using EdgeId = Key<struct EdgeTag>;
 using AreaId = Key<struct AreaTag>;
 using VehicleTypeId = Key<struct VehicleTypeTag>;
 using VehicleId = Key<struct VehicleTag>;
+using TransmitterId = Key<struct TransmitterTag>;
 
 /// How a vehicle travels one leg. kAuto asks the planner to choose. kOblique
 /// keeps the heading on the way and turns at its end, kCombined turns on the way (Wang's oblique
@@ -98,6 +99,40 @@ struct Marker {
     double sigma_heading_rad = 0.0005;
 };
 
+/// A sheet of light that turns with a transmitter's head about its z axis. When the head gives the
+/// pulse that counts its turns, the sheet lies at the points x of the transmitter's frame with
+/// (a, b, 1) . x + offset_m = 0 (Wang, section 2).
+struct LightPlane {
+    double a = 0;
+    double b = 0;
+    double offset_m = 0;
+    bool operator==(const LightPlane&) const = default;
+};
+
+/// A transmitter of iGPS as the bundle adjustment of its control network has it. Its first sheet
+/// shines to the left of (a, b) and leans forward in the turn, its second one shines to the right
+/// and leans backward, both by 30 degrees if nothing else is said, the second a quarter turn later.
+struct Transmitter {
+    TransmitterId id;
+    HallId hall;
+    Point2 position;  // of its head, hall frame
+    double z_m = 2.5;
+    /// Hall from transmitter: turned about x, then y, then z.
+    double roll_rad = 0;
+    double pitch_rad = 0;
+    double heading_rad = 0;
+    /// Turns a second. Each of a hall has its own: by it receivers tell them apart.
+    double rate_hz = 40;
+    LightPlane first{1.7320508075688772, 0, 0};
+    LightPlane second{0, 1.7320508075688772, 0};
+    double range_m = 40;
+    double elevation_rad = 30 * 3.14159265358979323846 / 180;  // up and down from level, it shines
+    // One sigma: of one sheet's passing, of its place per axis, of its turn about each axis.
+    double sigma_rad = 1e-5;
+    double sigma_place_m = 3e-5;
+    double sigma_turn_rad = 3e-6;
+};
+
 struct Area {
     AreaId id;
     AreaKind kind = AreaKind::kZone;
@@ -136,6 +171,13 @@ struct Camera : CameraMounting {
     double k1 = 0;
     /// When the vehicle carries its load, under which the body gives; none: as without.
     std::optional<CameraMounting> loaded = {};
+};
+
+/// Of iGPS, on a vehicle: where its light-sensitive middle sits, from calibration.
+struct Receiver {
+    std::string name;  // "front left"
+    Point2 position;   // body frame
+    double z_m = 0.6;  // above the floor
 };
 
 struct Bracket {
@@ -181,6 +223,7 @@ struct VehicleType {
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;
     std::vector<Camera> cameras;
+    std::vector<Receiver> receivers;  // of iGPS; none: it does not navigate by it
     UsualCode usual_code;
     std::optional<SlipSensor> slip_sensor;  // none: nobody sees a wheel that slips alone
     std::vector<Bracket> brackets;
@@ -241,6 +284,7 @@ struct Plant {
     std::vector<Hall> halls;
     std::vector<Station> stations;
     std::vector<Marker> markers;
+    std::vector<Transmitter> transmitters;
     std::vector<Area> areas;
     std::vector<VehicleType> vehicle_types;
     std::vector<Vehicle> vehicles;

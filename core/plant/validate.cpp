@@ -29,6 +29,7 @@ std::vector<Fault> validate(const Plant& plant) {
     detail::check_names(plant, index, further);
     if (sound) {
         detail::check_stations(plant, index, further);
+        detail::check_igps(plant, index, further);
         detail::check_roadmap(plant, index, further);
     }
     for (Fault& fault : further.take()) faults.push_back(std::move(fault));

@@ -157,17 +157,25 @@ bool wheels_allow(const VehicleType& type, MotionMode mode) {
     }
 }
 
+/// Parts of a vehicle that are told apart by their names.
+template <class T>
+void check_own_names(const std::vector<T>& parts, const std::string& list, const std::string& kind,
+                     const char* remedy, Faults& faults) {
+    std::set<std::string> names;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        if (!parts[i].name.empty() && names.insert(parts[i].name).second) continue;
+        faults.add(list + "/" + std::to_string(i) + "/name", "duplicate_" + kind,
+                   "The " + kind + " has no name of its own.", remedy);
+    }
+}
+
 void check_type_names(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         const VehicleType& type = plant.vehicle_types[i];
-        std::set<std::string> cameras;
-        for (std::size_t c = 0; c < type.cameras.size(); ++c) {
-            if (type.cameras[c].name.empty() || !cameras.insert(type.cameras[c].name).second) {
-                faults.add(at("vehicle_types", i, "/cameras/" + std::to_string(c) + "/name"),
-                           "duplicate_camera", "The camera has no name of its own.",
-                           "Name it by its place, such as \"front\".");
-            }
-        }
+        check_own_names(type.cameras, at("vehicle_types", i, "/cameras"), "camera",
+                        "Name it by its place, such as \"front\".", faults);
+        check_own_names(type.receivers, at("vehicle_types", i, "/receivers"), "receiver",
+                        "Name it by its place, such as \"front left\".", faults);
         if (type.motion_modes.empty()) {
             faults.add(at("vehicle_types", i, "/motion_modes"), "no_motion_mode",
                        "The type allows no motion mode, so it can never move.",
@@ -191,11 +199,16 @@ void check_names(const Plant& plant, const Index& index, Faults& faults) {
     check_ids(plant.halls, "halls", faults);
     check_ids(plant.stations, "stations", faults);
     check_ids(plant.markers, "markers", faults);
+    check_ids(plant.transmitters, "transmitters", faults);
     check_ids(plant.areas, "areas", faults);
     check_ids(plant.vehicle_types, "vehicle_types", faults);
     check_ids(plant.vehicles, "vehicles", faults);
     check_ids(plant.nodes, "roadmap/nodes", faults);
     check_ids(plant.edges, "roadmap/edges", faults);
+    for (std::size_t i = 0; i < plant.transmitters.size(); ++i) {
+        check_reference(index.halls, plant.transmitters[i].hall, at("transmitters", i, "/hall"),
+                        "hall", faults);
+    }
     for (std::size_t i = 0; i < plant.areas.size(); ++i) {
         check_reference(index.halls, plant.areas[i].hall, at("areas", i, "/hall"), "hall", faults);
     }

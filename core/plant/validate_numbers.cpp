@@ -92,10 +92,46 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     for (std::size_t i = 0; i < t.cameras.size(); ++i) {
         check_camera(t.cameras[i], {element + "/cameras/" + std::to_string(i), faults});
     }
+    for (std::size_t i = 0; i < t.receivers.size(); ++i) {
+        Numbers receiver(element + "/receivers/" + std::to_string(i), faults);
+        receiver.point("/position", t.receivers[i].position);
+        receiver.positive("/z_m", t.receivers[i].z_m);
+    }
     for (std::size_t i = 0; i < t.brackets.size(); ++i) {
         Numbers(element + "/brackets/" + std::to_string(i), faults)
             .point("/position", t.brackets[i].position);
     }
+}
+
+void check_light_plane(const LightPlane& plane, Numbers n) {
+    n.finite("/a", plane.a);
+    n.finite("/b", plane.b);
+    n.finite("/offset_m", plane.offset_m);
+    if (plane.a == 0 && plane.b == 0) {
+        n.fault("", "no_light_plane", "With a and b both 0 the sheet lies level and passes nobody.",
+                "Write the values of its calibration.");
+    }
+}
+
+void check_transmitter(const Transmitter& t, const std::string& element, Faults& faults) {
+    Numbers n(element, faults);
+    n.point("/position", t.position);
+    n.positive("/z_m", t.z_m);
+    n.finite("/roll_rad", t.roll_rad);
+    n.finite("/pitch_rad", t.pitch_rad);
+    n.finite("/heading_rad", t.heading_rad);
+    n.positive("/rate_hz", t.rate_hz);
+    check_light_plane(t.first, {element + "/first", faults});
+    check_light_plane(t.second, {element + "/second", faults});
+    n.positive("/range_m", t.range_m);
+    n.positive("/elevation_rad", t.elevation_rad);
+    if (std::isfinite(t.elevation_rad) && t.elevation_rad >= kPi / 2) {
+        n.fault("/elevation_rad", "elevation_too_steep", "The light would shine past straight up.",
+                "Write less than a quarter turn.");
+    }
+    n.positive("/sigma_rad", t.sigma_rad);
+    n.positive("/sigma_place_m", t.sigma_place_m);
+    n.positive("/sigma_turn_rad", t.sigma_turn_rad);
 }
 
 void check_grid(const OccupancyGrid& grid, Numbers n) {
@@ -142,6 +178,9 @@ void check_numbers(const Plant& plant, Faults& faults) {
         n.positive("/size_m", m.size_m);
         n.positive("/sigma_xy_m", m.sigma_xy_m);
         n.positive("/sigma_heading_rad", m.sigma_heading_rad);
+    }
+    for (std::size_t i = 0; i < plant.transmitters.size(); ++i) {
+        check_transmitter(plant.transmitters[i], at("transmitters", i), faults);
     }
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         check_type(plant.vehicle_types[i], at("vehicle_types", i), faults);

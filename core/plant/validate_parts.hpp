@@ -53,6 +53,9 @@ void check_numbers(const Plant& plant, Faults& faults);
 void check_outlines(const Plant& plant, Faults& faults);
 /// Room at stations and homes, codes below the cameras. Needs sound numbers and outlines.
 void check_stations(const Plant& plant, const Index& index, Faults& faults);
+/// Transmitters where they can be told apart, and enough of them and of receivers for a pose. Needs
+/// sound numbers and outlines.
+void check_igps(const Plant& plant, const Index& index, Faults& faults);
 /// Nodes, edges, and stations to be reached over them.
 void check_roadmap(const Plant& plant, const Index& index, Faults& faults);
 

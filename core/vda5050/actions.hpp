@@ -13,6 +13,10 @@ inline constexpr const char* kFactsheetRequest = "factsheetRequest";
 inline constexpr const char* kLogReport = "logReport";
 inline constexpr const char* kInitPosition = "initPosition";
 
+// Of vehicles with receivers of iGPS: where the transmitters of their hall stand. It is the system
+// layer of Wang, section 2, which all share; what a receiver measures by it is the task layer.
+inline constexpr const char* kSetTransmitters = "setTransmitters";
+
 // Standing at a node.
 inline constexpr const char* kMeasureStop = "measureStop";
 inline constexpr const char* kAdjustToMarker = "adjustToMarker";

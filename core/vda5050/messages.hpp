@@ -54,6 +54,7 @@ struct Action {
     std::optional<InitPosition> init_position;  // initPosition
     Params params;                              // any further plain parameters
     std::vector<SurveyedMarker> markers = {};   // observeMarkers: codes that the cameras pass over
+    std::vector<plant::Transmitter> transmitters = {};  // setTransmitters: all of its hall
 };
 
 struct OrderNode {
@@ -102,8 +103,8 @@ struct StopMeasurement {
     Pose2 pose;
     double sigma_xy_m = 0;
     double sigma_heading_rad = 0;
-    std::string method;                // "dual_camera", "single_camera", "analytic"
-    std::vector<std::string> markers;  // payloads used
+    std::string method;                // "dual_camera", "single_camera", "igps"
+    std::vector<std::string> markers;  // payloads used; transmitters, by iGPS
     /// Where the drive itself had ended: what was measured before the first small move.
     std::optional<Pose2> arrived = {};
 };
@@ -149,6 +150,17 @@ struct CameraReading {
     std::string why_not;  // when not found
 };
 
+/// Where a receiver of iGPS is by the light of the transmitters, hall frame.
+struct ReceiverReading {
+    std::string receiver;  // "front left"
+    bool found = false;
+    geometry::Point2 place;
+    double z_m = 0;
+    double sigma_m = 0;                     // per axis of the floor's plane
+    std::vector<std::string> transmitters;  // whose light falls on it
+    std::string why_not;                    // when not found
+};
+
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
@@ -190,6 +202,7 @@ struct StateMessage {
     std::vector<BracketLoad> brackets;
     std::vector<WheelStatus> wheels;
     std::vector<CameraReading> cameras;
+    std::vector<ReceiverReading> receivers;
     std::vector<ParkingFoot> parking_feet;
     double load_kg = 0;
 };

@@ -112,6 +112,17 @@ std::vector<plant::Camera> cameras_from_json(const std::string& text) {
     });
 }
 
+std::string receivers_to_json(const std::vector<plant::Receiver>& receivers) {
+    return list_to_json(receivers, [](const plant::Receiver& r) {
+        return Json{{"name", r.name}, {"position", encode(r.position)}, {"z_m", number(r.z_m)}};
+    });
+}
+std::vector<plant::Receiver> receivers_from_json(const std::string& text) {
+    return list_from_json<plant::Receiver>(text, [](const Json& j) {
+        return plant::Receiver{j.at("name"), decode_point(j.at("position")), j.at("z_m")};
+    });
+}
+
 std::string brackets_to_json(const std::vector<plant::Bracket>& brackets) {
     return list_to_json(brackets, [](const plant::Bracket& b) {
         return Json{{"name", b.name}, {"position", encode(b.position)}};

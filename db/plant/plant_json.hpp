@@ -16,6 +16,8 @@ std::string wheels_to_json(const std::vector<plant::Wheel>& wheels);
 std::vector<plant::Wheel> wheels_from_json(const std::string& text);
 std::string cameras_to_json(const std::vector<plant::Camera>& cameras);
 std::vector<plant::Camera> cameras_from_json(const std::string& text);
+std::string receivers_to_json(const std::vector<plant::Receiver>& receivers);
+std::vector<plant::Receiver> receivers_from_json(const std::string& text);
 std::string brackets_to_json(const std::vector<plant::Bracket>& brackets);
 std::vector<plant::Bracket> brackets_from_json(const std::string& text);
 

@@ -81,6 +81,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     motion_modes = texts_to_json(modes);
     wheels = wheels_to_json(type.wheels);
     cameras = cameras_to_json(type.cameras);
+    receivers = receivers_to_json(type.receivers);
     brackets = brackets_to_json(type.brackets);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
@@ -100,6 +101,7 @@ plant::VehicleType VehicleTypeRow::get() const {
     }
     type.wheels = wheels_from_json(wheels);
     type.cameras = cameras_from_json(cameras);
+    type.receivers = receivers_from_json(receivers);
     type.brackets = brackets_from_json(brackets);
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();
@@ -121,6 +123,19 @@ plant::Marker MarkerRow::get() const {
     read(kind, marker.kind);
     marker.hall = plant::HallId(hall);
     return marker;
+}
+
+void TransmitterRow::set(const plant::Transmitter& transmitter) {
+    element = transmitter;
+    id = transmitter.id.str();
+    hall = transmitter.hall.str();
+}
+
+plant::Transmitter TransmitterRow::get() const {
+    plant::Transmitter transmitter = element;
+    transmitter.id = plant::TransmitterId(id);
+    transmitter.hall = plant::HallId(hall);
+    return transmitter;
 }
 
 void AreaRow::set(const plant::Area& area) {

@@ -84,22 +84,22 @@ struct VehicleTypeRow {
         "clearance_m, motion_modes, wheels, cameras, brackets, mass_kg, max_load_kg, "
         "battery_critical_percent, battery_low_percent, battery_enough_percent, "
         "max_steering_rate_radps, height_m, usual_code_kind, usual_code_size_m, "
-        "slip_sensor_noise_mps, names";
+        "slip_sensor_noise_mps, receivers, names";
     std::int64_t position = 0;
-    std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, brackets,
-        usual_code_kind, names;
+    std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, receivers,
+        brackets, usual_code_kind, names;
     double slip_sensor_noise_mps = 0;  // 0: none
     plant::VehicleType element;
 
     auto fields() {
         auto& t = element;
-        return std::tie(position, id, t.name, kinematics, footprint, load_footprint,
-                        t.max_speed_mps, t.max_accel_mps2, t.max_turn_rate_radps,
-                        t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
-                        t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
-                        t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
-                        t.battery.enough_percent, t.max_steering_rate_radps, t.height_m,
-                        usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps, names);
+        return std::tie(
+            position, id, t.name, kinematics, footprint, load_footprint, t.max_speed_mps,
+            t.max_accel_mps2, t.max_turn_rate_radps, t.max_turn_accel_radps2, t.min_turn_radius_m,
+            t.max_arc_radius_m, t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
+            t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
+            t.battery.enough_percent, t.max_steering_rate_radps, t.height_m, usual_code_kind,
+            t.usual_code.size_m, slip_sensor_noise_mps, receivers, names);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;
@@ -121,6 +121,27 @@ struct MarkerRow {
     }
     void set(const plant::Marker& marker);
     plant::Marker get() const;
+};
+
+struct TransmitterRow {
+    static constexpr const char* kTable = "transmitters";
+    static constexpr const char* kColumns =
+        "position, id, hall, x_m, y_m, z_m, roll_rad, pitch_rad, heading_rad, rate_hz, first_a, "
+        "first_b, first_offset_m, second_a, second_b, second_offset_m, range_m, elevation_rad, "
+        "sigma_rad, sigma_place_m, sigma_turn_rad";
+    std::int64_t position = 0;
+    std::string id, hall;
+    plant::Transmitter element;
+
+    auto fields() {
+        auto& t = element;
+        return std::tie(position, id, hall, t.position.x_m, t.position.y_m, t.z_m, t.roll_rad,
+                        t.pitch_rad, t.heading_rad, t.rate_hz, t.first.a, t.first.b,
+                        t.first.offset_m, t.second.a, t.second.b, t.second.offset_m, t.range_m,
+                        t.elevation_rad, t.sigma_rad, t.sigma_place_m, t.sigma_turn_rad);
+    }
+    void set(const plant::Transmitter& transmitter);
+    plant::Transmitter get() const;
 };
 
 struct AreaRow {

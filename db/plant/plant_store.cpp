@@ -11,8 +11,8 @@ namespace {
 constexpr const char* kRevision = "SELECT COALESCE(MAX(revision), 0) FROM plant";
 constexpr const char* kReadGrid = "SELECT grid FROM halls WHERE position = :position";
 // Later tables refer to earlier ones.
-constexpr const char* kTables[] = {"plant",   "halls", "nodes",    "edges",   "vehicle_types",
-                                   "markers", "areas", "stations", "vehicles"};
+constexpr const char* kTables[] = {"plant",   "halls",        "nodes", "edges",    "vehicle_types",
+                                   "markers", "transmitters", "areas", "stations", "vehicles"};
 
 template <class Row, class T>
 void write_all(soci::session& sql, const std::vector<T>& elements) {
@@ -89,6 +89,7 @@ std::optional<plant::Plant> read_plant(soci::session& sql) {
     read_all<EdgeRow>(sql, plant.edges);
     read_all<VehicleTypeRow>(sql, plant.vehicle_types);
     read_all<MarkerRow>(sql, plant.markers);
+    read_all<TransmitterRow>(sql, plant.transmitters);
     read_all<AreaRow>(sql, plant.areas);
     read_all<StationRow>(sql, plant.stations);
     read_all<PlantVehicleRow>(sql, plant.vehicles);
@@ -133,6 +134,7 @@ std::int64_t PlantStore::import(const plant::Plant& plant) {
         write_all<EdgeRow>(sql, plant.edges);
         write_all<VehicleTypeRow>(sql, plant.vehicle_types);
         write_all<MarkerRow>(sql, plant.markers);
+        write_all<TransmitterRow>(sql, plant.transmitters);
         write_all<AreaRow>(sql, plant.areas);
         write_all<StationRow>(sql, plant.stations);
         write_all<PlantVehicleRow>(sql, plant.vehicles);

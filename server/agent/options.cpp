@@ -150,7 +150,8 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, obstacle=X,Y or way-free, each with @SECONDS or without");
+                "camera-dark, transmitter-dark=NAME, obstacle=X,Y or way-free, each with @SECONDS "
+                "or without");
     };
     Fault fault;
     std::string what = text;
@@ -172,27 +173,28 @@ Result<Fault> parse_fault(const std::string& text) {
     const auto equals = what.find('=');
     if (equals == std::string::npos || equals + 1 == what.size()) return bad();
     const std::string kind = what.substr(0, equals);
-    fault.wheel = what.substr(equals + 1);
+    fault.part = what.substr(equals + 1);
     if (kind == "wheel") {
         fault.kind = Fault::Kind::kWheel;
     } else if (kind == "bearing") {
         fault.kind = Fault::Kind::kBearing;
     } else if (kind == "encoder") {
         fault.kind = Fault::Kind::kEncoder;
+    } else if (kind == "transmitter-dark") {
+        fault.kind = Fault::Kind::kTransmitterDark;
     } else if (kind == "obstacle") {
         fault.kind = Fault::Kind::kObstacle;
-        if (!read_place(std::exchange(fault.wheel, {}), fault.place)) return bad();
+        if (!read_place(std::exchange(fault.part, {}), fault.place)) return bad();
     } else if (kind == "slip") {
         fault.kind = Fault::Kind::kSlip;
-        const auto colon = fault.wheel.rfind(':');
+        const auto colon = fault.part.rfind(':');
         if (colon == std::string::npos || colon == 0) return bad();
-        const char* end = fault.wheel.data() + fault.wheel.size();
-        const auto [rest, error] =
-            std::from_chars(fault.wheel.data() + colon + 1, end, fault.share);
+        const char* end = fault.part.data() + fault.part.size();
+        const auto [rest, error] = std::from_chars(fault.part.data() + colon + 1, end, fault.share);
         if (error != std::errc{} || rest != end || !(fault.share > 0 && fault.share <= 1)) {
             return bad();
         }
-        fault.wheel.resize(colon);
+        fault.part.resize(colon);
     } else {
         return bad();
     }
@@ -264,7 +266,7 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--fault", raw.faults,
                    "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
                    "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
-                   "obstacle=X,Y@SECONDS, way-free@SECONDS");
+                   "transmitter-dark=NAME@SECONDS, obstacle=X,Y@SECONDS, way-free@SECONDS");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

@@ -23,9 +23,19 @@ struct ServerAddress {
 };
 
 struct Fault {
-    enum class Kind { kWheel, kBearing, kMarkerLost, kSlip, kEncoder, kDark, kObstacle, kWayFree };
+    enum class Kind {
+        kWheel,
+        kBearing,
+        kMarkerLost,
+        kSlip,
+        kEncoder,
+        kDark,
+        kObstacle,
+        kWayFree,
+        kTransmitterDark
+    };
     Kind kind = Kind::kWheel;
-    std::string wheel;
+    std::string part;        // the wheel, or the transmitter
     double share = 0;        // of the rim's speed that slips
     geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     double after_s = 0;

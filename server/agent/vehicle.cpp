@@ -102,20 +102,27 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       sensing_(world, hall_, *drive_, settings.rendered,
                simulation::seed_for(settings.seed, "eyes " + vehicle.id.str()),
                plant::is_loaded(vehicle)),
+      stop_senses_(sensing_),
       equipment_(type_, drive_->true_pose(), chargers(world.plant), first_charge(vehicle, settings),
                  settings.time_factor, vehicle.load_kg,
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       learned_(settings.learned.empty() ? std::nullopt
                                         : std::optional<LearnedMoves>(
                                               std::in_place, settings.learned, vehicle.id.str())),
-      executor_(*drive_, sensing_, hall_.str(), &equipment_, learned_before(learned_)),
+      executor_(*drive_, stop_senses_, hall_.str(), &equipment_, learned_before(learned_)),
       body_(*drive_),
       estimate_(geometry::Pose2{}, odometry_noise(type_, settings, world.errors)),
       watch_(sensing_, *drive_, estimate_),
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
-    drive_->set_believed({});  // where it stands it is told, or its codes say
+    drive_->set_believed({});  // where it stands it is told, or its codes or receivers say
+    if (!type_.receivers.empty()) {
+        receivers_.emplace(world, hall_, type_, drive_->true_pose(),
+                           simulation::seed_for(settings.seed, "receivers " + vehicle.id.str()));
+        light_.emplace(*receivers_, *drive_, estimate_, watch_.trail(), world.errors.receiver);
+        stop_senses_.use(*light_);
+    }
     if (settings.servo_drive) {
         scanners_.emplace(world, hall_, type_, drive_->true_pose(),
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
@@ -154,9 +161,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
 /// It looks out and is steered by steps of its own time, however fast that runs.
 void Vehicle::drive(double dt_s) {
     for (double left_s = dt_s; left_s > 0;) {
-        const double most_s =
-            watch_.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kOwnStep_s;
-        const double parts = std::ceil(left_s * settings_.time_factor / most_s - kRounding);
+        const double parts = std::ceil(left_s * settings_.time_factor / most_step_s() - kRounding);
         const double part_s = parts > 1 ? left_s / parts : left_s;
         // Whoever drives it by hand looks out.
         if (look_out_ && !executor_.in_hand()) {
@@ -169,9 +174,14 @@ void Vehicle::drive(double dt_s) {
     }
 }
 
+double Vehicle::most_step_s() const {
+    if (light_ && light_->steers()) return onboard::LightWatch::kFineStep_s;
+    return watch_.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kOwnStep_s;
+}
+
 void Vehicle::know_pose(double dt_s) {
     note_rest();
-    if (const auto fix = sensing_.take_fix()) {
+    if (const auto fix = stop_senses_.take_fix()) {
         estimate_.take(*fix);
     } else {
         estimate_.drive_to(drive_->believed_pose());
@@ -182,6 +192,10 @@ void Vehicle::know_pose(double dt_s) {
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
     state_due_ |= refused != watch_.refused();
+    if (!light_) return;
+    const bool lit = light_->newest().has_value();
+    light_->step(dt_s, executor_.transmitters(), executor_.position_initialized());
+    state_due_ |= lit != light_->newest().has_value();
 }
 
 void Vehicle::note_rest() {
@@ -195,6 +209,7 @@ void Vehicle::note_rest() {
 }
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {
+    if (receivers_) receivers_->see(neighbours);
     if (scanners_) scanners_->see(std::move(neighbours));
 }
 
@@ -231,23 +246,26 @@ void Vehicle::apply(const Fault& fault) {
         case Fault::Kind::kWayFree:
             if (scanners_) scanners_->take_away();
             return;
+        case Fault::Kind::kTransmitterDark:
+            if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));
+            return;
         case Fault::Kind::kWheel:
-            body_.break_wheel(fault.wheel);
-            if (servo != nullptr) known = servo->break_wheel(fault.wheel);
+            body_.break_wheel(fault.part);
+            if (servo != nullptr) known = servo->break_wheel(fault.part);
             break;
         case Fault::Kind::kBearing:
-            known = body_.seize_bearing(fault.wheel);
+            known = body_.seize_bearing(fault.part);
             break;
         case Fault::Kind::kSlip:
-            known = servo != nullptr && servo->set_slip(fault.wheel, fault.share);
+            known = servo != nullptr && servo->set_slip(fault.part, fault.share);
             break;
         case Fault::Kind::kEncoder:
-            known = servo != nullptr && servo->kill_encoder(fault.wheel);
+            known = servo != nullptr && servo->kill_encoder(fault.part);
             break;
     }
     if (!known)
         server::log::warn("fault.unknown_wheel",
-                          {{"vehicle", vehicle_.id.str()}, {"wheel", fault.wheel}});
+                          {{"vehicle", vehicle_.id.str()}, {"wheel", fault.part}});
 }
 
 void Vehicle::keep_learned() {

@@ -10,11 +10,13 @@
 #include "api/vda5050/header.hpp"
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
+#include "core/onboard/light_watch.hpp"
 #include "core/onboard/look_out.hpp"
 #include "core/onboard/marker_watch.hpp"
 #include "core/onboard/pose_estimate.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/receivers.hpp"
 #include "core/simulation/world/scanners.hpp"
 #include "core/simulation/world/world.hpp"
 #include "server/agent/body_status.hpp"
@@ -22,6 +24,7 @@
 #include "server/agent/learned_moves.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/outbox.hpp"
+#include "server/agent/stop_senses.hpp"
 #include "server/agent/truth_log.hpp"
 
 namespace pulseline::agent {
@@ -68,7 +71,7 @@ public:
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
-    /// What its scanners see of the vehicles around it.
+    /// What its scanners see of the vehicles around it, and what they take of its light.
     void see(simulation::SimulatedScanners::Neighbours neighbours);
     /// Puts its body, load included, as it truly stands, to what others' scanners see.
     void show_body(const plant::HallId& hall, geometry::Point2 from,
@@ -87,6 +90,8 @@ private:
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
     void know_pose(double dt_s);
+    double most_step_s() const;
+    void write_light(vda5050::StateMessage& state) const;
     void note_rest();
     void look_while_standing(Steady::time_point now);
     void apply_faults(double dt_s);
@@ -100,6 +105,7 @@ private:
     VehicleSettings settings_;
     std::unique_ptr<simulation::SimulatedDrive> drive_;
     CameraSensing sensing_;
+    StopSenses stop_senses_;
     simulation::VehicleEquipment equipment_;
     std::optional<LearnedMoves> learned_;
     onboard::Executor executor_;
@@ -110,6 +116,8 @@ private:
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
     onboard::MarkerWatch watch_;
+    std::optional<simulation::SimulatedReceivers> receivers_;  // of a type that has them
+    std::optional<onboard::LightWatch> light_;                 // with receivers
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;

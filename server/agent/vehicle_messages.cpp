@@ -37,10 +37,26 @@ vda5050::StateMessage Vehicle::state() {
                                 "Code " + code + " does not lie where the survey says.",
                                 {{"marker", code}}});
     }
+    if (light_) write_light(state);
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();
     return state;
+}
+
+void Vehicle::write_light(vda5050::StateMessage& state) const {
+    state.receivers = light_->readings();
+    if (const auto& why_not = light_->why_not()) {
+        state.errors.push_back(
+            {"lightLost", false, why_not->what, {{"why", why_not->reason.code}}});
+    }
+    if (!light_->newest()) return;
+    for (const auto& out : light_->newest()->left_out) {
+        state.errors.push_back({"lightRefused",
+                                false,
+                                out.name + " is left out: " + out.code + ".",
+                                {{"part", out.name}, {"why", out.code}}});
+    }
 }
 
 template <class Put>
@@ -95,7 +111,7 @@ void Vehicle::send_factsheet() {
     source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
                                equipment_.action_types().end());
     source.edge_actions = onboard::edge_action_types();
-    source.instant_actions = onboard::instant_action_types();
+    source.instant_actions = onboard::instant_action_types(type_);
     put_whole([&] {
         outbox_.put_event(vda5050::encode_frame(
             Topic::kFactsheet, true,

@@ -6,6 +6,7 @@
 
 #include "core/fleet/tables/code_gaps.hpp"
 #include "core/fleet/tables/layout.hpp"
+#include "core/fleet/tables/light_gaps.hpp"
 #include "core/traffic/layout_check.hpp"
 
 namespace pulseline::server::cli {
@@ -77,6 +78,19 @@ plant::Fault code_gap(const Reason& reason) {
                         metres("at_x_m"), metres("at_y_m"))};
 }
 
+plant::Fault light_gap(const Reason& reason) {
+    const auto places = value_of<std::int64_t>(reason, "count");
+    return {
+        "/transmitters", reason.code,
+        fmt::format("Vehicles of type {} do not know where they are near x {:.1f} m, y {:.1f} m "
+                    "({}): {}",
+                    value_of<std::string>(reason, "class"), value_of<double>(reason, "at_x_m"),
+                    value_of<double>(reason, "at_y_m"),
+                    places == 1 ? std::string("one place") : fmt::format("{} places", places),
+                    value_of<std::string>(reason, "why")),
+        "Set up a transmitter that shines there and add it to transmitters."};
+}
+
 }  // namespace
 
 std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
@@ -86,6 +100,8 @@ std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
             warnings.push_back(unreachable(plant, reason));
         } else if (reason.code == fleet::kCodeGap) {
             warnings.push_back(code_gap(reason));
+        } else if (reason.code == fleet::kLightGap) {
+            warnings.push_back(light_gap(reason));
         } else {
             warnings.push_back(too_few_resting_places(reason));
         }

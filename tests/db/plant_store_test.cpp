@@ -81,6 +81,62 @@ TEST(PlantStore, KeepsWhatTheCalibrationOfACameraSays) {
     EXPECT_EQ(kept.loaded->tilt_v_rad, -0.003);
 }
 
+/// All fields but its names.
+std::vector<double> numbers_of(const plant::Transmitter& t) {
+    return {t.position.x_m,    t.position.y_m,   t.z_m,           t.roll_rad,
+            t.pitch_rad,       t.heading_rad,    t.rate_hz,       t.first.a,
+            t.first.b,         t.first.offset_m, t.second.a,      t.second.b,
+            t.second.offset_m, t.range_m,        t.elevation_rad, t.sigma_rad,
+            t.sigma_place_m,   t.sigma_turn_rad};
+}
+
+TEST(PlantStore, KeepsEveryFieldOfTransmittersAndReceivers) {
+    Database database(":memory:");
+    plant::Plant plant = demo("igps-cell");
+    plant.transmitters.resize(2);
+    plant.transmitters[1] = {plant::TransmitterId("other"),
+                             plant::HallId("cell"),
+                             {1.1, 2.2},
+                             3.3,
+                             0.04,
+                             -0.05,
+                             0.6,
+                             37.7,
+                             {1.8, 0.19, 0.001},
+                             {-0.21, 1.9, -0.002},
+                             31,
+                             0.45,
+                             1.6e-5,
+                             2.7e-5,
+                             3.8e-6};
+    plant.vehicle_types[0].receivers = {{"mast", {0.11, -0.22}, 1.33}, {"nose", {1.44, 0}, 0.55}};
+    PlantStore(database).import(plant);
+
+    const plant::Plant kept = PlantStore(database).load().value();
+    ASSERT_EQ(kept.transmitters.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(kept.transmitters[i].id, plant.transmitters[i].id);
+        EXPECT_EQ(kept.transmitters[i].hall, plant.transmitters[i].hall);
+        EXPECT_EQ(numbers_of(kept.transmitters[i]), numbers_of(plant.transmitters[i]));
+    }
+    ASSERT_EQ(kept.vehicle_types[0].receivers.size(), 2u);
+    const plant::Receiver& mast = kept.vehicle_types[0].receivers[0];
+    EXPECT_EQ(mast.name, "mast");
+    EXPECT_EQ(mast.position, (geometry::Point2{0.11, -0.22}));
+    EXPECT_EQ(mast.z_m, 1.33);
+    EXPECT_EQ(kept.vehicle_types[0].receivers[1].name, "nose");
+}
+
+TEST(PlantStore, DamagedReceiversAreAnError) {
+    Database database(":memory:");
+    PlantStore store(database);
+    store.import(demo("igps-cell"));
+    for (const std::string damaged : {"[", "[{}]", R"([{"name":"a","position":[1],"z_m":1}])"}) {
+        database.sql() << "UPDATE vehicle_types SET receivers = :damaged", soci::use(damaged);
+        EXPECT_THROW(store.load(), Error) << damaged;
+    }
+}
+
 TEST(PlantStore, ImportReplacesAllAndRaisesTheRevision) {
     Database database(":memory:");
     PlantStore store(database);

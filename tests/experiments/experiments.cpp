@@ -12,19 +12,22 @@ int main(int argc, char** argv) {
     Options options;
     options.folder = PULSELINE_EXPERIMENTS;
     app.add_option("NAME", name)
-        ->check(
-            CLI::IsMember({"all", "landmark-accuracy", "navigation", "stop-adjustment", "stops"}));
+        ->check(CLI::IsMember(
+            {"all", "igps", "landmark-accuracy", "navigation", "stop-adjustment", "stops"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     app.add_option("--stretch", options.stretch,
                    "of the navigation: codes so many times farther apart than computed");
-    app.add_option("--plot", options.plot, "SVG file of the navigation's errors over distance");
+    app.add_option(
+        "--plot", options.plot,
+        "SVG file of the navigation's errors over distance, or of the light in the cell");
     app.add_option("--errors", options.errors, "of stops and navigation: nominal, kind, harsh")
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
     app.add_option("--spoil", options.spoil_mm, "mm that each measured stop is off unnoticed");
     CLI11_PARSE(app, argc, argv);
     cv::setNumThreads(1);
     bool good = true;
+    if (name == "all" || name == "igps") good &= igps(options);
     if (name == "all" || name == "landmark-accuracy") good &= landmark_accuracy(options);
     if (name == "all" || name == "navigation") good &= navigation(options);
     if (name == "all" || name == "stop-adjustment") good &= stop_adjustment(options);

@@ -13,7 +13,7 @@ struct Options {
     std::string errors = "nominal";  // of the stops: nominal, kind, harsh
     double spoil_mm = 0;  // of the stops: measurements that are off by so much without knowing it
     double stretch = 1;   // of the navigation: codes so many times farther apart than computed
-    std::string plot;     // of the navigation: SVG file, none without a name
+    std::string plot;     // of navigation and igps: SVG file, none without a name
     std::string folder;   // of the experiments' own files
 };
 
@@ -25,13 +25,18 @@ bool landmark_accuracy(const Options& options);
 /// not read or the compensated loop is not ten times better than the paper's.
 bool stop_adjustment(const Options& options);
 
-/// Li 2022, eq. 4 and 5: drives of 200 m by odometry alone and over codes at the spacing that is
-/// computed for the type. False when a code is missed, or a drive over codes ends too far off.
+/// Li 2022, eq. 4 and 5: drives of 200 m by odometry alone, over codes at the spacing that is
+/// computed for the type, and by iGPS. False when a code is missed, or a drive ends too far off.
 bool navigation(const Options& options);
 
-/// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum with positions of
-/// iGPS grade, from a stand-in), Li 2020 (differential vehicle, landmark), with the whole error
-/// budget. False when one is refused or misses what is asked of it.
+/// Wang, section 5: stops at one place of the iGPS cell, steered and measured by light alone; what
+/// is left when transmitters fail; how well the light tells a pose over the whole cell. False when
+/// a stop is more than 0.5 mm off, or a stated sigma does not hold.
+bool igps(const Options& options);
+
+/// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum, iGPS), Li 2020
+/// (differential vehicle, landmark), with the whole error budget. False when one is refused or
+/// misses what is asked of it.
 bool stops(const Options& options);
 
 }  // namespace pulseline::experiments

@@ -2,83 +2,26 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
 #include <stdexcept>
 
 #include "api/plant/plant_file.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/onboard/executor.hpp"
+#include "core/onboard/light_watch.hpp"
+#include "core/onboard/marker_watch.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/receivers.hpp"
+#include "core/vda5050/actions.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/stop_senses.hpp"
 
 namespace pulseline::experiments {
 namespace {
 
-using geometry::Point2;
 using geometry::Pose2;
 
 constexpr double kTick_s = 0.02;
 constexpr double kPatience_s = 600;  // of the vehicle's own time, for one stop
-// Wang: four transmitters on 20 m x 10 m with 10 urad give 0.105 mm in space, 0.06 mm an axis.
-constexpr double kReceiver_m = 6e-5;
-constexpr double kReceiverPlace_m = 2e-5;  // after calibration
-
-/// A stand-in until there are iGPS transmitters and receivers: the true places of four receivers at
-/// the corners with noise of Wang's grade, and the rigid fit of all four (his eq. 1 and 2).
-class ReceiverSensing : public onboard::StopSensing {
-public:
-    ReceiverSensing(const simulation::SimulatedDrive& drive, std::uint64_t seed)
-        : drive_(drive), random_(seed) {
-        const auto box = geometry::bounding_box(drive.type().footprint);
-        for (const double x_m : {box.min.x_m, box.max.x_m}) {
-            for (const double y_m : {box.min.y_m, box.max.y_m}) {
-                calibrated_.push_back({x_m, y_m});
-                actual_.push_back({x_m + noise(kReceiverPlace_m), y_m + noise(kReceiverPlace_m)});
-            }
-        }
-    }
-
-    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget&) override {
-        std::vector<Point2> seen;
-        for (const Point2& place : actual_) {
-            const Point2 at = drive_.true_pose() * place;
-            seen.push_back({at.x_m + noise(kReceiver_m), at.y_m + noise(kReceiver_m)});
-        }
-        const double sigma_m = kReceiver_m / std::sqrt(static_cast<double>(seen.size()));
-        return vda5050::StopMeasurement{
-            fit(seen), sigma_m, sigma_m / norm(calibrated_[0]), "igps", {}};
-    }
-
-private:
-    double noise(double sigma) { return sigma * normal_(random_); }
-
-    /// Hall from body: centroids, and the angle between what is left.
-    Pose2 fit(const std::vector<Point2>& seen) const {
-        const double share = 1.0 / static_cast<double>(seen.size());
-        Point2 body;
-        Point2 hall;
-        for (std::size_t i = 0; i < seen.size(); ++i) {
-            body = body + share * calibrated_[i];
-            hall = hall + share * seen[i];
-        }
-        double along = 0;
-        double across = 0;
-        for (std::size_t i = 0; i < seen.size(); ++i) {
-            along += dot(calibrated_[i] - body, seen[i] - hall);
-            across += cross(calibrated_[i] - body, seen[i] - hall);
-        }
-        const Pose2 turned{hall.x_m, hall.y_m, std::atan2(across, along)};
-        const Point2 origin = turned * (Point2{} - body);
-        return {origin.x_m, origin.y_m, turned.heading_rad};
-    }
-
-    const simulation::SimulatedDrive& drive_;
-    std::mt19937_64 random_;
-    std::normal_distribution<double> normal_;
-    std::vector<Point2> calibrated_;
-    std::vector<Point2> actual_;
-};
-
 /// Counts looks and keeps where the vehicle stood at the first.
 class Watched : public onboard::StopSensing {
 public:
@@ -170,16 +113,29 @@ public:
                  simulation::placed_pose(world, vehicle_, seed).value(), seed, runs.time_factor,
                  vehicle_.load_kg, world.errors),
           cameras_(world, hall_, drive_, true, seed, plant::is_loaded(vehicle_)),
-          receivers_(drive_, seed),
-          eyes_(family.igps ? static_cast<onboard::StopSensing&>(receivers_) : cameras_, drive_,
-                runs.spoil_m),
-          executor_(drive_, eyes_, hall_.str()) {
+          receivers_(world, hall_, drive_.type(), drive_.true_pose(), seed),
+          senses_(cameras_),
+          eyes_(senses_, drive_, runs.spoil_m),
+          executor_(drive_, eyes_, hall_.str()),
+          estimate_(Pose2{}, localisation::odometry_noise(world.errors.drive, drive_.type())),
+          watch_(cameras_, drive_, estimate_),
+          light_(receivers_, drive_, estimate_, watch_.trail(), world.errors.receiver) {
+        if (family.igps) {
+            senses_.use(light_);
+            for (const auto& dark : family.dark) receivers_.cover(plant::TransmitterId(dark));
+            vda5050::Action transmitters;
+            transmitters.type = vda5050::kSetTransmitters;
+            transmitters.id = "transmitters";
+            transmitters.transmitters = plant_.transmitters;
+            executor_.handle(vda5050::InstantActionsMessage{{transmitters}});
+        }
         vda5050::Action here;
         here.type = "initPosition";
         here.id = "init";
         here.init_position = vda5050::InitPosition{
             plant::find_station(plant_, vehicle_.home)->pose, hall_.str(), {}};
         executor_.handle(vda5050::InstantActionsMessage{{here}});
+        estimate_.start_at(drive_.believed_pose());
     }
 
     Stop drive_to(int number) {
@@ -195,7 +151,7 @@ public:
                                   target_at(plant_, station, family_.tolerance_m)));
         double left_s = kPatience_s / drive_.time_factor();
         while (stop.why_not.empty() && !done(id, stop)) {
-            executor_.step(kTick_s);
+            step();
             left_s -= kTick_s;
             if (eyes_.looks() > 0) stop.time_s += kTick_s * drive_.time_factor();
             if (left_s < 0) stop.why_not = "not there in time";
@@ -210,6 +166,22 @@ public:
     }
 
 private:
+    /// As server/agent/vehicle.cpp does; the cameras of the others see codes at stops only.
+    void step() {
+        const double parts = std::ceil(
+            family_.igps ? kTick_s * drive_.time_factor() / onboard::LightWatch::kFineStep_s : 1);
+        for (int i = 0; i < static_cast<int>(parts); ++i) {
+            executor_.step(kTick_s / parts);
+            const auto fix = senses_.take_fix();
+            if (!family_.igps) continue;
+            fix ? estimate_.take(*fix) : estimate_.drive_to(drive_.believed_pose());
+            static const std::deque<vda5050::OrderEdge> kNone;
+            watch_.step(kTick_s / parts,
+                        executor_.acting() ? kNone : executor_.way_ahead().edges());
+            light_.step(kTick_s / parts, executor_.transmitters(), true);
+        }
+    }
+
     bool done(const std::string& id, Stop& stop) {
         vda5050::StateMessage state;
         executor_.write_state(state);
@@ -231,9 +203,13 @@ private:
     plant::HallId hall_;
     simulation::ServoDrive drive_;
     agent::CameraSensing cameras_;
-    ReceiverSensing receivers_;
+    simulation::SimulatedReceivers receivers_;
+    agent::StopSenses senses_;
     Watched eyes_;
     onboard::Executor executor_;
+    onboard::PoseEstimate estimate_;
+    onboard::MarkerWatch watch_;
+    onboard::LightWatch light_;
     int legs_ = 0;
 };
 
@@ -245,7 +221,8 @@ std::vector<StopFamily> stop_families() {
     platform.demand.most_axis_mm = 10;
     platform.demand.most_deg = 0.15;
     platform.demand.mean_mm = 0.85;  // 0.66 measured; with half a millimetre unseen 0.9
-    StopFamily mecanum{"Mecanum, iGPS stand-in", "OM-01", {23, 28, 25, 27}, true, 0.0004};
+    StopFamily mecanum{"Mecanum, iGPS", "OM-01", {2, 3, 6, 4}, true, 0.0004};
+    mecanum.plant = "igps-cell";
     mecanum.demand.words = "Wang: +-0.5 mm always";
     mecanum.demand.most_axis_mm = 0.5;
     StopFamily differential{"differential, landmark", "DL-01", {31, 35, 32, 34}, false, 0.002};
@@ -255,9 +232,9 @@ std::vector<StopFamily> stop_families() {
     return {platform, mecanum, differential};
 }
 
-std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
+std::vector<Stop> run_stops(const StopFamily& family, const std::string& plants,
                             const StopRuns& runs) {
-    const auto plant = api::plant_file::load_plant_file(plant_file);
+    const auto plant = api::plant_file::load_plant_file(plants + "/" + family.plant + ".json");
     if (!plant) throw std::runtime_error(plant.error().what);
     std::vector<Stop> stops;
     for (int v = 0; v < runs.vehicles; ++v) {

@@ -25,11 +25,13 @@ struct StopDemand {
 
 struct StopFamily {
     std::string name;
-    std::string vehicle;         // of the plant final-assembly
+    std::string vehicle;
     std::vector<int> stations;   // driven to in turn
-    bool igps = false;           // a stand-in for iGPS receivers instead of the cameras
+    bool igps = false;           // steers and measures by its receivers
     double tolerance_m = 0.025;  // either way, along both axes
     StopDemand demand = {};
+    std::string plant = "final-assembly";  // of db/plants
+    std::vector<std::string> dark = {};    // transmitters without power
 };
 /// Tang 2020, Wang and Li 2020.
 std::vector<StopFamily> stop_families();
@@ -55,9 +57,9 @@ struct StopRuns {
     double spoil_m = 0;  // a measurement that is off by so much without knowing it
 };
 
-/// `plant_file`: final-assembly.json. Images are rendered and read; all errors come from the seeds.
-/// A machine that refuses a stop makes no more.
-std::vector<Stop> run_stops(const StopFamily& family, const std::string& plant_file,
+/// `plants`: the folder of the family's plant. Images are rendered and read; all errors come from
+/// the seeds. A machine that refuses a stop makes no more.
+std::vector<Stop> run_stops(const StopFamily& family, const std::string& plants,
                             const StopRuns& runs);
 
 }  // namespace pulseline::experiments

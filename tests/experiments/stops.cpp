@@ -53,9 +53,19 @@ bool keeps(const StopDemand& demand, const std::vector<Stop>& stops) {
 }
 
 /// The terms of the stated sigma, the greatest first.
-std::string terms_of(const plant::Plant& plant, const StopFamily& family,
+std::string terms_of(const std::string& plants, const StopFamily& family,
                      const localisation::ErrorBudget& errors) {
-    if (family.igps) return "true places of the receivers with noise; no iGPS is simulated yet";
+    const auto loaded = api::plant_file::load_plant_file(plants + "/" + family.plant + ".json");
+    if (!loaded) throw std::runtime_error(loaded.error().what);
+    const plant::Plant& plant = *loaded;
+    if (family.igps) {
+        const auto& first = plant.transmitters.front();
+        return fmt::format(
+            "{} transmitters: light {:.0f} urad, place {:.3f} mm, turn {:.0f} urad; receivers "
+            "{:.3f} mm",
+            plant.transmitters.size(), 1e6 * first.sigma_rad, 1e3 * first.sigma_place_m,
+            1e6 * first.sigma_turn_rad, 1e3 * errors.receiver.place_m);
+    }
     const auto& vehicle = *plant::find_vehicle(plant, plant::VehicleId(family.vehicle));
     const auto& type = *plant::find_vehicle_type(plant, vehicle.type);
     auto terms = localisation::code_terms(errors, type.cameras.front(), kOffset_m,
@@ -78,9 +88,7 @@ bool stops(const Options& options) {
     runs.seed = options.seed;
     runs.errors = localisation::ErrorBudget::named(options.errors);
     runs.spoil_m = options.spoil_mm / 1e3;
-    const std::string file = options.folder + "/../../db/plants/final-assembly.json";
-    const auto plant = api::plant_file::load_plant_file(file);
-    if (!plant) throw std::runtime_error(plant.error().what);
+    const std::string plants = options.folder + "/../../db/plants";
     fmt::print(
         "\n{} machines a family with {} stops each, {} errors; by the true pose against the "
         "drawing, mm and deg\n",
@@ -89,7 +97,7 @@ bool stops(const Options& options) {
                "axis max", "max", "deg mean", "deg max", "looks", "time s", "covered");
     bool good = true;
     for (const StopFamily& family : stop_families()) {
-        auto made = run_stops(family, file, runs);
+        auto made = run_stops(family, plants, runs);
         const auto is_refused = [](const Stop& stop) { return !stop.why_not.empty(); };
         const auto first = std::ranges::find_if(made, is_refused);
         const std::string refusal =
@@ -106,7 +114,7 @@ bool stops(const Options& options) {
             mean(made, [](const Stop& stop) { return double(stop.looks); }),
             mean(made, [](const Stop& stop) { return stop.time_s; }), 100 * covered(made),
             family.demand.words, kept ? "yes" : "NO");
-        fmt::print("  {}\n", terms_of(*plant, family, runs.errors));
+        fmt::print("  {}\n", terms_of(plants, family, runs.errors));
         if (refused > 0) {
             fmt::print("  {} of {} machines refused a stop, the first at {}\n", refused,
                        runs.vehicles, refusal);

@@ -70,7 +70,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "mass_kg": 10200, "max_load_kg": 22000}
 
 
-def mecanum(kind, name, length, width, height, camera_x, speed, mass, load):
+def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=()):
     return {"id": kind, "name": name, "kinematics": "mecanum", "footprint": rect(length, width), "load_footprint": [],
             "max_speed_mps": speed, "max_accel_mps2": 0.4, "max_turn_rate_radps": 0.6, "max_turn_accel_radps2": 0.4,
             "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2, "height_m": height,
@@ -78,11 +78,16 @@ def mecanum(kind, name, length, width, height, camera_x, speed, mass, load):
             "motion_modes": ["auto", "self_rotation", "linear", "lateral", "oblique", "combined", "free"],
             "wheels": [wheel(n, sx * (length / 2 - 0.35), sy * (width / 2 - 0.15), True, False, 0.3)
                        for n, sx, sy in [("FL", 1, 1), ("FR", 1, -1), ("BL", -1, 1), ("BR", -1, -1)]],
-            "cameras": [camera("front", camera_x)], "brackets": [], "mass_kg": mass, "max_load_kg": load}
+            "cameras": [camera("front", camera_x)], **({"receivers": list(receivers)} if receivers else {}),
+            "brackets": [], "mass_kg": mass, "max_load_kg": load}
 
 
 MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 0.9, 1.2, 900, 400)
-OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1800, 3000)
+OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1800, 3000,
+               [{"name": n, "position": point(x, y), "z_m": 0.55} for n, x, y in
+                [("front left", 1.5, 0.95), ("front right", 1.5, -0.95), ("rear left", -1.5, 0.95),
+                 ("rear right", -1.5, -0.95)]])
+IGPS_MOVER = {**OMNI, "cameras": []}  # knows its place from transmitters alone
 DELIVERY = {
     "id": "delivery-vehicle", "name": "Delivery vehicle", "kinematics": "differential",
     "footprint": ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)]),
@@ -125,7 +130,7 @@ def named_too(thing):
 class Plant:
     def __init__(self, ident, name):
         self.ident, self.name = ident, name
-        self.halls, self.stations, self.markers, self.areas = [], [], [], []
+        self.halls, self.stations, self.markers, self.transmitters, self.areas = [], [], [], [], []
         self.types, self.vehicles, self.nodes, self.edges = [], [], {}, []
         self.hall = None
 
@@ -140,6 +145,13 @@ class Plant:
         self.markers.append({"id": ident, "kind": kind, "payload": payload, "size_m": size, "hall": self.hall,
                              "pose": pose(x, y, heading), "sigma_xy_m": sigma, "sigma_heading_rad": 0.0005})
 
+    def transmit(self, places, z):
+        """Transmitters that look different ways, each with a rate of its own."""
+        for i, (x, y) in enumerate(places):
+            heading = round(pose(x, y, 0.3 + i)["heading_rad"], 6)
+            self.transmitters.append({"id": f"tx-{i + 1}", "hall": self.hall, "position": point(x, y), "z_m": z,
+                                      "heading_rad": heading, "rate_hz": round(38 + 0.6 * i, 1)})
+
     def station(self, number, name, p, vehicle_type, rest=True, charger=False):
         ident = f"st{number:02d}"
         markers = []
@@ -148,7 +160,7 @@ class Plant:
                 payload = f"ST{number:02d}-{suffix}"
                 markers.append(payload.lower())
                 self.marker(payload.lower(), "qr", payload, 0.06, *along(p, forward), p[2])
-        else:
+        elif vehicle_type["cameras"]:
             kind, size = ("landmark", 0.08) if vehicle_type is DELIVERY else ("apriltag", 0.05)
             markers.append(f"{ident}-{kind}")
             x = vehicle_type["cameras"][0]["body_from_camera"]["x_m"]
@@ -190,7 +202,8 @@ class Plant:
                                          (self.halls, self.stations, self.areas, self.types))
         plant = {"$schema": "../../api/plant.schema.json", "id": self.ident,
                  **named_too({"name": self.name}), "revision": 1,
-                 "halls": halls, "stations": stations, "markers": self.markers, "areas": areas,
+                 "halls": halls, "stations": stations, "markers": self.markers,
+                 **({"transmitters": self.transmitters} if self.transmitters else {}), "areas": areas,
                  "vehicle_types": types, "vehicles": self.vehicles,
                  "roadmap": {"nodes": list(self.nodes.values()), "edges": self.edges},
                  "routing": {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}}
@@ -299,10 +312,11 @@ def landmark_lab(folder):
 def igps_cell(folder):
     p = Plant("igps-cell", "iGPS cell")
     p.add_hall("cell", "iGPS cell", 32, 18)
-    p.types = [OMNI]
+    p.types = [IGPS_MOVER]
+    p.transmit([(0.6, 0.6), (16, 0.5), (31.4, 0.6), (31.4, 17.4), (16, 17.5), (0.6, 17.4)], 2.6)
     for n, where in {1: (6, 12.5, -PI / 2), 2: (16, 12.5, -PI / 2), 3: (26, 12.5, -PI / 2), 4: (6, 5.5, PI / 2),
                      5: (16, 5.5, PI / 2), 6: (26, 5.5, PI / 2)}.items():
-        p.station(n, f"Jig {n}", where, OMNI)
+        p.station(n, f"Jig {n}", where, IGPS_MOVER)
     p.area("panel", "obstacle", "Wing panel", ring([(9, 8.4), (23, 8.6), (23, 9.4), (9, 9.6)]))
     p.chain([p.node(f"n{x}", x, 15.6) for x in (3, 6, 16, 26, 29)])
     p.chain([p.node(f"s{x}", x, 2.4) for x in (3, 6, 16, 26, 29)])
@@ -311,7 +325,7 @@ def igps_cell(folder):
     for n, x in ((1, 6), (2, 16), (3, 26)):
         p.edge(f"n{x}", f"st{n:02d}")
         p.edge(f"s{x}", f"st{n + 3:02d}")
-    p.vehicle("OM-01", OMNI, 1)
+    p.vehicle("OM-01", IGPS_MOVER, 1)
     p.write(folder)
 
 
@@ -372,6 +386,7 @@ def final_assembly(folder):
     p.area("wing-panel", "obstacle", "Wing panel", ring([(60, 49.6), (74.5, 49.8), (74.5, 50.6), (60, 50.8)]))
     p.area("gate-south", "no_go", "South gate", box(58, 0, 62, 2.2))
 
+    p.transmit([(51.4, 42.4), (82.6, 42.4), (82.6, 58.2), (51.4, 58.2)], 2.8)
     payload = 100
     for y in (55.7, 52.9, 48.1, 45.3):
         for i in range(9):

@@ -61,6 +61,20 @@ Json camera_json(const plant::VehicleType* type, const CameraImages& images,
     return json;
 }
 
+Json receiver_json(const vda5050::ReceiverReading& reading) {
+    Json json = {{"name", reading.receiver},
+                 {"found", reading.found},
+                 {"transmitters", reading.transmitters}};
+    if (reading.found) {
+        json["place"] = point_json(reading.place);
+        json["z_m"] = reading.z_m;
+        json["sigma_m"] = reading.sigma_m;
+    } else {
+        json["why_not"] = reading.why_not;
+    }
+    return json;
+}
+
 Json basis_json(const fleet::PoseBasis& basis) {
     Json json = {{"kind", fleet::to_string(basis.kind)},
                  {"at", rfc3339(basis.at)},
@@ -130,6 +144,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     if (!vehicle.order.empty()) json["order"] = vehicle.order.str();
     if (vehicle.leg) json["leg"] = leg_json(*vehicle.leg);
     if (const auto& basis = vehicle.pose_basis) json["pose_basis"] = basis_json(*basis);
+    if (!state.receivers.empty()) json["receivers"] = list_json(state.receivers, receiver_json);
     if (const auto codes = fleet::codes_under_way(state); codes.passed > 0) {
         json["codes_under_way"] = {{"passed", codes.passed}, {"read", codes.read}};
         if (codes.read > 0) json["codes_under_way"]["last"] = codes.last;

@@ -10,8 +10,8 @@
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
 #include "core/fleet/vehicle/body.hpp"
-#include "core/fleet/vehicle/code_pose.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
+#include "core/fleet/vehicle/seen_pose.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/vda5050/actions.hpp"
@@ -132,9 +132,9 @@ void note_seen(LiveVehicle& live, Time now) {
 
 /// Of a pose that was not known before: what it can rest on, seen from here.
 PoseBasis basis_of(const FleetState& fleet, const LiveVehicle& live, const Pose2& told, Time now) {
-    const auto by_codes = pose_from_codes(fleet, live, live.state.cameras);
-    const bool seen = by_codes && is_near(*by_codes, told);
-    return {seen ? PoseBasis::Kind::kCodes : PoseBasis::Kind::kVehicle, {}, {}, now, 0};
+    const auto seen = seen_pose(fleet, live);
+    const bool agrees = seen && is_near(seen->pose, told);
+    return {agrees ? seen->basis : PoseBasis::Kind::kVehicle, {}, {}, now, 0};
 }
 
 void believe(FleetState& fleet, LiveVehicle& live, const Whereabouts& told, Time now) {
@@ -299,17 +299,17 @@ void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessa
     fleet.store(live);
 }
 
-void offer_pose_from_codes(FleetState& fleet, LiveVehicle& live, Time now) {
+void offer_seen_pose(FleetState& fleet, LiveVehicle& live, Time now) {
     const vda5050::StateMessage& state = live.state;
     if (state.position_initialized || state.driving || is_in_doubt(live)) return;
     if (live.record.integration < Integration::kRespect) return;
     if (is_asked(live, vda5050::kInitPosition)) return;
-    const auto pose = pose_from_codes(fleet, live, state.cameras);
-    if (!pose) return;
+    const auto seen = seen_pose(fleet, live);
+    if (!seen) return;
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
     action.blocking = vda5050::BlockingType::kHard;
-    action.init_position = vda5050::InitPosition{*pose, hall_of(fleet, live), {}};
+    action.init_position = vda5050::InitPosition{seen->pose, hall_of(fleet, live), {}};
     send_action(fleet, live, std::move(action), now);
 }
 

@@ -9,9 +9,9 @@ namespace pulseline::fleet {
 /// Else, from then on and until a person has said where it stands, it counts as not known.
 void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& before,
                  Time now);
-/// A vehicle that lost its pose and sees surveyed codes is told where it stands. Nothing moves by
-/// it.
-void offer_pose_from_codes(FleetState& fleet, LiveVehicle& live, Time now);
+/// A vehicle that lost its pose and sees surveyed codes, or iGPS, is told where it stands. Nothing
+/// moves by it.
+void offer_seen_pose(FleetState& fleet, LiveVehicle& live, Time now);
 /// Having claimed to be elsewhere it says again that it is where it was known to be, or that it
 /// has gone on from there on its leg. A claim that only happens to lie on the leg is not that.
 bool stands_where_known(const FleetState& fleet, const LiveVehicle& live, Time now);

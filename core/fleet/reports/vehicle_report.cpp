@@ -93,7 +93,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     watch_foreign_order(fleet, live, now);
     if (!state.driving) hold_where_it_stands(fleet, live, now);
     halt_or_resume(fleet, live, now);
-    offer_pose_from_codes(fleet, live, now);
+    offer_seen_pose(fleet, live, now);
 }
 
 }  // namespace pulseline::fleet

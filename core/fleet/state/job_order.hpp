@@ -204,10 +204,11 @@ struct Pause {
 /// What a pose that is known rests on.
 struct PoseBasis {
     enum class Kind {
-        kVehicle,   // the vehicle's own word and no more
-        kCodes,     // surveyed codes that its cameras saw when it became known
-        kStop,      // a stop that was measured at a station
-        kStatement  // a person's word
+        kVehicle,    // the vehicle's own word and no more
+        kCodes,      // surveyed codes that its cameras saw when it became known
+        kStop,       // a stop that was measured at a station
+        kStatement,  // a person's word
+        kReceivers   // iGPS, when it became known
     };
     Kind kind = Kind::kVehicle;
     plant::StationId station;  // of the stop

@@ -30,6 +30,8 @@ const char* to_string(PoseBasis::Kind kind) {
             return "stop";
         case PoseBasis::Kind::kStatement:
             return "statement";
+        case PoseBasis::Kind::kReceivers:
+            return "receivers";
     }
     return "vehicle";
 }

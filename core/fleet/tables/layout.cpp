@@ -6,6 +6,7 @@
 
 #include "core/fleet/tables/code_gaps.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/light_gaps.hpp"
 #include "core/traffic/layout_check.hpp"
 
 namespace pulseline::fleet {
@@ -47,6 +48,7 @@ std::vector<Reason> check_layout(const plant::Plant& plant) {
         reasons.push_back(std::move(violation.reason));
     }
     std::ranges::move(check_codes(plant, classes), std::back_inserter(reasons));
+    std::ranges::move(check_light(plant, classes), std::back_inserter(reasons));
     return reasons;
 }
 

@@ -82,7 +82,7 @@ void widen_nodes(Leg& leg) {
 std::vector<vda5050::Action> stop_actions(const FleetState& fleet, const LiveVehicle& live,
                                           const plant::Station& station, const LegId& leg) {
     std::vector<vda5050::Action> actions;
-    if (station.markers.empty()) return actions;
+    if (station.markers.empty() && live.type->receivers.empty()) return actions;
     for (const char* type : {vda5050::kAdjustToMarker, vda5050::kMeasureStop}) {
         if (!announces(live, type)) continue;
         vda5050::Action action;

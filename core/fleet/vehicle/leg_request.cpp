@@ -19,7 +19,8 @@ constexpr double kNearlyThere_rad = radians(0.8);
 bool nearly_there(const LiveVehicle& live, const Pose2& pose, const plant::Station& station) {
     const Pose2 off = geometry::inverse(station.pose) * pose;
     const bool in_place = std::hypot(off.x_m, off.y_m) < 1e-3 && std::abs(off.heading_rad) < 1e-4;
-    const bool correctable = !station.markers.empty() && !live.type->cameras.empty();
+    const bool by_codes = !station.markers.empty() && !live.type->cameras.empty();
+    const bool correctable = by_codes || !live.type->receivers.empty();
     return in_place || (correctable && std::hypot(off.x_m, off.y_m) < kNearlyThere_m &&
                         std::abs(off.heading_rad) < kNearlyThere_rad);
 }

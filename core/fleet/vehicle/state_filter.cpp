@@ -67,7 +67,7 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
               if (near(from.extension_m, to.extension_m, kFoot_m))
                   to.extension_m = from.extension_m;
           });
-    // A vehicle that has lost its pose is told it from what its cameras see.
+    // A vehicle that has lost its pose is told it from what its cameras and receivers see.
     if (!next.position_initialized) return;
     pairs(known.cameras, next.cameras,
           [](const vda5050::CameraReading& from, vda5050::CameraReading& to) {
@@ -77,6 +77,8 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
               to.rms_px = from.rms_px;
               to.why_not = from.why_not;
           });
+    pairs(known.receivers, next.receivers,
+          [](const vda5050::ReceiverReading& from, vda5050::ReceiverReading& to) { to = from; });
 }
 
 }  // namespace

@@ -3,32 +3,61 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/kinematics/primitives.hpp"
 #include "core/localisation/codes_on_way.hpp"
+#include "core/localisation/igps_light.hpp"
 
 namespace pulseline::planning {
 namespace {
 
-/// A code that comes into view after `from_m` of the leg's way and is in view last at `to_m`.
+// What traffic keeps free beside a vehicle (core/fleet/tables/floor_graph.hpp).
+constexpr double kBeside_m = 0.1;
+constexpr double kByLight_m = 1e-4;
+constexpr double kByLight_rad = 1e-4;
+constexpr double kLookEvery_m = 0.5;
+constexpr std::size_t kTransmitters = 2;
+
+/// A stretch of the leg's way on which it finds itself, if it has driven so far at most without.
 struct Sight {
     double from_m = 0;
     double to_m = 0;
-    double size_m = 0;
+    double at_most_m = 0;
 };
+
+void add_codes(const LegTask& task, const kinematics::Segment& segment, double before_m,
+               std::vector<Sight>& sights) {
+    const double length_m = std::abs(segment.length_m);
+    for (const auto& marker : task.plant.markers) {
+        if (marker.hall != task.request.hall) continue;
+        const auto shares = localisation::seen_at(marker, task.reach.cameras(), segment);
+        if (shares.empty()) continue;
+        sights.push_back({before_m + shares.front() * length_m, before_m + shares.back() * length_m,
+                          task.reach.at_most_m(marker.size_m)});
+    }
+}
+
+void add_light(const LegTask& task, const kinematics::Segment& segment, double before_m,
+               std::vector<Sight>& sights) {
+    const double length_m = std::abs(segment.length_m);
+    const int looks = 1 + static_cast<int>(std::ceil(length_m / kLookEvery_m));
+    for (int i = 0; i <= looks; ++i) {
+        const double share = static_cast<double>(i) / looks;
+        const auto at = kinematics::pose_at(segment, share).position();
+        if (!task.reach.is_lit(task.plant, task.request.hall, at)) continue;
+        const double way_m = before_m + share * length_m;
+        sights.push_back({way_m, way_m, task.reach.in_the_dark_m()});
+    }
+}
 
 std::vector<Sight> sights_along(const LegTask& task,
                                 const std::vector<kinematics::Segment>& segments) {
+    const bool by_light = task.reach.has_receivers() && !task.plant.transmitters.empty();
     std::vector<Sight> sights;
     double before_m = 0;
     for (const auto& segment : segments) {
-        const double length_m = std::abs(segment.length_m);
-        for (const auto& marker : task.plant.markers) {
-            if (marker.hall != task.request.hall) continue;
-            const auto shares = localisation::seen_at(marker, task.reach.cameras(), segment);
-            if (shares.empty()) continue;
-            sights.push_back({before_m + shares.front() * length_m,
-                              before_m + shares.back() * length_m, marker.size_m});
-        }
-        before_m += length_m;
+        if (!task.reach.cameras().empty()) add_codes(task, segment, before_m, sights);
+        if (by_light) add_light(task, segment, before_m, sights);
+        before_m += std::abs(segment.length_m);
     }
     std::ranges::sort(sights, {}, &Sight::from_m);
     return sights;
@@ -44,12 +73,28 @@ double size_at(const LegTask& task) {
     return size_m;
 }
 
+/// What it finds itself by at the end: the station's codes, or light.
+double at_end_m(const LegTask& task) {
+    if (const double size_m = size_at(task); size_m > 0 && !task.reach.cameras().empty()) {
+        return task.reach.at_most_m(size_m);
+    }
+    return task.reach.has_receivers() ? task.reach.in_the_dark_m() : 0;
+}
+
+double mean_height_m(const std::vector<plant::Receiver>& receivers) {
+    double sum_m = 0;
+    for (const auto& receiver : receivers) sum_m += receiver.z_m;
+    return receivers.empty() ? 0 : sum_m / static_cast<double>(receivers.size());
+}
+
 }  // namespace
 
 CodeReach::CodeReach(const plant::VehicleType& type, bool loaded)
     : cameras_(plant::cameras_of(type, loaded)),
-      noise_(cameras_.empty() ? localisation::OdometryNoise()
-                              : localisation::odometry_noise(localisation::DriveErrors(), type)) {}
+      receiver_m_(mean_height_m(type.receivers)),
+      noise_(cameras_.empty() && type.receivers.empty()
+                 ? localisation::OdometryNoise()
+                 : localisation::odometry_noise(localisation::DriveErrors(), type)) {}
 
 double CodeReach::at_most_m(double size_m) const {
     const auto [known, added] = at_most_m_.try_emplace(size_m, 0);
@@ -61,18 +106,42 @@ double CodeReach::at_most_m(double size_m) const {
     return known->second;
 }
 
+double CodeReach::in_the_dark_m() const {
+    if (!in_the_dark_m_) {
+        in_the_dark_m_ = localisation::sure_way_m({kByLight_m, kByLight_rad}, 0, kBeside_m, noise_);
+    }
+    return *in_the_dark_m_;
+}
+
+bool CodeReach::is_lit(const plant::Plant& plant, const plant::HallId& hall,
+                       geometry::Point2 at) const {
+    const auto cell = [](double way_m) {
+        return static_cast<int>(std::floor(way_m / kLookEvery_m));
+    };
+    const auto [known, added] =
+        lit_.try_emplace(std::tuple(hall, cell(at.x_m), cell(at.y_m)), false);
+    if (added) {
+        const Eigen::Vector3d place(at.x_m, at.y_m, receiver_m_);
+        known->second =
+            localisation::transmitters_in_view(plant, hall, place).size() >= kTransmitters;
+    }
+    return known->second;
+}
+
 BlindWay blind_way(const LegTask& task, const std::vector<kinematics::Segment>& segments) {
-    if (task.reach.cameras().empty() || task.plant.markers.empty()) return {};
+    const bool by_codes = !task.reach.cameras().empty() && !task.plant.markers.empty();
+    const bool by_light = task.reach.has_receivers() && !task.plant.transmitters.empty();
+    if (!by_codes && !by_light) return {};
     auto sights = sights_along(task, segments);
     double length_m = 0;
     for (const auto& segment : segments) length_m += std::abs(segment.length_m);
-    if (const double size_m = size_at(task); size_m > 0) {
-        sights.push_back({length_m, length_m, size_m});
+    if (const double at_most_m = at_end_m(task); at_most_m > 0) {
+        sights.push_back({length_m, length_m, at_most_m});
     }
     BlindWay worst;
-    double seen_m = 0;  // way until which a code was in view last
+    double seen_m = 0;  // way until which it found itself last
     for (const Sight& sight : sights) {
-        const BlindWay gap{sight.from_m - seen_m, task.reach.at_most_m(sight.size_m)};
+        const BlindWay gap{sight.from_m - seen_m, sight.at_most_m};
         if (gap.way_m - gap.at_most_m > worst.way_m - worst.at_most_m) worst = gap;
         seen_m = std::max(seen_m, sight.to_m);
     }

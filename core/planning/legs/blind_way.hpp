@@ -1,6 +1,8 @@
 #pragma once
 
 #include <map>
+#include <optional>
+#include <tuple>
 #include <vector>
 
 #include "core/localisation/odometry_noise.hpp"
@@ -8,24 +10,32 @@
 
 namespace pulseline::planning {
 
-/// How far a body drives without a code so that it still catches the next one, as its machine comes
-/// from assembly.
+/// How far a body drives without a code or light so that it still finds itself at the next, as its
+/// machine comes from assembly. Kept once worked out: no const thread safety.
 class CodeReach {
 public:
     CodeReach(const plant::VehicleType& type, bool loaded);
     const std::vector<plant::Camera>& cameras() const { return cameras_; }
-    /// By localisation::blind_way_m, of its best camera. Kept once worked out: no const thread
-    /// safety.
+    bool has_receivers() const { return receiver_m_ > 0; }
+    /// By localisation::blind_way_m, of its best camera.
     double at_most_m(double size_m) const;
+    /// Until iGPS is seen again: as long as it stays on the floor that traffic keeps beside it.
+    double in_the_dark_m() const;
+    /// Whether the light of two transmitters falls on it there, looked at cell by cell.
+    bool is_lit(const plant::Plant& plant, const plant::HallId& hall, geometry::Point2 at) const;
 
 private:
     std::vector<plant::Camera> cameras_;
+    double receiver_m_ = 0;  // how high they sit; 0: it has none
     localisation::OdometryNoise noise_;
     mutable std::map<double, double> at_most_m_;  // by size
+    mutable std::optional<double> in_the_dark_m_;
+    mutable std::map<std::tuple<plant::HallId, int, int>, bool> lit_;
 };
 
-/// Of a leg that drives these segments: the gap between codes that exceeds most, or falls short
-/// least, what may lie between them. Without cameras or codes there is nothing to miss.
+/// Of a leg that drives these segments: the gap between codes, or light, that exceeds most, or
+/// falls short least, what may lie between them. Without senses, or a plant with anything for them,
+/// there is nothing to miss.
 BlindWay blind_way(const LegTask& task, const std::vector<kinematics::Segment>& segments);
 
 }  // namespace pulseline::planning

@@ -38,6 +38,18 @@ World make_world(plant::Plant plant, std::uint64_t seed, const localisation::Err
         lying.size_m *= 1 + errors.marker.print_share * normal(random);
         world.markers.push_back(std::move(lying));
     }
+    for (const auto& surveyed : plant.transmitters) {
+        std::mt19937_64 random(seed_for(seed, "transmitter " + surveyed.id.str()));
+        std::normal_distribution<double> normal;
+        plant::Transmitter standing = surveyed;
+        for (double* place : {&standing.position.x_m, &standing.position.y_m, &standing.z_m}) {
+            *place += surveyed.sigma_place_m * normal(random);
+        }
+        for (double* turn : {&standing.roll_rad, &standing.pitch_rad, &standing.heading_rad}) {
+            *turn += surveyed.sigma_turn_rad * normal(random);
+        }
+        world.transmitters.push_back(std::move(standing));
+    }
     world.plant = std::move(plant);
     return world;
 }

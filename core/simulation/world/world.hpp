@@ -21,16 +21,18 @@ struct TrueMarker {
     Pose2 pose;
 };
 
-/// What the simulated hall is like in truth: the plant as drawn and the codes as they lie.
+/// What the simulated hall is like in truth: the plant as drawn, the codes as they lie and the
+/// transmitters as they stand.
 struct World {
     plant::Plant plant;
     std::vector<TrueMarker> markers;
-    localisation::ErrorBudget errors;  // of which its machines are drawn, too
+    std::vector<plant::Transmitter> transmitters;  // as they truly stand
+    localisation::ErrorBudget errors;              // of which its machines are drawn, too
 };
 
 /// The codes lie where the survey says + an error of its sigma, and are printed with the budget's
-/// errors, all drawn from the seed. Every program with the same plant, seed and budget sees the
-/// same world.
+/// errors; transmitters stand and are turned as theirs say. All are drawn from the seed. Every
+/// program with the same plant, seed and budget sees the same world.
 World make_world(plant::Plant plant, std::uint64_t seed,
                  const localisation::ErrorBudget& errors = localisation::ErrorBudget::nominal());
 

@@ -77,7 +77,8 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "createSchedule",   "deleteSchedule",
                                              "pauseSchedule",    "resumeSchedule",
                                              "closeFloor",       "reopenFloor",
-                                             "localize",         "previewMotions"};
+                                             "localize",         "measureByLight",
+                                             "previewMotions"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <tuple>
 
 #include "api/plant/occupancy_file.hpp"
 #include "api/plant/plant_file.hpp"
@@ -157,6 +159,91 @@ TEST(PlantText, KeepsTheMountingOfACameraUnderLoad) {
     EXPECT_EQ(faults_of(file).size(), 1U);
 }
 
+/// With every field that a file may leave out, each with a value of its own.
+Json full_transmitter() {
+    return {{"id", "tx"},
+            {"hall", "cell"},
+            {"position", {{"x_m", 1.5}, {"y_m", 2.5}}},
+            {"z_m", 2.75},
+            {"roll_rad", 0.01},
+            {"pitch_rad", -0.02},
+            {"heading_rad", 1.25},
+            {"rate_hz", 42.5},
+            {"first", {{"a", 1.7}, {"b", 0.1}, {"offset_m", 0.001}}},
+            {"second", {{"a", -0.2}, {"b", 1.8}, {"offset_m", -0.002}}},
+            {"range_m", 35},
+            {"elevation_rad", 0.5},
+            {"sigma_rad", 1.1e-5},
+            {"sigma_place_m", 2.2e-5},
+            {"sigma_turn_rad", 3.3e-6}};
+}
+
+TEST(PlantText, KeepsEveryFieldOfATransmitterAndAReceiver) {
+    Json file = document(kPlants + "/igps-cell.json");
+    file["transmitters"][1] = full_transmitter();
+    const Json receiver = {
+        {"name", "mast"}, {"position", {{"x_m", 0.1}, {"y_m", -0.2}}}, {"z_m", 1.5}};
+    file["vehicle_types"][0]["receivers"][2] = receiver;
+    json::FieldErrors errors;
+    const Plant plant = decode_plant(file, errors);
+    ASSERT_TRUE(errors.empty());
+
+    for (const PlantForm form : {PlantForm::kFile, PlantForm::kApi}) {
+        const Json written = encode_plant(plant, form);
+        EXPECT_EQ(written["transmitters"].size(), 6u);
+        EXPECT_EQ(written["transmitters"][1], full_transmitter());
+        EXPECT_EQ(written["vehicle_types"][0]["receivers"].size(), 4u);
+        EXPECT_EQ(written["vehicle_types"][0]["receivers"][2], receiver);
+    }
+}
+
+TEST(PlantText, ATransmitterHasSheetsThatLeanBy30DegreesUnlessItSaysOthers) {
+    const Plant plant = load_plant_file(kPlants + "/igps-cell.json").value();
+    const Transmitter& t = plant.transmitters[0];
+
+    EXPECT_EQ(t.first, Transmitter().first);
+    EXPECT_EQ(t.second, Transmitter().second);
+    EXPECT_EQ(t.range_m, 40);
+    EXPECT_EQ(encode_plant(plant, PlantForm::kFile)["transmitters"][0]["second"],
+              Json({{"a", 0}, {"b", std::sqrt(3)}, {"offset_m", 0}}));
+}
+
+TEST(PlantText, WithoutIgpsSaysNothingOfIt) {
+    const Plant plant = load_plant_file(kPlants + "/pulse-line.json").value();
+
+    for (const PlantForm form : {PlantForm::kFile, PlantForm::kApi}) {
+        const Json written = encode_plant(plant, form);
+        EXPECT_FALSE(written.contains("transmitters"));
+        EXPECT_FALSE(written["vehicle_types"][0].contains("receivers"));
+    }
+}
+
+TEST(PlantText, NamesWhatIsWrongWithATransmitterOrAReceiver) {
+    const std::tuple<const char*, Json, const char*> changes[] = {
+        {"/transmitters", Json::object(), "/transmitters wrong_type"},
+        {"/transmitters/0/id", "", "/transmitters/0/id wrong_length"},
+        {"/transmitters/0/colour", "red", "/transmitters/0/colour unknown_field"},
+        {"/transmitters/0/z_m", "2", "/transmitters/0/z_m wrong_type"},
+        {"/transmitters/0/heading_rad", 7, "/transmitters/0/heading_rad out_of_range"},
+        {"/transmitters/0/roll_rad", -7, "/transmitters/0/roll_rad out_of_range"},
+        {"/transmitters/0/position", 1, "/transmitters/0/position wrong_type"},
+        {"/transmitters/0/first", Json::object({{"a", 1}}),
+         "/transmitters/0/first/b missing_field"},
+        {"/transmitters/0/second", Json::object({{"a", 1}, {"b", 1}, {"c", 1}}),
+         "/transmitters/0/second/c unknown_field"},
+        {"/vehicle_types/0/receivers", Json::object(), "/vehicle_types/0/receivers wrong_type"},
+        {"/vehicle_types/0/receivers/0/name", "", "/vehicle_types/0/receivers/0/name wrong_length"},
+        {"/vehicle_types/0/receivers/0/x_m", 1, "/vehicle_types/0/receivers/0/x_m unknown_field"}};
+    const Json schema = document(kPlants + "/../../api/plant.schema.json");
+    const json::SchemaCheck check(schema);
+    for (const auto& [pointer, value, expected] : changes) {
+        Json file = document(kPlants + "/igps-cell.json");
+        file[Json::json_pointer(pointer)] = value;
+        EXPECT_EQ(faults_of(file), std::vector<std::string>{expected});
+        EXPECT_NE(check.objection(file), "") << pointer;
+    }
+}
+
 TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
     const Json schema = document(kPlants + "/../../api/plant.schema.json");
     const json::SchemaCheck check(schema);
@@ -180,17 +267,25 @@ TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
 }
 
 TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
-    const Json sound = document(kPlants + "/pulse-line.json");
+    Json sound = document(kPlants + "/igps-cell.json");
+    sound["transmitters"][0] = full_transmitter();
+    const Json others = document(kPlants + "/pulse-line.json");
+    sound["markers"] = others["markers"];
+    for (const char* parts : {"cameras", "brackets"})
+        sound["vehicle_types"][0][parts] = others["vehicle_types"][0][parts];
     const Json schema = document(kPlants + "/../../api/plant.schema.json");
     const std::pair<const char*, const char*> places[] = {
         {"", ""},
         {"/$defs/hall", "/halls/0"},
         {"/$defs/station", "/stations/0"},
         {"/$defs/marker", "/markers/0"},
+        {"/$defs/transmitter", "/transmitters/0"},
+        {"/$defs/light_plane", "/transmitters/0/first"},
         {"/$defs/area", "/areas/0"},
         {"/$defs/vehicle_type", "/vehicle_types/0"},
         {"/$defs/wheel", "/vehicle_types/0/wheels/0"},
         {"/$defs/camera", "/vehicle_types/0/cameras/0"},
+        {"/$defs/receiver", "/vehicle_types/0/receivers/0"},
         {"/$defs/bracket", "/vehicle_types/0/brackets/0"},
         {"/$defs/vehicle", "/vehicles/0"},
         {"/$defs/node", "/roadmap/nodes/0"},

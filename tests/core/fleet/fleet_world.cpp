@@ -167,6 +167,7 @@ void FakeVehicle::receive(const VehicleMessage& message) {
             if (action.type == "startPause") state.paused = true;
             if (action.type == "stopPause") state.paused = false;
             if (action.type == "stopCharging") state.charging = false;
+            if (action.type == "setTransmitters") transmitters = action.transmitters;
             if (action.type == "initPosition") {
                 state.pose = action.init_position->pose;
                 state.position_initialized = true;

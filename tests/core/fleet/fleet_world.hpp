@@ -55,6 +55,7 @@ public:
     std::vector<std::string> actions_done;  // types in the order in which they finished
     bool stands = false;                    // does not move, whatever it is told
     bool sees_codes = true;  // reports the codes below its cameras while standing on them
+    std::vector<plant::Transmitter> transmitters;  // of the newest setTransmitters
     int orders_received = 0;
     int node_steps = 0;
 

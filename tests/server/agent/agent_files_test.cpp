@@ -58,14 +58,16 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     for (const char* bad : {"http://host", "ws://", "ws://host:port", "ws://host/path:1"}) {
         EXPECT_FALSE(parse_server(bad)) << bad;
     }
-    EXPECT_EQ(parse_fault("wheel=drive front@20")->wheel, "drive front");
+    EXPECT_EQ(parse_fault("wheel=drive front@20")->part, "drive front");
     EXPECT_EQ(parse_fault("marker-lost")->after_s, 0);
-    EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->wheel, "back drive");
+    EXPECT_EQ(parse_fault("slip=back drive:0.2@3")->part, "back drive");
     EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
     EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
     EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
-    for (const char* bad : {"wheel=", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
-                            "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
+    EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->kind, Fault::Kind::kTransmitterDark);
+    EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->part, "tx-1");
+    for (const char* bad : {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2",
+                            "slip=:0.2", "encoder=", "marker-lost@soon", "wheel=FL@-1"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;
     }
     const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");

@@ -3,7 +3,7 @@ import type { Vehicle } from "@/shared/api/types";
 import { Card, StatusSymbol, Value } from "@/shared/ui";
 import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { poseWords } from "@/shared/words/poseBasis";
+import { lightWords, poseWords } from "@/shared/words/poseBasis";
 import type { Heard } from "./useHeard";
 import "./PoseCard.css";
 
@@ -15,9 +15,10 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   const words = useWords();
   const codes = vehicle.codes_under_way;
+  const light = lightWords(vehicle);
   const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
-  const measured = basis.key === "stop" || basis.key === "codes";
+  const measured = ["stop", "codes", "receivers"].includes(basis.key);
   // What has been driven since is reckoned, not measured.
   const symbol = !vehicle.pose_known
     ? "a-2"
@@ -73,6 +74,12 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
         <p className="basis" data-codes={codes.read}>
           <StatusSymbol name={codes.read > 0 ? "c-ok" : "a-3"} />
           <span>{t(codes.read > 0 ? "pose.codes" : "pose.no_codes", { ...codes })}</span>
+        </p>
+      )}
+      {light && (
+        <p className="basis" data-light={light.key}>
+          <StatusSymbol name={light.key === "all" ? "c-ok" : light.key === "some" ? "a-3" : "a-2"} />
+          <span>{t(`pose.light.${light.key}`, light.values)}</span>
         </p>
       )}
     </Card>

@@ -13,6 +13,7 @@ export type Plant = Schemas["Plant"];
 export type Hall = Schemas["Hall"];
 export type Station = Schemas["Station"];
 export type Marker = Schemas["Marker"];
+export type Transmitter = Schemas["Transmitter"];
 export type Area = Schemas["Area"];
 export type VehicleType = Schemas["VehicleType"];
 export type StationState = Schemas["StationState"];

@@ -25,6 +25,7 @@ export function drawHall(pen: Pen, model: HallModel, layers: MapLayers): void {
   if (layers.roadmap) drawLanes(pen, model);
   g.restore();
   if (layers.markers && detailOf(pen.k) !== "far") drawMarkers(pen, model);
+  if (layers.markers) drawTransmitters(pen, model);
   drawGates(pen, model);
   drawBrackets(pen, model);
   drawObstacles(pen, model);
@@ -184,6 +185,33 @@ function drawMarkers(pen: Pen, model: HallModel): void {
       g.textBaseline = "middle";
       g.fillText(marker.payload, p.x + half + 5, p.y);
     }
+  }
+}
+
+/** A head on its tripod: a triangle about a dot. */
+function drawTransmitters(pen: Pen, model: HallModel): void {
+  const { g, palette } = pen;
+  const kSide = 6;
+  for (const { id, position } of model.transmitters) {
+    const p = pen.at(position.x_m, position.y_m);
+    g.beginPath();
+    for (const [i, turn] of [-90, 30, 150].entries()) {
+      const angle = (turn * Math.PI) / 180;
+      const [x, y] = [p.x + kSide * Math.cos(angle), p.y + kSide * Math.sin(angle)];
+      if (i === 0) g.moveTo(x, y);
+      else g.lineTo(x, y);
+    }
+    g.closePath();
+    pen.stroke(palette["map-marker"], 1.25);
+    g.beginPath();
+    g.arc(p.x, p.y, 1.25, 0, 7);
+    pen.fill(palette["map-marker"]);
+    if (detailOf(pen.k) !== "close") continue;
+    g.font = `12px ${palette.font}`;
+    g.fillStyle = palette["ink-3"];
+    g.textAlign = "left";
+    g.textBaseline = "middle";
+    g.fillText(id, p.x + kSide + 5, p.y);
   }
 }
 

@@ -9,6 +9,7 @@ import type {
   Ring,
   Station,
   StationState,
+  Transmitter,
   Vehicle,
   VehicleType,
 } from "@/shared/api/types";
@@ -90,6 +91,7 @@ export interface HallModel {
   areas: readonly Area[];
   stations: readonly Station[];
   markers: readonly Marker[];
+  transmitters: readonly Transmitter[];
   types: ReadonlyMap<string, VehicleType>;
   typeOf: ReadonlyMap<string, string>;
   /** Where each vehicle is at home, for those at home in this hall. */
@@ -158,6 +160,7 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
     areas: here(plant.areas),
     stations,
     markers: here(plant.markers),
+    transmitters: here(plant.transmitters ?? []),
     types: new Map(plant.vehicle_types.map((type) => [type.id, type])),
     typeOf: new Map(plant.vehicles.map((v) => [v.id, v.type])),
     homeOf: new Map(

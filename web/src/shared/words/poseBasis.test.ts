@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Vehicle } from "@/shared/api/types";
-import { poseWords } from "./poseBasis";
+import { lightWords, poseWords } from "./poseBasis";
 
 type Basis = NonNullable<Vehicle["pose_basis"]>;
 const said = (pose_basis: Basis | undefined, pose_known = true) =>
@@ -26,6 +26,11 @@ it.each<[string, ReturnType<typeof said>, [string, object, string | undefined]]>
   ],
   ["seen by codes", said({ kind: "codes", at, driven_m: 0 }), ["codes", { time: "20:15:03" }, undefined]],
   [
+    "seen by iGPS",
+    said({ kind: "receivers", at, driven_m: 0 }),
+    ["receivers", { time: "20:15:03" }, undefined],
+  ],
+  [
     "said by a person",
     said({ kind: "statement", by: "ann", at, driven_m: 3 }),
     ["statement", { by: "ann", time: "20:15:03" }, "3.00\u00a0m"],
@@ -36,3 +41,38 @@ it.each<[string, ReturnType<typeof said>, [string, object, string | undefined]]>
     ["vehicle", { time: "20:15:03" }, "240\u00a0m"],
   ],
 ])("%s", (_, { key, values, since }, expected) => expect([key, values, since]).toEqual(expected));
+
+type Receiver = NonNullable<Vehicle["receivers"]>[number];
+const lit = (name: string, ...transmitters: string[]): Receiver => ({
+  name,
+  found: true,
+  place: { x_m: 1, y_m: 2 },
+  z_m: 0.55,
+  sigma_m: 6e-5,
+  transmitters,
+});
+const dark = (name: string, ...transmitters: string[]): Receiver => ({
+  name,
+  found: false,
+  transmitters,
+  why_not: "too_few_transmitters",
+});
+
+it.each<[string, Receiver[], object | undefined]>([
+  ["no receivers", [], undefined],
+  [
+    "all in the light",
+    [lit("front", "tx-1", "tx-2"), lit("rear", "tx-2", "tx-3")],
+    { key: "all", values: { lit: "2", all: "2", transmitters: "3", sigma: "0.06" } },
+  ],
+  [
+    "one in the dark",
+    [lit("front", "tx-1", "tx-2"), lit("left", "tx-1", "tx-2"), dark("rear", "tx-2")],
+    { key: "some", values: { lit: "2", all: "3", transmitters: "2", sigma: "0.06" } },
+  ],
+  [
+    "too few",
+    [lit("front", "tx-1", "tx-2"), dark("rear")],
+    { key: "none", values: { lit: "1", all: "2", transmitters: "2", sigma: "0.06" } },
+  ],
+])("light: %s", (_, receivers, expected) => expect(lightWords({ receivers } as Vehicle)).toEqual(expected));

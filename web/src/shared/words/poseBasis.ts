@@ -1,5 +1,5 @@
 import type { Vehicle } from "@/shared/api/types";
-import { length } from "./format";
+import { fixed, length } from "./format";
 
 /** Driven less than this it still stands where it was measured. */
 const kMoved_m = 0.05;
@@ -29,9 +29,37 @@ export function poseWords(
       return { key: "stop", values: { number: number(basis.station ?? ""), time: at }, since };
     case "codes":
       return { key: "codes", values: { time: at }, since };
+    case "receivers":
+      return { key: "receivers", values: { time: at }, since };
     case "statement":
       return { key: "statement", values: { by: who(basis.by ?? ""), time: at }, since };
     case "vehicle":
       return { key: "vehicle", values: { time: at }, since };
   }
+}
+
+export interface LightWords {
+  /** How much of iGPS it sees: all receivers know their place, enough of them, or too few. */
+  key: "all" | "some" | "none";
+  values: Record<string, string>;
+}
+
+/** Two receivers tell a direction. */
+const kReceivers = 2;
+
+/** What the receivers of iGPS see; undefined: the vehicle has none. */
+export function lightWords(v: Vehicle): LightWords | undefined {
+  const receivers = v.receivers ?? [];
+  if (receivers.length === 0) return undefined;
+  const lit = receivers.filter((one) => one.found);
+  const names = new Set(receivers.flatMap((one) => one.transmitters));
+  const sigmas = lit.map((one) => one.sigma_m ?? 0);
+  const values = {
+    lit: String(lit.length),
+    all: String(receivers.length),
+    transmitters: String(names.size),
+    sigma: fixed(1000 * Math.max(0, ...sigmas), 2),
+  };
+  if (lit.length < kReceivers) return { key: "none", values };
+  return { key: lit.length === receivers.length ? "all" : "some", values };
 }

@@ -1,0 +1,135 @@
+#include "api/plant/decode_parts.hpp"
+
+namespace pulseline::api::plant_file::decoding {
+
+using namespace plant;
+
+namespace {
+
+constexpr json::NumberLimits kTilt{-0.5, 0.5};  // radians
+constexpr json::NumberLimits kPercent{0, 100};
+constexpr json::IntegerLimits kPixels{0, 100'000};
+
+Wheel decode_wheel(ObjectReader& in) {
+    Wheel wheel;
+    wheel.name = in.text("name", kName);
+    wheel.position = decode_point(in.object("position"));
+    wheel.driven = in.boolean("driven");
+    wheel.steered = in.boolean("steered");
+    wheel.diameter_m = in.number("diameter_m", kMetres);
+    return wheel;
+}
+
+CameraMounting decode_mounting(ObjectReader& in) {
+    return {decode_pose(in.object("body_from_camera")), in.number("height_m", kMetres),
+            in.number_or("tilt_u_rad", 0, kTilt), in.number_or("tilt_v_rad", 0, kTilt)};
+}
+
+Camera decode_camera(ObjectReader& in) {
+    Camera camera;
+    static_cast<CameraMounting&>(camera) = decode_mounting(in);
+    camera.name = in.text("name", kId);
+    camera.f_px = in.number("f_px", kQuantity);
+    camera.width_px = static_cast<int>(in.integer("width_px", kPixels));
+    camera.height_px = static_cast<int>(in.integer("height_px", kPixels));
+    camera.cu_px = in.number("cu_px", kQuantity);
+    camera.cv_px = in.number("cv_px", kQuantity);
+    camera.k1 = in.number_or("k1", 0, kQuantity);
+    if (auto loaded = in.object_if_any("loaded")) {
+        camera.loaded = decode_mounting(*loaded);
+        loaded->refuse_unknown();
+    }
+    return camera;
+}
+
+Bracket decode_bracket(ObjectReader& in) {
+    Bracket bracket;
+    bracket.name = in.text("name", kName);
+    bracket.position = decode_point(in.object("position"));
+    return bracket;
+}
+
+Receiver decode_receiver(ObjectReader& in) {
+    Receiver receiver;
+    receiver.name = in.text("name", kId);
+    receiver.position = decode_point(in.object("position"));
+    receiver.z_m = in.number("z_m", kMetres);
+    return receiver;
+}
+
+void decode_limits(ObjectReader& in, VehicleType& type) {
+    type.max_speed_mps = in.number("max_speed_mps", kQuantity);
+    type.max_accel_mps2 = in.number("max_accel_mps2", kQuantity);
+    type.max_turn_rate_radps = in.number("max_turn_rate_radps", kQuantity);
+    type.max_turn_accel_radps2 = in.number("max_turn_accel_radps2", kQuantity);
+    type.max_steering_rate_radps =
+        in.number_or("max_steering_rate_radps", type.max_steering_rate_radps, kQuantity);
+    type.min_turn_radius_m = in.number_or("min_turn_radius_m", 0, kQuantity);
+    type.max_arc_radius_m = in.number_or("max_arc_radius_m", type.max_arc_radius_m, kQuantity);
+    type.clearance_m = in.number("clearance_m", kQuantity);
+    type.height_m = in.number_or("height_m", type.height_m, kQuantity);
+    type.mass_kg = in.number("mass_kg", kQuantity);
+    type.max_load_kg = in.number("max_load_kg", kQuantity);
+}
+
+BatteryLimits decode_battery(ObjectReader& in) {
+    BatteryLimits limits;
+    limits.critical_percent = in.number("critical_percent", kPercent);
+    limits.low_percent = in.number("low_percent", kPercent);
+    limits.enough_percent = in.number("enough_percent", kPercent);
+    in.refuse_unknown();
+    return limits;
+}
+
+UsualCode decode_usual_code(ObjectReader& in) {
+    UsualCode code;
+    code.kind = in.one_of("kind", {MarkerKind::kQr, MarkerKind::kAprilTag, MarkerKind::kLandmark});
+    code.size_m = in.number("size_m", kMetres);
+    in.refuse_unknown();
+    return code;
+}
+
+SlipSensor decode_slip_sensor(ObjectReader& in) {
+    const SlipSensor sensor{in.number("noise_mps", kQuantity)};
+    in.refuse_unknown();
+    return sensor;
+}
+
+}  // namespace
+
+VehicleType decode_vehicle_type(ObjectReader& in) {
+    VehicleType type;
+    type.id = decode_key<VehicleTypeId>(in, "id");
+    type.name = in.text("name", kName);
+    type.names = decode_names(in);
+    type.kinematics = in.one_of("kinematics", {Kinematics::kSteeredPlatform, Kinematics::kMecanum,
+                                               Kinematics::kDifferential});
+    type.footprint = decode_ring(in, "footprint");
+    type.load_footprint = decode_ring(in, "load_footprint", false);
+    decode_limits(in, type);
+    if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
+    if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);
+    if (auto sensor = in.object_if_any("slip_sensor")) {
+        type.slip_sensor = decode_slip_sensor(*sensor);
+    }
+    in.items("motion_modes", kFew, [&](const Json& item, const std::string& at) {
+        const auto mode = parse_motion_mode(json::read_text(item, at, in.errors(), kId));
+        if (mode) {
+            type.motion_modes.push_back(*mode);
+        } else if (item.is_string()) {
+            std::string allowed;
+            for (const MotionMode m : kMotionModes) {
+                allowed += (allowed.empty() ? "" : ", ") + std::string(to_string(m));
+            }
+            in.errors().add(at, {"not_one_of", {{"allowed", allowed}}},
+                            "Expected one of: " + allowed + ".");
+        }
+    });
+    decode_all(in, "wheels", kFew, type.wheels, decode_wheel);
+    decode_all(in, "cameras", kFew, type.cameras, decode_camera);
+    decode_all(in, "receivers", kFew, type.receivers, decode_receiver, false);
+    decode_all(in, "brackets", kFew, type.brackets, decode_bracket);
+    return type;
+}
+
+}  // namespace pulseline::api::plant_file::decoding

@@ -1,0 +1,74 @@
+#include "core/fleet/vehicle/seen_pose.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/localisation/dual_camera.hpp"
+#include "core/localisation/rigid_fit.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+// A camera's own angle of one code: from the edge fit (vision/edge_fit), used only when one code is
+// seen.
+constexpr double kSigmaUp_rad = 2e-4;
+// No vehicle says that it knows a receiver's place better: it would outweigh all others.
+constexpr double kLeastSigma_m = 1e-5;
+
+std::optional<Pose2> by_receivers(const LiveVehicle& live) {
+    const auto& known = live.type->receivers;
+    std::vector<localisation::PlacedPoint> points;
+    for (const auto& reading : live.state.receivers) {
+        const auto receiver = std::ranges::find(known, reading.receiver, &plant::Receiver::name);
+        const bool twice = std::ranges::count(live.state.receivers, reading.receiver,
+                                              &vda5050::ReceiverReading::receiver) > 1;
+        if (!reading.found || receiver == known.end() || twice) continue;
+        points.push_back(
+            {receiver->position, reading.place, std::max(reading.sigma_m, kLeastSigma_m)});
+    }
+    if (points.size() < 2) return std::nullopt;
+    const auto fit = localisation::rigid_fit(points);
+    const bool finite = std::isfinite(fit.pose.x_m) && std::isfinite(fit.pose.y_m);
+    if (!finite || !fit.agrees()) return std::nullopt;
+    return fit.pose;
+}
+
+std::optional<Pose2> by_codes(const FleetState& fleet, const LiveVehicle& live) {
+    std::vector<localisation::CodeObservation> observations;
+    std::vector<localisation::SurveyedCode> survey;
+    for (const auto& reading : live.state.cameras) {
+        if (!reading.found) continue;
+        const auto* marker = plant::find_marker_by_payload(fleet.plant, reading.payload);
+        if (!marker || marker->hall.str() != hall_of(fleet, live)) continue;
+        observations.push_back(
+            {reading.payload, reading.code, reading.angle_rad, reading.sigma_m, kSigmaUp_rad});
+        survey.push_back(
+            {marker->payload, marker->pose, marker->sigma_xy_m, marker->sigma_heading_rad});
+    }
+    // All its cameras must agree: with one code missing, a person says where it stands.
+    if (observations.empty() || observations.size() < live.type->cameras.size())
+        return std::nullopt;
+    const auto fix = localisation::locate(observations, survey);
+    if (!fix) return std::nullopt;
+    return fix->pose;
+}
+
+}  // namespace
+
+std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live) {
+    // A vehicle cannot stand outside the walls: then a sense or the survey is wrong.
+    const auto in_hall = [&](const std::optional<Pose2>& pose) {
+        return pose && is_in_hall(fleet, {*pose, hall_of(fleet, live)});
+    };
+    if (const auto pose = by_receivers(live); in_hall(pose)) {
+        return SeenPose{*pose, PoseBasis::Kind::kReceivers};
+    }
+    if (const auto pose = by_codes(fleet, live); in_hall(pose)) {
+        return SeenPose{*pose, PoseBasis::Kind::kCodes};
+    }
+    return std::nullopt;
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <deque>
+
+#include "core/onboard/drive.hpp"
+
+namespace pulseline::onboard {
+
+/// The way that a vehicle has driven lately by its wheels alone: what was seen is known some time
+/// later, and the vehicle has driven on meanwhile.
+class OdometryTrail {
+public:
+    explicit OdometryTrail(const Drive& drive) : drive_(drive), believed_(drive.believed_pose()) {}
+
+    /// After each step of the drive. A pose told or measured meanwhile looks like a jump in the
+    /// way; what lies before it is forgotten.
+    void step(double own_s);
+    /// Without a motion, the drive believes to be here from now on.
+    void led_to(const Pose2& believed) { believed_ = believed; }
+
+    /// By the drive, at the end of the last step.
+    const Pose2& believed() const { return believed_; }
+    bool remembers(double age_s) const { return !past_.empty() && age_s <= past_.back().age_s; }
+    /// The body then, seen from the body now. REQUIRES: something is remembered.
+    Pose2 now_from_then(double age_s) const;
+
+private:
+    struct Past {
+        double age_s = 0;
+        Pose2 odometry;
+    };
+
+    const Drive& drive_;
+    Pose2 odometry_;  // the way driven, no correction in it
+    Pose2 believed_;
+    std::deque<Past> past_;  // newest first
+};
+
+}  // namespace pulseline::onboard

@@ -1,0 +1,132 @@
+// What is said of iGPS over the link: where the transmitters stand, and what the receivers see.
+#include <gtest/gtest.h>
+
+#include "api/vda5050/instant_actions.hpp"
+#include "api/vda5050/state.hpp"
+#include "core/vda5050/actions.hpp"
+#include "tests/api/vda5050/samples.hpp"
+
+namespace pulseline::vda5050 {
+namespace {
+
+using testing::header;
+
+Json parsed(const std::string& text) {
+    const auto value = json::parse_json(text, {32, 100'000});
+    EXPECT_TRUE(value);
+    return value.value_or(Json());
+}
+
+/// Each number another one, so that none can take another's place.
+plant::Transmitter transmitter(const char* id) {
+    plant::Transmitter one;
+    one.id = plant::TransmitterId(id);
+    one.hall = plant::HallId("hall-1");
+    one.position = {1.5, -2.5};
+    one.z_m = 2.75;
+    one.roll_rad = 0.001;
+    one.pitch_rad = -0.002;
+    one.heading_rad = 3.1;
+    one.rate_hz = 39.2;
+    one.first = {1.7, 0.1, 0.01};
+    one.second = {0.2, -1.8, -0.02};
+    one.range_m = 35;
+    one.elevation_rad = 0.5;
+    one.sigma_rad = 1.1e-5;
+    one.sigma_place_m = 3.1e-5;
+    one.sigma_turn_rad = 3.2e-6;
+    return one;
+}
+
+InstantActionsMessage set_transmitters(std::vector<plant::Transmitter> transmitters) {
+    Action action;
+    action.type = kSetTransmitters;
+    action.id = "a-1";
+    action.transmitters = std::move(transmitters);
+    return {{action}};
+}
+
+TEST(SetTransmitters, RoundTripKeepsEveryNumber) {
+    const auto sent = set_transmitters({transmitter("tx-1"), transmitter("tx-2")});
+    const auto read = decode_instant_actions(parsed(encode_instant_actions(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->actions[0].transmitters.size(), 2u);
+    const plant::Transmitter& one = read->actions[0].transmitters[1];
+    const plant::Transmitter expected = transmitter("tx-2");
+    EXPECT_EQ(one.id, expected.id);
+    EXPECT_EQ(one.hall, expected.hall);
+    EXPECT_EQ(one.position, expected.position);
+    EXPECT_EQ(one.z_m, expected.z_m);
+    EXPECT_EQ(one.roll_rad, expected.roll_rad);
+    EXPECT_EQ(one.pitch_rad, expected.pitch_rad);
+    EXPECT_EQ(one.heading_rad, expected.heading_rad);
+    EXPECT_EQ(one.rate_hz, expected.rate_hz);
+    EXPECT_EQ(one.first, expected.first);
+    EXPECT_EQ(one.second, expected.second);
+    EXPECT_EQ(one.range_m, expected.range_m);
+    EXPECT_EQ(one.elevation_rad, expected.elevation_rad);
+    EXPECT_EQ(one.sigma_rad, expected.sigma_rad);
+    EXPECT_EQ(one.sigma_place_m, expected.sigma_place_m);
+    EXPECT_EQ(one.sigma_turn_rad, expected.sigma_turn_rad);
+}
+
+TEST(SetTransmitters, NoneIsNoneAndNotForgotten) {
+    const auto read =
+        decode_instant_actions(parsed(encode_instant_actions(set_transmitters({}), header())));
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_TRUE(read->actions[0].transmitters.empty());
+}
+
+TEST(SetTransmitters, WhatCannotBeIsNamedByItsField) {
+    Json message =
+        parsed(encode_instant_actions(set_transmitters({transmitter("tx-1")}), header()));
+    Json& parameter = message["actions"][0]["actionParameters"][0];
+    ASSERT_EQ(parameter["key"], "transmitters");
+    for (const auto& [field, value] : {std::pair<const char*, Json>{"z_m", "high"},
+                                       {"rate_hz", 0},
+                                       {"x_m", 1e9},
+                                       {"first", nullptr},
+                                       {"id", ""}}) {
+        Json spoilt = message;
+        spoilt["actions"][0]["actionParameters"][0]["value"][0][field] = value;
+        const auto read = decode_instant_actions(spoilt);
+        ASSERT_FALSE(read) << field;
+        EXPECT_EQ(read.error().field,
+                  std::string("/actions/0/actionParameters/transmitters/0/") + field);
+    }
+    parameter["value"] = "all";
+    EXPECT_FALSE(decode_instant_actions(message));
+}
+
+TEST(ReceiverReadings, RoundTripKeepsWhatWasSeen) {
+    StateMessage sent = testing::state();
+    sent.receivers = {{"front left", true, {12.5, 3.25}, 0.55, 8e-5, {"tx-1", "tx-3"}, {}},
+                      {"rear right", false, {}, 0, 0, {"tx-1"}, "too_few_transmitters"}};
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->receivers.size(), 2u);
+    EXPECT_EQ(read->receivers[0].receiver, "front left");
+    EXPECT_TRUE(read->receivers[0].found);
+    EXPECT_EQ(read->receivers[0].place, sent.receivers[0].place);
+    EXPECT_EQ(read->receivers[0].z_m, 0.55);
+    EXPECT_EQ(read->receivers[0].sigma_m, 8e-5);
+    EXPECT_EQ(read->receivers[0].transmitters, sent.receivers[0].transmitters);
+    EXPECT_FALSE(read->receivers[1].found);
+    EXPECT_EQ(read->receivers[1].transmitters, sent.receivers[1].transmitters);
+    EXPECT_EQ(read->receivers[1].why_not, "too_few_transmitters");
+}
+
+TEST(ReceiverReadings, AnEntryThatLacksSomethingIsLeftOut) {
+    StateMessage sent = testing::state();
+    sent.receivers = {{"front left", true, {12.5, 3.25}, 0.55, 8e-5, {"tx-1"}, {}}};
+    Json message = parsed(encode_state(sent, header()));
+    for (auto& entry : message["information"]) {
+        if (entry["infoType"] == "receiver") entry["infoReferences"].erase(3);
+    }
+    const auto read = decode_state(message);
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_TRUE(read->receivers.empty());
+}
+
+}  // namespace
+}  // namespace pulseline::vda5050

@@ -1,0 +1,84 @@
+// ./dev bench navigation: what it costs a vehicle to know where it is.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "api/plant/plant_file.hpp"
+#include "core/localisation/igps_pose.hpp"
+#include "core/localisation/pose_filter.hpp"
+
+namespace {
+
+using namespace pulseline;
+
+/// The iGPS cell, its vehicle at station 3, and what its receivers see there.
+struct Cell {
+    Cell() {
+        auto loaded = api::plant_file::load_plant_file(PULSELINE_PLANTS "/igps-cell.json");
+        if (!loaded) throw std::runtime_error(loaded.error().what);
+        plant = std::move(*loaded);
+        type = *plant::find_vehicle_type(plant, plant.vehicles.front().type);
+        const geometry::Pose2 pose{26, 12.5, 0.3};
+        for (const auto& receiver : type.receivers) {
+            const auto at = pose * receiver.position;
+            const Eigen::Vector3d place(at.x_m, at.y_m, receiver.z_m);
+            localisation::ReceiverLight seen{receiver.name, {}};
+            for (const auto& from :
+                 localisation::transmitters_in_view(plant, plant.halls.front().id, place)) {
+                seen.light.push_back(*localisation::light_on(from, place));
+            }
+            light.push_back(std::move(seen));
+        }
+    }
+    plant::Plant plant;
+    plant::VehicleType type;
+    std::vector<localisation::ReceiverLight> light;
+};
+
+const Cell& cell() {
+    static const Cell kCell;
+    return kCell;
+}
+
+localisation::PoseFilter filter() {
+    Eigen::Matrix3d known = Eigen::Vector3d(1e-6, 1e-6, 1e-6).asDiagonal();
+    return {{26, 12.5, 0.3}, known, localisation::odometry_noise({}, cell().type)};
+}
+
+void filter_step(benchmark::State& state) {
+    auto knows = filter();
+    for (auto _ : state) {
+        knows.drive({0.01, 0.001, 1e-4});
+        benchmark::DoNotOptimize(knows.pose());
+    }
+}
+BENCHMARK(filter_step);
+
+void filter_correction(benchmark::State& state) {
+    const auto fix = localisation::locate_by_light(cell().light, cell().plant.transmitters,
+                                                   cell().type.receivers)
+                         .value();
+    auto knows = filter();
+    for (auto _ : state) {
+        benchmark::DoNotOptimize(knows.correct(fix.fix));
+    }
+}
+BENCHMARK(filter_correction);
+
+/// A whole fix of four receivers: 50 us at most.
+void igps_fix(benchmark::State& state) {
+    for (auto _ : state) {
+        auto fix = localisation::locate_by_light(cell().light, cell().plant.transmitters,
+                                                 cell().type.receivers);
+        benchmark::DoNotOptimize(fix);
+    }
+    std::size_t beams = 0;
+    for (const auto& seen : cell().light) beams += seen.light.size();
+    state.counters["beams"] = static_cast<double>(beams);
+}
+BENCHMARK(igps_fix);
+
+}  // namespace
+
+BENCHMARK_MAIN();
