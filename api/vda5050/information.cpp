@@ -1,6 +1,5 @@
 #include "api/vda5050/information.hpp"
 
-#include <algorithm>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -16,6 +15,9 @@ std::string number_text(double value) {
     const auto end = std::to_chars(text, text + sizeof text, finite(value)).ptr;
     return {text, end};
 }
+
+// Sixteen names of 64 bytes fit in, quoted.
+constexpr std::size_t kValue = 2000;
 
 using References = std::vector<std::pair<const char*, std::string>>;
 
@@ -42,21 +44,18 @@ Json encode_camera(const CameraReading& reading) {
     return entry("camera", references);
 }
 
-// No payload of ours has it, and a plant's ids cannot: it separates them in one reference.
-constexpr char kBetween = ' ';
-
+/// Names in one reference, whatever they contain.
 std::string joined(const std::vector<std::string>& names) {
-    std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : std::string(1, kBetween)) + name;
-    return text;
+    return Json(names).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+/// None where it is no list of names: it may mean something else.
 std::vector<std::string> parted(const std::string& text) {
     std::vector<std::string> names;
-    for (std::size_t from = 0; from < text.size();) {
-        const std::size_t to = std::min(text.find(kBetween, from), text.size());
-        if (to > from) names.push_back(text.substr(from, to - from));
-        from = to + 1;
+    const auto parsed = json::parse_json(text);
+    if (!parsed || !parsed->is_array()) return names;
+    for (const Json& name : *parsed) {
+        if (name.is_string()) names.push_back(name.get<std::string>());
     }
     return names;
 }
@@ -219,7 +218,8 @@ void decode_information(json::ObjectReader& message, StateMessage& state) {
         in.items_if_any("infoReferences", {0, 100}, [&](const Json& ref, const std::string& where) {
             json::ObjectReader reference(ref, where, errors);
             const std::string key = reference.text("referenceKey", {0, 200});
-            values[key] = {reference.text("referenceValue", {0, 1000}), where + "/referenceValue"};
+            values[key] = {reference.text("referenceValue", {0, kValue}),
+                           where + "/referenceValue"};
         });
         Values read(std::move(values), errors);
         decode_entry(type, read, state);

@@ -202,6 +202,12 @@ Result<PoseFix> locate(std::span<const CodeObservation> observations,
     return finite(std::move(fix));
 }
 
+void set_covariance(PoseFix& fix, const Eigen::Matrix3d& covariance) {
+    fix.covariance = rows(covariance);
+    fix.sigma_xy_m = worse_axis_m(covariance);
+    fix.sigma_heading_rad = std::sqrt(covariance(2, 2));
+}
+
 const char* to_string(Method method) {
     switch (method) {
         case Method::kSingleCamera:

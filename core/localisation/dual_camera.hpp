@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "core/base/result.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/localisation/covariance.hpp"
 
 /// Pose of a vehicle from the floor codes its cameras see (Tang 2020 eq. 16 to 19 in the general,
 /// corrected form of surveyed codes). Tang's platform frame has y to the RIGHT; everything here
@@ -39,7 +39,7 @@ enum class Method { kSingleCamera, kDualCamera, kIgps };
 struct PoseFix {
     Pose2 pose;
     /// Covariance of (x_m, y_m, heading_rad) in the hall frame, row by row.
-    std::array<std::array<double, 3>, 3> covariance{};
+    CovarianceRows covariance{};
     double sigma_xy_m = 0;  // the worse axis
     double sigma_heading_rad = 0;
     Method method = Method::kSingleCamera;
@@ -49,6 +49,9 @@ struct PoseFix {
     std::optional<double> residual_m;
     std::optional<double> residual_limit_m;
 };
+
+/// Sets the covariance of a fix and the sigmas that follow from it.
+void set_covariance(PoseFix& fix, const Eigen::Matrix3d& covariance);
 
 /// Weighted planar rigid fit of all observed codes to their surveyed places; with one code its own
 /// angle gives the heading. Fails with

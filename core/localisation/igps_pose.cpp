@@ -73,14 +73,6 @@ Covariances covariances(std::span<const Located> located, const RigidFit& fit,
     return sum;
 }
 
-std::array<std::array<double, 3>, 3> rows(const Matrix3d& matrix) {
-    std::array<std::array<double, 3>, 3> out{};
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            out[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = matrix(i, j);
-    return out;
-}
-
 /// What may separate a receiver's place from where the others put it. They need not see the same
 /// transmitters, so that those's errors count, too.
 double sigma_of(const ReceiverFix& fix, const ReceiverErrors& errors) {
@@ -94,12 +86,6 @@ void note(IgpsFix& fix, const std::string& name, const char* code) {
 }
 
 }  // namespace
-
-double worse_axis_m(const std::array<std::array<double, 3>, 3>& covariance) {
-    const double middle = (covariance[0][0] + covariance[1][1]) / 2;
-    const double apart = std::hypot((covariance[0][0] - covariance[1][1]) / 2, covariance[0][1]);
-    return std::sqrt(std::max(0.0, middle + apart));
-}
 
 std::vector<ReceiverResult> locate_receivers(std::span<const ReceiverLight> light,
                                              std::span<const plant::Transmitter> transmitters) {
@@ -162,9 +148,7 @@ Result<IgpsFix> fit_receivers(std::vector<ReceiverResult> results,
     const Matrix3d covariance = sums.lasting + sums.passing;
     PoseFix& pose = found.fix;
     pose.pose = fit.pose;
-    pose.covariance = rows(covariance);
-    pose.sigma_xy_m = worse_axis_m(pose.covariance);
-    pose.sigma_heading_rad = std::sqrt(covariance(2, 2));
+    set_covariance(pose, covariance);
     pose.method = Method::kIgps;
     pose.residual_m = fit.worst_m;
     found.lasting = rows(sums.lasting);

@@ -28,7 +28,7 @@ struct IgpsFix {
     PoseFix fix;  // payloads: the transmitters it rests on
     /// The part of the covariance that the next fix has as well: of the transmitters' and the
     /// receivers' places. Whoever averages fixes does not get below it.
-    std::array<std::array<double, 3>, 3> lasting{};
+    CovarianceRows lasting{};
     double floor_m = 0;  // height of the floor below it, by the receivers' own
     std::vector<LeftOut> left_out;
 };
@@ -54,9 +54,6 @@ Result<IgpsFix> locate_by_light(std::span<const ReceiverLight> light,
                                 std::span<const plant::Transmitter> transmitters,
                                 std::span<const plant::Receiver> receivers,
                                 const ReceiverErrors& errors = {});
-
-/// Sigma along the worse axis of a pose's place.
-double worse_axis_m(const std::array<std::array<double, 3>, 3>& covariance);
 
 /// What is to be expected where a vehicle of this type stands in this hall, as drawn. Fails as
 /// locate_by_light.

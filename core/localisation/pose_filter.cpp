@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/square.hpp"
+#include "core/localisation/covariance.hpp"
 
 namespace pulseline::localisation {
 namespace {
@@ -12,14 +13,6 @@ namespace {
 // Chi-square of 3 degrees of freedom at 99.999 %. After a right code that is refused the next one
 // may not come into view, and then none; a wrong one is off by many times what is known.
 constexpr double kGate = 25.9;
-
-Eigen::Matrix3d matrix(const std::array<std::array<double, 3>, 3>& rows) {
-    Eigen::Matrix3d m;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            m(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    return m;
-}
 
 }  // namespace
 
@@ -127,10 +120,7 @@ Status PoseFilter::update(const Eigen::Vector3d& innovation, const Observation& 
     return {};
 }
 
-double PoseFilter::sigma_xy_m() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance_.topLeftCorner<2, 2>());
-    return std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
-}
+double PoseFilter::sigma_xy_m() const { return worse_axis_m(covariance()); }
 
 double PoseFilter::sigma_heading_rad() const { return std::sqrt(std::max(0.0, covariance_(2, 2))); }
 

@@ -16,10 +16,16 @@ using localisation::IgpsFix;
 // A second's worth: more is as good as what the transmitters' own places allow.
 constexpr std::size_t kMostInMean = 25;
 constexpr double kStandingEvery_s = 1;  // from then on: nothing changes but the light
-// The sheets of the last whole turn passed so long ago on average; heads turn in 25 ms.
-constexpr double kSeenAgo_s = 0.025;
-// Poses by light that contradict the way driven, in a row: by chance there is not even one.
+// Poses by light that contradict the way driven, in a row and all alike: by chance there is not
+// even one.
 constexpr int kBelievedAfter = 5;
+constexpr double kAlike_m = 0.005;
+constexpr double kAlike_rad = 0.003;
+
+bool alike(const geometry::Pose2& a, const geometry::Pose2& b) {
+    return distance(a.position(), b.position()) <= kAlike_m &&
+           std::abs(wrap(a.heading_rad - b.heading_rad)) <= kAlike_rad;
+}
 
 }  // namespace
 
@@ -59,6 +65,8 @@ void LightWatch::take(const std::vector<ReceiverPulses>& pulses,
 std::vector<localisation::ReceiverLight> LightWatch::light_of(
     const std::vector<ReceiverPulses>& pulses) {
     std::vector<localisation::ReceiverLight> light;
+    double ago_s = 0;
+    int sheets = 0;
     for (const ReceiverPulses& seen : pulses) {
         const auto& known = drive_.type().receivers;
         const auto receiver = std::ranges::find(known, seen.receiver, &plant::Receiver::name);
@@ -72,8 +80,11 @@ std::vector<localisation::ReceiverLight> LightWatch::light_of(
             angles->way_first = way_since(*receiver, turn.first_s);
             angles->way_second = way_since(*receiver, turn.second_s);
             light.back().light.push_back(std::move(*angles));
+            ago_s -= turn.first_s + turn.second_s;
+            sheets += 2;
         }
     }
+    if (sheets > 0) seen_ago_s_ = std::max(0.0, ago_s / sheets);
     return light;
 }
 
@@ -87,20 +98,18 @@ Point2 LightWatch::way_since(const plant::Receiver& receiver, double pulse_s) co
 /// Stamps of receivers and wheels do not quite agree, and meanwhile the vehicle drives.
 void LightWatch::blur(localisation::PoseFix& fix) const {
     const kinematics::Twist twist = drive_.twist();
-    const double own_s = errors_.clock_s / drive_.time_factor();
     const Point2 off =
         geometry::Pose2{0, 0, fix.pose.heading_rad} * Point2{twist.vx_mps, twist.vy_mps};
-    const std::array<double, 3> error{own_s * off.x_m, own_s * off.y_m, own_s * twist.turn_radps};
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j) fix.covariance[i][j] += error[i] * error[j];
-    fix.sigma_xy_m = localisation::worse_axis_m(fix.covariance);
-    fix.sigma_heading_rad = std::sqrt(fix.covariance[2][2]);
+    const Eigen::Vector3d error = errors_.clock_s / drive_.time_factor() *
+                                  Eigen::Vector3d(off.x_m, off.y_m, twist.turn_radps);
+    set_covariance(fix, localisation::matrix(fix.covariance) + error * error.transpose());
 }
 
 /// Of the way that the wheels have told since the sheets passed.
 Eigen::Matrix3d LightWatch::odometry_since(double heading_rad) const {
     const kinematics::Twist twist = drive_.twist();
-    const double way_m = std::hypot(twist.vx_mps, twist.vy_mps) / drive_.time_factor() * kSeenAgo_s;
+    const double way_m =
+        std::hypot(twist.vx_mps, twist.vy_mps) / drive_.time_factor() * seen_ago_s_;
     const auto& noise = estimate_.noise();
     const Eigen::Vector3d variance(square(noise.forward_m_per_sqrt_m) * way_m,
                                    square(noise.left_m_per_sqrt_m) * way_m,
@@ -113,11 +122,16 @@ Eigen::Matrix3d LightWatch::odometry_since(double heading_rad) const {
 void LightWatch::correct(const IgpsFix& seen) {
     if (estimate_.see(seen, odometry_since(seen.fix.pose.heading_rad))) {
         refused_ = 0;
-    } else if (++refused_ >= kBelievedAfter) {
-        estimate_.restart_at(seen);
-        since_standing_.clear();
-        refused_ = 0;
+        return;
     }
+    // The way driven since moves both alike, so that the same contradiction stays the same.
+    const geometry::Pose2 off = inverse(estimate_.pose()) * seen.fix.pose;
+    refused_ = refused_ > 0 && alike(off, refused_by_) ? refused_ + 1 : 1;
+    refused_by_ = off;
+    if (refused_ < kBelievedAfter) return;
+    estimate_.restart_at(seen);
+    since_standing_.clear();
+    refused_ = 0;
 }
 
 void LightWatch::tell(const std::vector<localisation::ReceiverLight>& light,
@@ -155,14 +169,9 @@ std::optional<IgpsFix> LightWatch::mean() const {
     }
     mean.fix.pose = {near.x_m + off.x_m, near.y_m + off.y_m,
                      wrap(near.heading_rad + off.heading_rad)};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double lasting = mean.lasting[i][j];
-            mean.fix.covariance[i][j] = lasting + share * (mean.fix.covariance[i][j] - lasting);
-        }
-    }
-    mean.fix.sigma_heading_rad = std::sqrt(mean.fix.covariance[2][2]);
-    mean.fix.sigma_xy_m = localisation::worse_axis_m(mean.fix.covariance);
+    const Eigen::Matrix3d lasting = localisation::matrix(mean.lasting);
+    set_covariance(mean.fix,
+                   lasting + share * (localisation::matrix(mean.fix.covariance) - lasting));
     return mean;
 }
 

@@ -15,8 +15,8 @@ namespace pulseline::onboard {
 
 /// Light of iGPS corrects the pose that the vehicle steers by, each time the receivers tell of it,
 /// standing and driving (Wang, section 4). What contradicts the way driven is refused, unless it
-/// keeps saying the same: then the wheels have slipped, for four receivers and the transmitters
-/// check each other. MarkerWatch leads the drive to the corrected pose. Thread safety: none. No
+/// keeps saying the same: then the wheels have slipped, for receivers and transmitters check each
+/// other. MarkerWatch leads the drive to the corrected pose. Thread safety: none. No
 /// clock: time passes by step().
 class LightWatch {
 public:
@@ -60,8 +60,10 @@ private:
     std::optional<localisation::IgpsFix> newest_;
     std::vector<localisation::IgpsFix> since_standing_;
     std::optional<Error> why_not_;
-    int refused_ = 0;      // in a row
-    double waited_s_ = 0;  // own time, since the receivers were asked
+    int refused_ = 0;             // in a row, all alike
+    geometry::Pose2 refused_by_;  // off the pose that the way driven gives
+    double seen_ago_s_ = 0;       // when the sheets passed, the last time on average
+    double waited_s_ = 0;         // own time, since the receivers were asked
 };
 
 }  // namespace pulseline::onboard

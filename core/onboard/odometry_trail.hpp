@@ -1,7 +1,6 @@
 #pragma once
 
-#include <deque>
-
+#include "core/kinematics/past_poses.hpp"
 #include "core/onboard/drive.hpp"
 
 namespace pulseline::onboard {
@@ -20,20 +19,15 @@ public:
 
     /// By the drive, at the end of the last step.
     const Pose2& believed() const { return believed_; }
-    bool remembers(double age_s) const { return !past_.empty() && age_s <= past_.back().age_s; }
+    bool remembers(double age_s) const { return past_.reach_back(age_s); }
     /// The body then, seen from the body now. REQUIRES: something is remembered.
-    Pose2 now_from_then(double age_s) const;
+    Pose2 now_from_then(double age_s) const { return inverse(odometry_) * past_.at(age_s); }
 
 private:
-    struct Past {
-        double age_s = 0;
-        Pose2 odometry;
-    };
-
     const Drive& drive_;
     Pose2 odometry_;  // the way driven, no correction in it
     Pose2 believed_;
-    std::deque<Past> past_;  // newest first
+    kinematics::PastPoses past_;  // of odometry_
 };
 
 }  // namespace pulseline::onboard

@@ -1,8 +1,9 @@
 #include "core/onboard/pose_estimate.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "core/localisation/covariance.hpp"
 
 namespace pulseline::onboard {
 namespace {
@@ -31,14 +32,6 @@ localisation::Odometry odometry_of(const Pose2& way) {
     return {chord.x_m, chord.y_m, way.heading_rad};
 }
 
-Eigen::Matrix3d matrix(const std::array<std::array<double, 3>, 3>& rows) {
-    Eigen::Matrix3d m;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j)
-            m(i, j) = rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-    return m;
-}
-
 }  // namespace
 
 PoseEstimate::PoseEstimate(const Pose2& start, const localisation::OdometryNoise& noise)
@@ -64,7 +57,7 @@ void PoseEstimate::rest(double speed_share) {
 void PoseEstimate::take(const localisation::PoseFix& fix) {
     catch_up();
     lasting_.setZero();
-    if (!filter_.correct(fix)) filter_.restart(fix.pose, matrix(fix.covariance));
+    if (!filter_.correct(fix)) filter_.restart(fix.pose, localisation::matrix(fix.covariance));
     driven_ = now_ = fix.pose;
 }
 
@@ -78,17 +71,17 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
 
 Status PoseEstimate::see(const localisation::IgpsFix& seen, const Eigen::Matrix3d& since) {
     catch_up();
-    const Status corrected = filter_.correct(seen.fix, matrix(seen.lasting));
+    const Status corrected = filter_.correct(seen.fix, localisation::matrix(seen.lasting));
     if (!corrected) return corrected;
-    lasting_ = matrix(seen.lasting);
+    lasting_ = localisation::matrix(seen.lasting);
     filter_.blur(since);
     return {};
 }
 
 void PoseEstimate::restart_at(const localisation::IgpsFix& seen) {
     catch_up();
-    lasting_ = matrix(seen.lasting);
-    filter_.restart(seen.fix.pose, matrix(seen.fix.covariance) - lasting_);
+    lasting_ = localisation::matrix(seen.lasting);
+    filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
 }
 
 void PoseEstimate::led_to(const Pose2& believed) {
@@ -109,11 +102,7 @@ Eigen::Matrix3d PoseEstimate::covariance() const {
     return now.covariance() + lasting_;
 }
 
-double PoseEstimate::sigma_xy_m() const {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance().topLeftCorner<2, 2>(),
-                                                              Eigen::EigenvaluesOnly);
-    return std::sqrt(std::max(0.0, axes.eigenvalues()[1]));
-}
+double PoseEstimate::sigma_xy_m() const { return localisation::worse_axis_m(covariance()); }
 
 double PoseEstimate::sigma_heading_rad() const {
     return std::sqrt(std::max(0.0, covariance()(2, 2)));

@@ -64,12 +64,16 @@ void check_receivers(const VehicleType& type, const std::string& element, Faults
                    "List another one, or none.");
         return;
     }
-    const Point2 first = type.receivers.front().position;
-    if (std::all_of(type.receivers.begin(), type.receivers.end(), [&](const Receiver& r) {
-            return geometry::distance(r.position, first) < kReceiversApart_m;
-        })) {
-        faults.add(element, "receivers_too_near",
-                   "All receivers sit at one place, which tells no direction.",
+    // Any two of them may be all that sees light.
+    for (std::size_t i = 1; i < type.receivers.size(); ++i) {
+        const auto end = type.receivers.begin() + static_cast<std::ptrdiff_t>(i);
+        const bool near = std::any_of(type.receivers.begin(), end, [&](const Receiver& other) {
+            return geometry::distance(other.position, type.receivers[i].position) <
+                   kReceiversApart_m;
+        });
+        if (!near) continue;
+        faults.add(element + "/" + std::to_string(i) + "/position", "receivers_too_near",
+                   "Two receivers sit at one place, which tells no direction.",
                    "Mount them as far apart as the vehicle allows, at least 0.1 m.");
     }
 }

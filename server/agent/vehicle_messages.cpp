@@ -46,7 +46,8 @@ vda5050::StateMessage Vehicle::state() {
 
 void Vehicle::write_light(vda5050::StateMessage& state) const {
     state.receivers = light_->readings();
-    if (const auto& why_not = light_->why_not()) {
+    // Who has cameras, too, is not lost without light.
+    if (const auto& why_not = light_->why_not(); why_not && type_.cameras.empty()) {
         state.errors.push_back(
             {"lightLost", false, why_not->what, {{"why", why_not->reason.code}}});
     }

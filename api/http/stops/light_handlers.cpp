@@ -17,7 +17,8 @@ using localisation::LightPulses;
 
 constexpr json::CountLimits kReceivers{1, 256};
 constexpr json::CountLimits kTurns{1, 64};
-constexpr json::NumberLimits kClock_s{-1e9, 1e9};
+// A day; of larger numbers a double has no digits left for the angles of a turn.
+constexpr json::NumberLimits kClock_s{-1e5, 1e5};
 
 struct ReceiverTurns {
     std::string receiver;

@@ -14,7 +14,7 @@ namespace {
 // A camera's own angle of one code: from the edge fit (vision/edge_fit), used only when one code is
 // seen.
 constexpr double kSigmaUp_rad = 2e-4;
-// No vehicle says that it knows a receiver's place better: it would outweigh all others.
+// One that a vehicle says to know far better than that would outweigh all others.
 constexpr double kLeastSigma_m = 1e-5;
 
 std::optional<Pose2> by_receivers(const LiveVehicle& live) {

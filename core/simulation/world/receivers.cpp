@@ -52,27 +52,8 @@ SimulatedReceivers::SimulatedReceivers(const World& world, const plant::HallId& 
     }
 }
 
-void SimulatedReceivers::note_way(double own_s) {
-    now_s_ += own_s;
-    for (Past& past : past_) past.age_s += own_s;
-    past_.push_front({0, true_pose_});
-    while (past_.size() > 1 && past_[past_.size() - 2].age_s > kRemembered_s) past_.pop_back();
-}
-
-Pose2 SimulatedReceivers::true_pose_at(double age_s) const {
-    for (std::size_t i = 1; i < past_.size(); ++i) {
-        if (past_[i].age_s < age_s) continue;
-        const double span_s = past_[i].age_s - past_[i - 1].age_s;
-        const double share = span_s > 0 ? (age_s - past_[i - 1].age_s) / span_s : 0;
-        const Pose2 step = inverse(past_[i - 1].pose) * past_[i].pose;
-        return past_[i - 1].pose *
-               Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
-    }
-    return past_.back().pose;
-}
-
 Vector3d SimulatedReceivers::place_at(const plant::Receiver& receiver, double age_s) const {
-    const Point2 at = true_pose_at(age_s) * receiver.position;
+    const Point2 at = past_.at(age_s) * receiver.position;
     return {at.x_m, at.y_m, receiver.z_m};
 }
 
@@ -112,7 +93,8 @@ std::optional<localisation::LightPulses> SimulatedReceivers::turn_of(
 }
 
 std::vector<onboard::ReceiverPulses> SimulatedReceivers::take_pulses(double own_s) {
-    note_way(own_s);
+    now_s_ += own_s;
+    past_.add(true_pose_, own_s, kRemembered_s);
     until_s_ -= own_s;
     std::vector<onboard::ReceiverPulses> seen;
     if (until_s_ > 0) return seen;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <random>
 #include <set>
 #include <vector>
 
+#include "core/kinematics/past_poses.hpp"
 #include "core/onboard/receivers.hpp"
 #include "core/simulation/world/world.hpp"
 
@@ -31,13 +31,6 @@ public:
     void see(Neighbours neighbours) { neighbours_ = std::move(neighbours); }
 
 private:
-    struct Past {
-        double age_s = 0;
-        Pose2 pose;
-    };
-
-    void note_way(double own_s);
-    Pose2 true_pose_at(double age_s) const;
     Eigen::Vector3d place_at(const plant::Receiver& receiver, double age_s) const;
     bool is_lit(const plant::Transmitter& transmitter, const Eigen::Vector3d& point) const;
     std::optional<localisation::LightPulses> turn_of(const plant::Transmitter& transmitter,
@@ -52,7 +45,7 @@ private:
     std::set<plant::TransmitterId> covered_;
     Neighbours neighbours_;
     std::vector<geometry::Polygon> bodies_;  // around, now
-    std::deque<Past> past_;                  // newest first
+    kinematics::PastPoses past_;
     std::mt19937_64 random_;
     double now_s_ = 0;
     double until_s_ = 0;

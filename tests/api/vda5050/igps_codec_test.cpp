@@ -100,8 +100,9 @@ TEST(SetTransmitters, WhatCannotBeIsNamedByItsField) {
 
 TEST(ReceiverReadings, RoundTripKeepsWhatWasSeen) {
     StateMessage sent = testing::state();
-    sent.receivers = {{"front left", true, {12.5, 3.25}, 0.55, 8e-5, {"tx-1", "tx-3"}, {}},
-                      {"rear right", false, {}, 0, 0, {"tx-1"}, "too_few_transmitters"}};
+    sent.receivers = {
+        {"front left", true, {12.5, 3.25}, 0.55, 8e-5, {"tx-1", "gate \"3\", north"}, {}},
+        {"rear right", false, {}, 0, 0, {"tx-1"}, "too_few_transmitters"}};
     const auto read = decode_state(parsed(encode_state(sent, header())));
     ASSERT_TRUE(read) << read.error().what;
     ASSERT_EQ(read->receivers.size(), 2u);

@@ -136,7 +136,7 @@ const IgpsCase kIgpsCases[] = {
      [](Plant& p) {
          p.vehicle_types[0].receivers[1].position = {1.4, 0.09};
      },
-     "/vehicle_types/0/receivers", "receivers_too_near"},
+     "/vehicle_types/0/receivers/1/position", "receivers_too_near"},
     {"OneTransmitter", [](Plant& p) { p.transmitters.pop_back(); }, "/vehicles/0/type",
      "too_few_transmitters"},
     {"TransmittersInTheOtherHall",

@@ -71,6 +71,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
         />
       ))
     );
+  const eyeless = type?.cameras.length === 0 && shown.length === 0;
   /** The bar above says it already. */
   const said = answer(vehicle) === held(vehicle);
   const why = (
@@ -116,7 +117,15 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
               onSelect={setTab}
               items={[
                 { id: "loads", title: t("tabs.loads"), content: loads },
-                { id: "cameras", title: t("tabs.cameras"), content: <div className="cams">{cameras}</div> },
+                ...(eyeless
+                  ? []
+                  : [
+                      {
+                        id: "cameras",
+                        title: t("tabs.cameras"),
+                        content: <div className="cams">{cameras}</div>,
+                      },
+                    ]),
                 { id: "why", title: t("tabs.why"), content: <div className="vr">{why}</div> },
                 { id: "stops", title: t("tabs.stops"), content: last },
               ]}
@@ -127,7 +136,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
         <div className="vgrid">
           <div className="vl">
             {loads}
-            <div className="cams">{cameras}</div>
+            {!eyeless && <div className="cams">{cameras}</div>}
           </div>
           <div className="vr">
             {why}
