@@ -32,7 +32,8 @@ constexpr std::array kBases = {std::pair{fleet::PoseBasis::Kind::kVehicle, "vehi
                                std::pair{fleet::PoseBasis::Kind::kCodes, "codes"},
                                std::pair{fleet::PoseBasis::Kind::kStop, "stop"},
                                std::pair{fleet::PoseBasis::Kind::kStatement, "statement"},
-                               std::pair{fleet::PoseBasis::Kind::kReceivers, "receivers"}};
+                               std::pair{fleet::PoseBasis::Kind::kReceivers, "receivers"},
+                               std::pair{fleet::PoseBasis::Kind::kReflectors, "reflectors"}};
 
 [[noreturn]] void unknown(const std::string& name) {
     throw Error(Error::Kind::kBadValue,

@@ -105,6 +105,15 @@ Transmitter decode_transmitter(ObjectReader& in) {
     return t;
 }
 
+Reflector decode_reflector(ObjectReader& in) {
+    Reflector reflector;
+    reflector.id = decode_key<ReflectorId>(in, "id");
+    reflector.hall = decode_key<HallId>(in, "hall");
+    reflector.position = decode_point(in.object("position"));
+    reflector.sigma_m = in.number_or("sigma_m", reflector.sigma_m, kMetres);
+    return reflector;
+}
+
 Area decode_area(ObjectReader& in) {
     Area area;
     area.id = decode_key<AreaId>(in, "id");
@@ -178,6 +187,7 @@ Plant decode_plant(const Json& json, FieldErrors& errors) {
     decode_all(in, "stations", kMany, plant.stations, decode_station);
     decode_all(in, "markers", kMany, plant.markers, decode_marker);
     decode_all(in, "transmitters", kFew, plant.transmitters, decode_transmitter, false);
+    decode_all(in, "reflectors", kFew, plant.reflectors, decode_reflector, false);
     decode_all(in, "areas", kMany, plant.areas, decode_area);
     decode_all(in, "vehicle_types", kFew, plant.vehicle_types, decode_vehicle_type);
     decode_all(in, "vehicles", kMany, plant.vehicles, decode_vehicle);

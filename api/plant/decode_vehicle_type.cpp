@@ -95,6 +95,22 @@ SlipSensor decode_slip_sensor(ObjectReader& in) {
     return sensor;
 }
 
+NavigationScanner decode_navigation_scanner(ObjectReader& in) {
+    NavigationScanner scanner;
+    scanner.body_from_scanner = decode_pose(in.object("pose"));
+    scanner.z_m = in.number_or("z_m", scanner.z_m, kMetres);
+    scanner.rate_hz = in.number_or("rate_hz", scanner.rate_hz, kQuantity);
+    scanner.step_rad = in.number_or("step_rad", scanner.step_rad, kQuantity);
+    scanner.range_m = in.number_or("range_m", scanner.range_m, kMetres);
+    scanner.reflector_radius_m =
+        in.number_or("reflector_radius_m", scanner.reflector_radius_m, kMetres);
+    scanner.sigma_range_m = in.number_or("sigma_range_m", scanner.sigma_range_m, kMetres);
+    scanner.sigma_bearing_rad =
+        in.number_or("sigma_bearing_rad", scanner.sigma_bearing_rad, kQuantity);
+    in.refuse_unknown();
+    return scanner;
+}
+
 }  // namespace
 
 VehicleType decode_vehicle_type(ObjectReader& in) {
@@ -128,6 +144,9 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     decode_all(in, "wheels", kFew, type.wheels, decode_wheel);
     decode_all(in, "cameras", kFew, type.cameras, decode_camera);
     decode_all(in, "receivers", kFew, type.receivers, decode_receiver, false);
+    if (auto scanner = in.object_if_any("navigation_scanner")) {
+        type.navigation_scanner = decode_navigation_scanner(*scanner);
+    }
     decode_all(in, "brackets", kFew, type.brackets, decode_bracket);
     return type;
 }

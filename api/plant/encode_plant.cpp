@@ -92,6 +92,13 @@ Json encode(const Transmitter& t) {
             {"sigma_turn_rad", t.sigma_turn_rad}};
 }
 
+Json encode(const Reflector& r) {
+    return {{"id", r.id.str()},
+            {"hall", r.hall.str()},
+            {"position", encode(r.position)},
+            {"sigma_m", r.sigma_m}};
+}
+
 Json encode(const Area& a) {
     Json json = {{"id", a.id.str()},
                  {"kind", to_string(a.kind)},
@@ -132,6 +139,17 @@ Json encode(const Camera& c) {
 
 Json encode(const Receiver& r) {
     return {{"name", r.name}, {"position", encode(r.position)}, {"z_m", r.z_m}};
+}
+
+Json encode(const NavigationScanner& s) {
+    return {{"pose", encode(s.body_from_scanner)},
+            {"z_m", s.z_m},
+            {"rate_hz", s.rate_hz},
+            {"step_rad", s.step_rad},
+            {"range_m", s.range_m},
+            {"reflector_radius_m", s.reflector_radius_m},
+            {"sigma_range_m", s.sigma_range_m},
+            {"sigma_bearing_rad", s.sigma_bearing_rad}};
 }
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
@@ -175,6 +193,7 @@ Json encode(const VehicleType& t) {
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
+    if (t.navigation_scanner) json["navigation_scanner"] = encode(*t.navigation_scanner);
     json["usual_code"] = {{"kind", to_string(t.usual_code.kind)}, {"size_m", t.usual_code.size_m}};
     if (t.slip_sensor) json["slip_sensor"] = {{"noise_mps", t.slip_sensor->noise_mps}};
     put_names(json, t.names);
@@ -251,6 +270,7 @@ Json encode_plant(const Plant& plant, PlantForm form) {
                    {"reference_step_m", plant.routing.reference_step_m},
                    {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
     if (!plant.transmitters.empty()) json["transmitters"] = encode_all(plant.transmitters);
+    if (!plant.reflectors.empty()) json["reflectors"] = encode_all(plant.reflectors);
     put_names(json, plant.names);
     return json;
 }

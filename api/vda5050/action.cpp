@@ -5,8 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include "api/vda5050/beacons.hpp"
 #include "api/vda5050/limits.hpp"
-#include "api/vda5050/transmitters.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::vda5050 {
@@ -178,6 +178,7 @@ Json encode_action(const Action& action) {
     if (action.type == kSetTransmitters) {
         object["transmitters"] = transmitters_json(action.transmitters);
     }
+    if (action.type == kSetReflectors) object["reflectors"] = reflectors_json(action.reflectors);
     Json parameters = Json::array();
     for (const auto& [key, value] : object.items()) {
         parameters.push_back({{"key", key}, {"value", value}});
@@ -205,6 +206,8 @@ Action decode_action(const Json& value, const std::string& pointer, json::FieldE
         action.markers = read_markers(read, {1, 64});
     } else if (action.type == kSetTransmitters) {
         action.transmitters = read_transmitters(read);
+    } else if (action.type == kSetReflectors) {
+        action.reflectors = read_reflectors(read);
     } else {
         action.params = plain_parameters(read, parameters.object());
     }

@@ -39,6 +39,7 @@ Json parameters_of(const std::string& action) {
                             parameter("lastNodeId", "STRING", true)});
     }
     if (action == kObserveMarkers) return Json::array({parameter("markers", "ARRAY")});
+    if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});
     if (action == kSetTransmitters) return Json::array({parameter("transmitters", "ARRAY")});
     if (action == kSetBracketHeight) {
         return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER")});

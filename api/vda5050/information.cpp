@@ -75,6 +75,12 @@ Json encode_receiver(const ReceiverReading& reading) {
     return entry("receiver", references);
 }
 
+Json encode_sight(const ReflectorSight& sight) {
+    return entry("reflector", {{"x_m", number_text(sight.place.x_m)},
+                               {"y_m", number_text(sight.place.y_m)},
+                               {"sigma_m", number_text(sight.sigma_m)}});
+}
+
 /// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
 /// then left out, since vehicles may use our type names for something else. A number that cannot be
 /// true is an error of the message.
@@ -175,6 +181,11 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
         keep(state.cameras, decode_camera(in), in);
     } else if (type == "receiver") {
         keep(state.receivers, decode_receiver(in), in);
+    } else if (type == "reflector") {
+        ReflectorSight sight{
+            {in.number("x_m", limits::kOnVehicle_m), in.number("y_m", limits::kOnVehicle_m)},
+            in.number("sigma_m", limits::kSigma_m)};
+        keep(state.reflectors, sight, in);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
@@ -200,6 +211,7 @@ Json encode_information(const StateMessage& state) {
     }
     for (const auto& reading : state.cameras) list.push_back(encode_camera(reading));
     for (const auto& reading : state.receivers) list.push_back(encode_receiver(reading));
+    for (const auto& sight : state.reflectors) list.push_back(encode_sight(sight));
     for (const auto& foot : state.parking_feet) {
         list.push_back(entry(
             "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));

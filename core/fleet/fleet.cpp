@@ -15,10 +15,10 @@
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/beacons.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
-#include "core/fleet/vehicle/transmitters.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/station_news.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
@@ -101,7 +101,7 @@ void Fleet::vehicle_factsheet(const plant::VehicleId& id, const vda5050::Factshe
     if (!live) return;
     live->factsheet = factsheet;
     note_heard(fleet, *live, now);
-    tell_transmitters(fleet, *live, now);
+    tell_beacons(fleet, *live, now);
 }
 
 void Fleet::vehicle_message_refused(const plant::VehicleId& id, const vda5050::VehicleError& error,

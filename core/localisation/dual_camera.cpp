@@ -216,6 +216,8 @@ const char* to_string(Method method) {
             return "dual_camera";
         case Method::kIgps:
             return "igps";
+        case Method::kReflectors:
+            return "reflectors";
     }
     return "";
 }

@@ -46,6 +46,11 @@ ErrorBudget ErrorBudget::harsh() {
     budget.marker.print_m *= kTimes;
     budget.receiver.place_m *= kTimes;
     budget.receiver.clock_s *= kTimes;
+    budget.reflector.mounting_m *= kTimes;
+    budget.reflector.mounting_rad *= kTimes;
+    budget.reflector.clock_s *= kTimes;
+    budget.reflector.remission *= kTimes;
+    budget.reflector.shining_things *= 2;
     budget.slip_sensor.scale *= kTimes;
     return budget;
 }

@@ -76,11 +76,23 @@ struct ReceiverErrors {
     double clock_s = 1e-4;  // of its stamps against the wheels', while it drives
 };
 
+/// Between a navigation scanner and what the vehicle's program holds of it, and what it sees that
+/// is none of its reflectors. Its noise comes with it (plant::NavigationScanner), the survey's
+/// errors with each reflector.
+struct ReflectorErrors {
+    double mounting_m = 5e-4;    // of the scanner in the body, per axis, after calibration
+    double mounting_rad = 3e-4;  // about the plumb line
+    double clock_s = 1e-3;       // of its stamps against the wheels', while it drives
+    double remission = 0.05;     // share: of how bright a ray comes back
+    int shining_things = 2;      // in each hall: bare metal, a safety vest on a hook
+};
+
 struct ErrorBudget {
     DriveErrors drive;
     CameraErrors camera;
     MarkerErrors marker;
     ReceiverErrors receiver;
+    ReflectorErrors reflector;
     SlipSensorErrors slip_sensor;
 
     /// A machine as it comes from assembly: tilt and F from the drawing. What is demanded of stops

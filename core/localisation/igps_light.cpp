@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/base/angle.hpp"
+#include "core/localisation/line_of_sight.hpp"
 
 namespace pulseline::localisation {
 namespace {
@@ -27,21 +28,6 @@ std::optional<double> passing_rad(const plant::LightPlane& sheet, const Eigen::V
     const double azimuth_rad = std::atan2(point.y(), point.x());
     const double normal_rad = std::atan2(sheet.b, sheet.a);
     return within_turn(azimuth_rad - normal_rad - side * std::acos(share));
-}
-
-/// Proper crossing: an end that only touches the other line is none.
-bool cross(Point2 a, Point2 b, Point2 c, Point2 d) {
-    const auto side = [](Point2 from, Point2 to, Point2 p) {
-        return geometry::cross(to - from, p - from);
-    };
-    return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
-}
-
-bool crosses(const geometry::Polygon& ring, Point2 from, Point2 to) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-        if (cross(from, to, ring[i], ring[(i + 1) % ring.size()])) return true;
-    }
-    return false;
 }
 
 }  // namespace
@@ -82,23 +68,14 @@ std::optional<LightAngles> light_on(const plant::Transmitter& transmitter,
     return LightAngles{transmitter.id, *first_rad, *second_rad, {}, {}};
 }
 
-bool sees(const plant::Plant& plant, const plant::Transmitter& transmitter, Point2 point) {
-    const auto* hall = plant::find_hall(plant, transmitter.hall);
-    if (hall == nullptr || crosses(hall->outline, transmitter.position, point)) return false;
-    return std::ranges::none_of(plant.areas, [&](const plant::Area& area) {
-        return area.kind == plant::AreaKind::kObstacle && area.hall == transmitter.hall &&
-               (crosses(area.outline, transmitter.position, point) ||
-                geometry::contains(area.outline, point));
-    });
-}
-
 std::vector<plant::Transmitter> transmitters_in_view(const plant::Plant& plant,
                                                      const plant::HallId& hall,
                                                      const Eigen::Vector3d& point) {
     std::vector<plant::Transmitter> seen;
     for (const auto& transmitter : plant.transmitters) {
         if (transmitter.hall != hall || !light_on(transmitter, point)) continue;
-        if (sees(plant, transmitter, {point.x(), point.y()})) seen.push_back(transmitter);
+        if (in_sight(plant, hall, transmitter.position, {point.x(), point.y()}))
+            seen.push_back(transmitter);
     }
     return seen;
 }

@@ -46,10 +46,6 @@ Eigen::Matrix3d hall_from_head(const plant::Transmitter& transmitter);
 std::optional<LightAngles> light_on(const plant::Transmitter& transmitter,
                                     const Eigen::Vector3d& point);
 
-/// Whether nothing of the plant stands between: obstacles are taken to reach up to the roof, since
-/// the plant does not say how high they are.
-bool sees(const plant::Plant& plant, const plant::Transmitter& transmitter, Point2 point);
-
 /// Of the hall's transmitters those whose light falls on the point.
 std::vector<plant::Transmitter> transmitters_in_view(const plant::Plant& plant,
                                                      const plant::HallId& hall,

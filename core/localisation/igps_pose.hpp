@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/localisation/dual_camera.hpp"
+#include "core/localisation/beacon_fix.hpp"
 #include "core/localisation/error_budget.hpp"
 #include "core/localisation/receiver_fix.hpp"
 
@@ -17,20 +17,10 @@ struct ReceiverLight {
     std::vector<LightAngles> light;
 };
 
-/// Why a receiver or a transmitter was left out of a pose.
-struct LeftOut {
-    std::string name;
-    std::string code;  // as locate_receiver says, or receiver_moved, transmitter_moved
-};
-
-/// Pose of a vehicle by iGPS.
-struct IgpsFix {
-    PoseFix fix;  // payloads: the transmitters it rests on
-    /// The part of the covariance that the next fix has as well: of the transmitters' and the
-    /// receivers' places. Whoever averages fixes does not get below it.
-    CovarianceRows lasting{};
+/// Pose of a vehicle by iGPS. Left out are receivers, as locate_receiver says or receiver_moved,
+/// and transmitters, transmitter_moved.
+struct IgpsFix : BeaconFix {
     double floor_m = 0;  // height of the floor below it, by the receivers' own
-    std::vector<LeftOut> left_out;
 };
 
 struct ReceiverResult {

@@ -188,6 +188,7 @@ std::vector<std::string> instant_action_types(const plant::VehicleType& type) {
         vda5050::kStateRequest,   vda5050::kFactsheetRequest, vda5050::kInitPosition,
         vda5050::kAdjustToMarker, vda5050::kMeasureStop,      vda5050::kStopCharging};
     if (!type.receivers.empty()) types.emplace_back(vda5050::kSetTransmitters);
+    if (type.navigation_scanner) types.emplace_back(vda5050::kSetReflectors);
     return types;
 }
 

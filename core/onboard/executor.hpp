@@ -61,6 +61,8 @@ public:
     bool position_initialized() const { return position_initialized_; }
     /// Of iGPS, by the newest setTransmitters; they stay when the link is lost.
     const std::vector<plant::Transmitter>& transmitters() const { return transmitters_; }
+    /// For its navigation scanner, by the newest setReflectors; they stay the same way.
+    const std::vector<plant::Reflector>& reflectors() const { return reflectors_; }
     const std::string& order_id() const { return order_id_; }
     std::int64_t last_node_sequence_id() const { return last_node_sequence_id_; }
     /// sequenceId of the last released node: the vehicle never drives past it.
@@ -94,6 +96,7 @@ private:
     void abort_actions(const char* why);
     void init_position(const vda5050::Action& action);
     void set_transmitters(const vda5050::Action& action);
+    void set_reflectors(const vda5050::Action& action);
     void instant_stop(const vda5050::Action& action);
     void instant_equipment(const vda5050::Action& action);
 
@@ -134,6 +137,7 @@ private:
     std::vector<std::string> codes_read_before_;  // on the last one with codes
     std::vector<vda5050::VehicleError> errors_;
     std::vector<plant::Transmitter> transmitters_;
+    std::vector<plant::Reflector> reflectors_;
     bool position_initialized_ = false;
     bool driving_ = false;
     bool stopped_ = false;      // by the drive itself

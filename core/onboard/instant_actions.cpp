@@ -69,6 +69,7 @@ void Executor::handle_instant(const Action& action) {
     if (action.type == vda5050::kCancelOrder) return cancel_order(action);
     if (action.type == vda5050::kInitPosition) return init_position(action);
     if (action.type == vda5050::kSetTransmitters) return set_transmitters(action);
+    if (action.type == vda5050::kSetReflectors) return set_reflectors(action);
     if (action.type == vda5050::kMeasureStop || action.type == vda5050::kAdjustToMarker) {
         return instant_stop(action);
     }
@@ -162,6 +163,17 @@ void Executor::set_transmitters(const Action& action) {
     std::ranges::copy_if(
         action.transmitters, std::back_inserter(transmitters_),
         [&](const plant::Transmitter& transmitter) { return transmitter.hall.str() == map_id_; });
+    add_action(action, ActionStatus::kFinished);
+}
+
+void Executor::set_reflectors(const Action& action) {
+    if (!motion_.type().navigation_scanner) {
+        return add_action(action, ActionStatus::kFailed, "this vehicle has no navigation scanner");
+    }
+    reflectors_.clear();
+    std::ranges::copy_if(
+        action.reflectors, std::back_inserter(reflectors_),
+        [&](const plant::Reflector& reflector) { return reflector.hall.str() == map_id_; });
     add_action(action, ActionStatus::kFinished);
 }
 

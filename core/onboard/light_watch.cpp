@@ -1,11 +1,8 @@
 #include "core/onboard/light_watch.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "core/base/square.hpp"
 
 namespace pulseline::onboard {
 namespace {
@@ -16,22 +13,17 @@ using localisation::IgpsFix;
 // A second's worth: more is as good as what the transmitters' own places allow.
 constexpr std::size_t kMostInMean = 25;
 constexpr double kStandingEvery_s = 1;  // from then on: nothing changes but the light
-// Poses by light that contradict the way driven, in a row and all alike: by chance there is not
-// even one.
-constexpr int kBelievedAfter = 5;
-constexpr double kAlike_m = 0.005;
-constexpr double kAlike_rad = 0.003;
-
-bool alike(const geometry::Pose2& a, const geometry::Pose2& b) {
-    return distance(a.position(), b.position()) <= kAlike_m &&
-           std::abs(wrap(a.heading_rad - b.heading_rad)) <= kAlike_rad;
-}
 
 }  // namespace
 
 LightWatch::LightWatch(Receivers& receivers, const Drive& drive, PoseEstimate& estimate,
                        const OdometryTrail& trail, const localisation::ReceiverErrors& errors)
-    : receivers_(receivers), drive_(drive), estimate_(estimate), trail_(trail), errors_(errors) {}
+    : receivers_(receivers),
+      drive_(drive),
+      estimate_(estimate),
+      trail_(trail),
+      correction_(drive, estimate, errors.clock_s),
+      errors_(errors) {}
 
 void LightWatch::step(double dt_s, const std::vector<plant::Transmitter>& transmitters,
                       bool located) {
@@ -56,8 +48,9 @@ void LightWatch::take(const std::vector<ReceiverPulses>& pulses,
         return;
     }
     why_not_.reset();
-    blur(seen->fix);
-    if (located) correct(*seen);
+    correction_.blur(seen->fix);
+    if (located && correction_.take(*seen, seen_ago_s_) == BeaconCorrection::Taken::kBegunAnew)
+        since_standing_.clear();
     if (drive_.standing() && since_standing_.size() < kMostInMean) since_standing_.push_back(*seen);
     newest_ = std::move(*seen);
 }
@@ -93,45 +86,6 @@ Point2 LightWatch::way_since(const plant::Receiver& receiver, double pulse_s) co
     const Point2 then = trail_.now_from_then(std::max(0.0, -pulse_s)) * receiver.position;
     const geometry::Pose2 turned{0, 0, estimate_.pose().heading_rad};
     return turned * (receiver.position - then);
-}
-
-/// Stamps of receivers and wheels do not quite agree, and meanwhile the vehicle drives.
-void LightWatch::blur(localisation::PoseFix& fix) const {
-    const kinematics::Twist twist = drive_.twist();
-    const Point2 off =
-        geometry::Pose2{0, 0, fix.pose.heading_rad} * Point2{twist.vx_mps, twist.vy_mps};
-    const Eigen::Vector3d error = errors_.clock_s / drive_.time_factor() *
-                                  Eigen::Vector3d(off.x_m, off.y_m, twist.turn_radps);
-    set_covariance(fix, localisation::matrix(fix.covariance) + error * error.transpose());
-}
-
-/// Of the way that the wheels have told since the sheets passed.
-Eigen::Matrix3d LightWatch::odometry_since(double heading_rad) const {
-    const kinematics::Twist twist = drive_.twist();
-    const double way_m =
-        std::hypot(twist.vx_mps, twist.vy_mps) / drive_.time_factor() * seen_ago_s_;
-    const auto& noise = estimate_.noise();
-    const Eigen::Vector3d variance(square(noise.forward_m_per_sqrt_m) * way_m,
-                                   square(noise.left_m_per_sqrt_m) * way_m,
-                                   square(noise.heading_rad_per_sqrt_m) * way_m);
-    const Eigen::AngleAxisd turned(heading_rad, Eigen::Vector3d::UnitZ());
-    return turned.toRotationMatrix() * variance.asDiagonal() *
-           turned.toRotationMatrix().transpose();
-}
-
-void LightWatch::correct(const IgpsFix& seen) {
-    if (estimate_.see(seen, odometry_since(seen.fix.pose.heading_rad))) {
-        refused_ = 0;
-        return;
-    }
-    // The way driven since moves both alike, so that the same contradiction stays the same.
-    const geometry::Pose2 off = inverse(estimate_.pose()) * seen.fix.pose;
-    refused_ = refused_ > 0 && alike(off, refused_by_) ? refused_ + 1 : 1;
-    refused_by_ = off;
-    if (refused_ < kBelievedAfter) return;
-    estimate_.restart_at(seen);
-    since_standing_.clear();
-    refused_ = 0;
 }
 
 void LightWatch::tell(const std::vector<localisation::ReceiverLight>& light,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/localisation/igps_pose.hpp"
+#include "core/onboard/beacon_correction.hpp"
 #include "core/onboard/drive.hpp"
 #include "core/onboard/odometry_trail.hpp"
 #include "core/onboard/pose_estimate.hpp"
@@ -14,10 +15,8 @@
 namespace pulseline::onboard {
 
 /// Light of iGPS corrects the pose that the vehicle steers by, each time the receivers tell of it,
-/// standing and driving (Wang, section 4). What contradicts the way driven is refused, unless it
-/// keeps saying the same: then the wheels have slipped, for receivers and transmitters check each
-/// other. MarkerWatch leads the drive to the corrected pose. Thread safety: none. No
-/// clock: time passes by step().
+/// standing and driving (Wang, section 4), as BeaconCorrection says. Thread safety: none. No clock:
+/// time passes by step().
 class LightWatch {
 public:
     /// All must outlive it.
@@ -45,25 +44,21 @@ private:
               const std::vector<plant::Transmitter>& transmitters, bool located);
     std::vector<localisation::ReceiverLight> light_of(const std::vector<ReceiverPulses>& pulses);
     geometry::Point2 way_since(const plant::Receiver& receiver, double pulse_s) const;
-    void blur(localisation::PoseFix& fix) const;
-    Eigen::Matrix3d odometry_since(double heading_rad) const;
-    void correct(const localisation::IgpsFix& seen);
     void tell(const std::vector<localisation::ReceiverLight>& light,
               const std::vector<localisation::ReceiverResult>& results);
 
     Receivers& receivers_;
     const Drive& drive_;
-    PoseEstimate& estimate_;
+    const PoseEstimate& estimate_;
     const OdometryTrail& trail_;
+    BeaconCorrection correction_;
     localisation::ReceiverErrors errors_;
     std::vector<vda5050::ReceiverReading> readings_;
     std::optional<localisation::IgpsFix> newest_;
     std::vector<localisation::IgpsFix> since_standing_;
     std::optional<Error> why_not_;
-    int refused_ = 0;             // in a row, all alike
-    geometry::Pose2 refused_by_;  // off the pose that the way driven gives
-    double seen_ago_s_ = 0;       // when the sheets passed, the last time on average
-    double waited_s_ = 0;         // own time, since the receivers were asked
+    double seen_ago_s_ = 0;  // when the sheets passed, the last time on average
+    double waited_s_ = 0;    // own time, since the receivers were asked
 };
 
 }  // namespace pulseline::onboard

@@ -54,8 +54,16 @@ void PoseEstimate::rest(double speed_share) {
     filter_.rest(speed_share);
 }
 
+/// Codes do not share what beacons have in common: against them all of it counts.
+localisation::PoseFilter PoseEstimate::against_codes() const {
+    localisation::PoseFilter filter = filter_;
+    filter.blur(lasting_);
+    return filter;
+}
+
 void PoseEstimate::take(const localisation::PoseFix& fix) {
     catch_up();
+    filter_ = against_codes();
     lasting_.setZero();
     if (!filter_.correct(fix)) filter_.restart(fix.pose, localisation::matrix(fix.covariance));
     driven_ = now_ = fix.pose;
@@ -64,21 +72,34 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
-    const Status corrected = filter_.correct(seen, code);
-    if (corrected) lasting_.setZero();
-    return corrected;
+    localisation::PoseFilter filter = against_codes();
+    const Status corrected = filter.correct(seen, code);
+    if (!corrected) return corrected;
+    filter_ = filter;
+    lasting_.setZero();
+    return {};
 }
 
-Status PoseEstimate::see(const localisation::IgpsFix& seen, const Eigen::Matrix3d& since) {
+/// By codes, and not so long ago that beacons, however often they are seen, would know it better.
+bool PoseEstimate::knows_better_than(const Eigen::Matrix3d& lasting) const {
+    if (!lasting_.isZero()) return false;
+    const Eigen::Matrix3d known = filter_.covariance();
+    return known(0, 0) + known(1, 1) < lasting(0, 0) + lasting(1, 1) && known(2, 2) < lasting(2, 2);
+}
+
+Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matrix3d& since) {
     catch_up();
-    const Status corrected = filter_.correct(seen.fix, localisation::matrix(seen.lasting));
-    if (!corrected) return corrected;
-    lasting_ = localisation::matrix(seen.lasting);
+    const Eigen::Matrix3d lasting = localisation::matrix(seen.lasting);
+    localisation::PoseFilter filter = filter_;
+    const Status corrected = filter.correct(seen.fix, lasting);
+    if (!corrected || knows_better_than(lasting)) return corrected;
+    filter_ = filter;
+    lasting_ = lasting;
     filter_.blur(since);
     return {};
 }
 
-void PoseEstimate::restart_at(const localisation::IgpsFix& seen) {
+void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
     lasting_ = localisation::matrix(seen.lasting);
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/localisation/igps_pose.hpp"
+#include "core/localisation/beacon_fix.hpp"
 #include "core/localisation/pose_filter.hpp"
 
 namespace pulseline::onboard {
@@ -19,13 +19,14 @@ public:
     /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
     /// the pose alone, when it contradicts the way driven.
     Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
-    /// A pose by iGPS, of where the vehicle is now; seen some centimetres ago, which the wheels
+    /// A pose by beacons, of where the vehicle is now; seen some centimetres ago, which the wheels
     /// have told since with errors of `since`. The filter's own way has the same errors, so that
-    /// this fix cannot take them away. Fails as the other one.
-    Status see(const localisation::IgpsFix& seen,
+    /// this fix cannot take them away. One that codes have told better than beacons ever could is
+    /// only checked by it. Fails as the other one.
+    Status see(const localisation::BeaconFix& seen,
                const Eigen::Matrix3d& since = Eigen::Matrix3d::Zero());
-    /// It stands where iGPS puts it, whatever its odometry says.
-    void restart_at(const localisation::IgpsFix& seen);
+    /// It is where beacons put it, whatever its odometry says.
+    void restart_at(const localisation::BeaconFix& seen);
     /// Without a motion, the drive believes to be here from now on.
     void led_to(const geometry::Pose2& believed);
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
@@ -46,10 +47,12 @@ public:
 
 private:
     void catch_up();
+    localisation::PoseFilter against_codes() const;
+    bool knows_better_than(const Eigen::Matrix3d& lasting) const;
 
     localisation::OdometryNoise noise_;
     localisation::PoseFilter filter_;
-    /// Of the last pose by iGPS: what all of them have in common, the filter does not count.
+    /// Of the last pose by beacons: what all of them have in common, the filter does not count.
     Eigen::Matrix3d lasting_ = Eigen::Matrix3d::Zero();
     geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
     geometry::Pose2 now_;     // by the drive's belief

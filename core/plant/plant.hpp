@@ -28,6 +28,7 @@ using AreaId = Key<struct AreaTag>;
 using VehicleTypeId = Key<struct VehicleTypeTag>;
 using VehicleId = Key<struct VehicleTag>;
 using TransmitterId = Key<struct TransmitterTag>;
+using ReflectorId = Key<struct ReflectorTag>;
 
 /// How a vehicle travels one leg. kAuto asks the planner to choose. kOblique
 /// keeps the heading on the way and turns at its end, kCombined turns on the way (Wang's oblique
@@ -133,6 +134,15 @@ struct Transmitter {
     double sigma_turn_rad = 3e-6;
 };
 
+/// An upright cylinder of reflecting sheet on a wall or a post. To a laser scanner it is far
+/// brighter than anything else (Li 2022, section 5.1: "NAV350 with reflectors").
+struct Reflector {
+    ReflectorId id;
+    HallId hall;
+    Point2 position;         // of its axis, hall frame
+    double sigma_m = 0.001;  // of its survey, per axis
+};
+
 struct Area {
     AreaId id;
     AreaKind kind = AreaKind::kZone;
@@ -180,6 +190,20 @@ struct Receiver {
     double z_m = 0.6;  // above the floor
 };
 
+/// A laser scanner that looks all round for reflectors, from above what drives about. As the
+/// NAV350's data sheet has it, unless the plant says otherwise.
+struct NavigationScanner {
+    Pose2 body_from_scanner;  // from calibration
+    double z_m = 2.0;         // above the floor
+    double rate_hz = 8;       // turns a second
+    double step_rad = 0.25 * 3.14159265358979323846 / 180;
+    double range_m = 70;                // at which it still knows a reflector
+    double reflector_radius_m = 0.040;  // all of its hall are alike
+    // One sigma, of one ray that is full of reflector.
+    double sigma_range_m = 0.008;
+    double sigma_bearing_rad = 2e-4;
+};
+
 struct Bracket {
     std::string name;  // "front left"
     Point2 position;   // body frame
@@ -224,6 +248,7 @@ struct VehicleType {
     std::vector<Wheel> wheels;
     std::vector<Camera> cameras;
     std::vector<Receiver> receivers;  // of iGPS; none: it does not navigate by it
+    std::optional<NavigationScanner> navigation_scanner = {};  // none: not by reflectors
     UsualCode usual_code;
     std::optional<SlipSensor> slip_sensor;  // none: nobody sees a wheel that slips alone
     std::vector<Bracket> brackets;
@@ -285,6 +310,7 @@ struct Plant {
     std::vector<Station> stations;
     std::vector<Marker> markers;
     std::vector<Transmitter> transmitters;
+    std::vector<Reflector> reflectors;
     std::vector<Area> areas;
     std::vector<VehicleType> vehicle_types;
     std::vector<Vehicle> vehicles;

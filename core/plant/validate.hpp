@@ -16,8 +16,9 @@ struct Fault {
 
 /// Every fault of the plant, not just the first: duplicate or dangling keys, stations outside their
 /// hall or on an obstacle, a home too small for its vehicle, markers that the cameras of a vehicle
-/// standing at the station cannot see, transmitters that receivers cannot tell apart, too few of
-/// them for a vehicle that has receivers, unreachable stations, non-finite numbers, bad limits.
+/// standing at the station cannot see, transmitters or reflectors that cannot be told apart, too
+/// few of them for a vehicle that navigates by them, unreachable stations, non-finite numbers, bad
+/// limits.
 std::vector<Fault> validate(const Plant& plant);
 
 }  // namespace pulseline::plant

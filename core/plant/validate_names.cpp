@@ -200,6 +200,7 @@ void check_names(const Plant& plant, const Index& index, Faults& faults) {
     check_ids(plant.stations, "stations", faults);
     check_ids(plant.markers, "markers", faults);
     check_ids(plant.transmitters, "transmitters", faults);
+    check_ids(plant.reflectors, "reflectors", faults);
     check_ids(plant.areas, "areas", faults);
     check_ids(plant.vehicle_types, "vehicle_types", faults);
     check_ids(plant.vehicles, "vehicles", faults);
@@ -208,6 +209,10 @@ void check_names(const Plant& plant, const Index& index, Faults& faults) {
     for (std::size_t i = 0; i < plant.transmitters.size(); ++i) {
         check_reference(index.halls, plant.transmitters[i].hall, at("transmitters", i, "/hall"),
                         "hall", faults);
+    }
+    for (std::size_t i = 0; i < plant.reflectors.size(); ++i) {
+        check_reference(index.halls, plant.reflectors[i].hall, at("reflectors", i, "/hall"), "hall",
+                        faults);
     }
     for (std::size_t i = 0; i < plant.areas.size(); ++i) {
         check_reference(index.halls, plant.areas[i].hall, at("areas", i, "/hall"), "hall", faults);

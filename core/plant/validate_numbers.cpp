@@ -57,6 +57,24 @@ void check_camera(const Camera& c, Numbers n) {
     n.positive("/loaded/height_m", c.loaded->height_m);
 }
 
+constexpr double kLeastStep_rad = 0.01 * kPi / 180;
+constexpr double kMostStep_rad = 5 * kPi / 180;
+
+void check_navigation_scanner(const NavigationScanner& s, Numbers n) {
+    n.pose("/pose", s.body_from_scanner);
+    n.positive("/z_m", s.z_m);
+    n.positive("/rate_hz", s.rate_hz);
+    n.positive("/range_m", s.range_m);
+    n.positive("/reflector_radius_m", s.reflector_radius_m);
+    n.positive("/sigma_range_m", s.sigma_range_m);
+    n.positive("/sigma_bearing_rad", s.sigma_bearing_rad);
+    if (n.finite("/step_rad", s.step_rad) &&
+        (s.step_rad < kLeastStep_rad || s.step_rad > kMostStep_rad)) {
+        n.fault("/step_rad", "scanner_step", "No laser scanner has such a step between its rays.",
+                "Write the step of its data sheet, between 0.01 and 5 degrees.");
+    }
+}
+
 void check_type(const VehicleType& t, const std::string& element, Faults& faults) {
     Numbers n(element, faults);
     n.positive("/max_speed_mps", t.max_speed_mps);
@@ -96,6 +114,9 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
         Numbers receiver(element + "/receivers/" + std::to_string(i), faults);
         receiver.point("/position", t.receivers[i].position);
         receiver.positive("/z_m", t.receivers[i].z_m);
+    }
+    if (t.navigation_scanner) {
+        check_navigation_scanner(*t.navigation_scanner, {element + "/navigation_scanner", faults});
     }
     for (std::size_t i = 0; i < t.brackets.size(); ++i) {
         Numbers(element + "/brackets/" + std::to_string(i), faults)
@@ -181,6 +202,11 @@ void check_numbers(const Plant& plant, Faults& faults) {
     }
     for (std::size_t i = 0; i < plant.transmitters.size(); ++i) {
         check_transmitter(plant.transmitters[i], at("transmitters", i), faults);
+    }
+    for (std::size_t i = 0; i < plant.reflectors.size(); ++i) {
+        Numbers n(at("reflectors", i), faults);
+        n.point("/position", plant.reflectors[i].position);
+        n.positive("/sigma_m", plant.reflectors[i].sigma_m);
     }
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         check_type(plant.vehicle_types[i], at("vehicle_types", i), faults);

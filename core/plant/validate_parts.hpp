@@ -56,6 +56,8 @@ void check_stations(const Plant& plant, const Index& index, Faults& faults);
 /// Transmitters where they can be told apart, and enough of them and of receivers for a pose. Needs
 /// sound numbers and outlines.
 void check_igps(const Plant& plant, const Index& index, Faults& faults);
+/// Reflectors where a scanner can tell them apart, and enough of them. Needs the same.
+void check_reflectors(const Plant& plant, const Index& index, Faults& faults);
 /// Nodes, edges, and stations to be reached over them.
 void check_roadmap(const Plant& plant, const Index& index, Faults& faults);
 

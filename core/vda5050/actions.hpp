@@ -17,6 +17,9 @@ inline constexpr const char* kInitPosition = "initPosition";
 // layer of Wang, section 2, which all share; what a receiver measures by it is the task layer.
 inline constexpr const char* kSetTransmitters = "setTransmitters";
 
+// Of vehicles with a navigation scanner: where the reflectors of their hall stand.
+inline constexpr const char* kSetReflectors = "setReflectors";
+
 // Standing at a node.
 inline constexpr const char* kMeasureStop = "measureStop";
 inline constexpr const char* kAdjustToMarker = "adjustToMarker";

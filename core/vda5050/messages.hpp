@@ -55,6 +55,7 @@ struct Action {
     Params params;                              // any further plain parameters
     std::vector<SurveyedMarker> markers = {};   // observeMarkers: codes that the cameras pass over
     std::vector<plant::Transmitter> transmitters = {};  // setTransmitters: all of its hall
+    std::vector<plant::Reflector> reflectors = {};      // setReflectors: the same
 };
 
 struct OrderNode {
@@ -161,6 +162,12 @@ struct ReceiverReading {
     std::string why_not;                    // when not found
 };
 
+/// A reflector as a navigation scanner sees it; which one it is, nobody has said.
+struct ReflectorSight {
+    geometry::Point2 place;  // of its axis, body frame
+    double sigma_m = 0;      // per axis
+};
+
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
@@ -203,6 +210,7 @@ struct StateMessage {
     std::vector<WheelStatus> wheels;
     std::vector<CameraReading> cameras;
     std::vector<ReceiverReading> receivers;
+    std::vector<ReflectorSight> reflectors;  // the nearest
     std::vector<ParkingFoot> parking_feet;
     double load_kg = 0;
 };

@@ -123,6 +123,37 @@ std::vector<plant::Receiver> receivers_from_json(const std::string& text) {
     });
 }
 
+std::string scanner_to_json(const std::optional<plant::NavigationScanner>& scanner) {
+    if (!scanner) return "null";
+    const plant::Pose2& at = scanner->body_from_scanner;
+    return Json{{"x_m", number(at.x_m)},
+                {"y_m", number(at.y_m)},
+                {"heading_rad", number(at.heading_rad)},
+                {"z_m", number(scanner->z_m)},
+                {"rate_hz", number(scanner->rate_hz)},
+                {"step_rad", number(scanner->step_rad)},
+                {"range_m", number(scanner->range_m)},
+                {"reflector_radius_m", number(scanner->reflector_radius_m)},
+                {"sigma_range_m", number(scanner->sigma_range_m)},
+                {"sigma_bearing_rad", number(scanner->sigma_bearing_rad)}}
+        .dump();
+}
+std::optional<plant::NavigationScanner> scanner_from_json(const std::string& text) {
+    const auto scanners = list_from_json<plant::NavigationScanner>(
+        "[" + (text == "null" ? "" : text) + "]", [](const Json& j) {
+            return plant::NavigationScanner{{j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+                                            j.at("z_m"),
+                                            j.at("rate_hz"),
+                                            j.at("step_rad"),
+                                            j.at("range_m"),
+                                            j.at("reflector_radius_m"),
+                                            j.at("sigma_range_m"),
+                                            j.at("sigma_bearing_rad")};
+        });
+    if (scanners.empty()) return std::nullopt;
+    return scanners.front();
+}
+
 std::string brackets_to_json(const std::vector<plant::Bracket>& brackets) {
     return list_to_json(brackets, [](const plant::Bracket& b) {
         return Json{{"name", b.name}, {"position", encode(b.position)}};

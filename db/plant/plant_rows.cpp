@@ -82,6 +82,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     wheels = wheels_to_json(type.wheels);
     cameras = cameras_to_json(type.cameras);
     receivers = receivers_to_json(type.receivers);
+    navigation_scanner = scanner_to_json(type.navigation_scanner);
     brackets = brackets_to_json(type.brackets);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
@@ -102,6 +103,7 @@ plant::VehicleType VehicleTypeRow::get() const {
     type.wheels = wheels_from_json(wheels);
     type.cameras = cameras_from_json(cameras);
     type.receivers = receivers_from_json(receivers);
+    type.navigation_scanner = scanner_from_json(navigation_scanner);
     type.brackets = brackets_from_json(brackets);
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();
@@ -136,6 +138,19 @@ plant::Transmitter TransmitterRow::get() const {
     transmitter.id = plant::TransmitterId(id);
     transmitter.hall = plant::HallId(hall);
     return transmitter;
+}
+
+void ReflectorRow::set(const plant::Reflector& reflector) {
+    element = reflector;
+    id = reflector.id.str();
+    hall = reflector.hall.str();
+}
+
+plant::Reflector ReflectorRow::get() const {
+    plant::Reflector reflector = element;
+    reflector.id = plant::ReflectorId(id);
+    reflector.hall = plant::HallId(hall);
+    return reflector;
 }
 
 void AreaRow::set(const plant::Area& area) {

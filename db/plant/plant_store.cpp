@@ -11,8 +11,9 @@ namespace {
 constexpr const char* kRevision = "SELECT COALESCE(MAX(revision), 0) FROM plant";
 constexpr const char* kReadGrid = "SELECT grid FROM halls WHERE position = :position";
 // Later tables refer to earlier ones.
-constexpr const char* kTables[] = {"plant",   "halls",        "nodes", "edges",    "vehicle_types",
-                                   "markers", "transmitters", "areas", "stations", "vehicles"};
+constexpr const char* kTables[] = {"plant",         "halls",    "nodes",        "edges",
+                                   "vehicle_types", "markers",  "transmitters", "reflectors",
+                                   "areas",         "stations", "vehicles"};
 
 template <class Row, class T>
 void write_all(soci::session& sql, const std::vector<T>& elements) {
@@ -90,6 +91,7 @@ std::optional<plant::Plant> read_plant(soci::session& sql) {
     read_all<VehicleTypeRow>(sql, plant.vehicle_types);
     read_all<MarkerRow>(sql, plant.markers);
     read_all<TransmitterRow>(sql, plant.transmitters);
+    read_all<ReflectorRow>(sql, plant.reflectors);
     read_all<AreaRow>(sql, plant.areas);
     read_all<StationRow>(sql, plant.stations);
     read_all<PlantVehicleRow>(sql, plant.vehicles);
@@ -135,6 +137,7 @@ std::int64_t PlantStore::import(const plant::Plant& plant) {
         write_all<VehicleTypeRow>(sql, plant.vehicle_types);
         write_all<MarkerRow>(sql, plant.markers);
         write_all<TransmitterRow>(sql, plant.transmitters);
+        write_all<ReflectorRow>(sql, plant.reflectors);
         write_all<AreaRow>(sql, plant.areas);
         write_all<StationRow>(sql, plant.stations);
         write_all<PlantVehicleRow>(sql, plant.vehicles);

@@ -150,7 +150,8 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, obstacle=X,Y or way-free, each with @SECONDS "
+                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y or way-free, "
+                "each with @SECONDS "
                 "or without");
     };
     Fault fault;
@@ -165,6 +166,7 @@ Result<Fault> parse_fault(const std::string& text) {
     }
     for (const auto& [name, kind] : {std::pair{"marker-lost", Fault::Kind::kMarkerLost},
                                      std::pair{"camera-dark", Fault::Kind::kDark},
+                                     std::pair{"scanner-covered", Fault::Kind::kScannerCovered},
                                      std::pair{"way-free", Fault::Kind::kWayFree}}) {
         if (what != name) continue;
         fault.kind = kind;
@@ -266,7 +268,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
     app.add_option("--fault", raw.faults,
                    "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
                    "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
-                   "transmitter-dark=NAME@SECONDS, obstacle=X,Y@SECONDS, way-free@SECONDS");
+                   "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
+                   "way-free@SECONDS");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

@@ -32,7 +32,8 @@ struct Fault {
         kDark,
         kObstacle,
         kWayFree,
-        kTransmitterDark
+        kTransmitterDark,
+        kScannerCovered
     };
     Kind kind = Kind::kWheel;
     std::string part;        // the wheel, or the transmitter

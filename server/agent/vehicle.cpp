@@ -123,6 +123,13 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
         light_.emplace(*receivers_, *drive_, estimate_, watch_.trail(), world.errors.receiver);
         stop_senses_.use(*light_);
     }
+    if (type_.navigation_scanner) {
+        navigation_scanner_.emplace(
+            world, hall_, type_, drive_->true_pose(),
+            simulation::seed_for(settings.seed, "navigation scanner " + vehicle.id.str()));
+        reflectors_.emplace(*navigation_scanner_, *drive_, estimate_, watch_.trail(),
+                            world.errors.reflector);
+    }
     if (settings.servo_drive) {
         scanners_.emplace(world, hall_, type_, drive_->true_pose(),
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
@@ -192,10 +199,13 @@ void Vehicle::know_pose(double dt_s) {
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
     state_due_ |= refused != watch_.refused();
-    if (!light_) return;
-    const bool lit = light_->newest().has_value();
-    light_->step(dt_s, executor_.transmitters(), executor_.position_initialized());
-    state_due_ |= lit != light_->newest().has_value();
+    const bool located = executor_.position_initialized();
+    if (light_) {
+        const bool lit = light_->newest().has_value();
+        light_->step(dt_s, executor_.transmitters(), located);
+        state_due_ |= lit != light_->newest().has_value();
+    }
+    if (reflectors_) reflectors_->step(dt_s, executor_.reflectors(), located);
 }
 
 void Vehicle::note_rest() {
@@ -210,6 +220,7 @@ void Vehicle::note_rest() {
 
 void Vehicle::see(simulation::SimulatedScanners::Neighbours neighbours) {
     if (receivers_) receivers_->see(neighbours);
+    if (navigation_scanner_) navigation_scanner_->see(neighbours);
     if (scanners_) scanners_->see(std::move(neighbours));
 }
 
@@ -248,6 +259,9 @@ void Vehicle::apply(const Fault& fault) {
             return;
         case Fault::Kind::kTransmitterDark:
             if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));
+            return;
+        case Fault::Kind::kScannerCovered:
+            if (navigation_scanner_) navigation_scanner_->cover();
             return;
         case Fault::Kind::kWheel:
             body_.break_wheel(fault.part);

@@ -14,8 +14,10 @@
 #include "core/onboard/look_out.hpp"
 #include "core/onboard/marker_watch.hpp"
 #include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/reflector_watch.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/receivers.hpp"
 #include "core/simulation/world/scanners.hpp"
 #include "core/simulation/world/world.hpp"
@@ -92,6 +94,7 @@ private:
     void know_pose(double dt_s);
     double most_step_s() const;
     void write_light(vda5050::StateMessage& state) const;
+    void write_reflectors(vda5050::StateMessage& state) const;
     void note_rest();
     void look_while_standing(Steady::time_point now);
     void apply_faults(double dt_s);
@@ -118,6 +121,8 @@ private:
     onboard::MarkerWatch watch_;
     std::optional<simulation::SimulatedReceivers> receivers_;  // of a type that has them
     std::optional<onboard::LightWatch> light_;                 // with receivers
+    std::optional<simulation::SimulatedNavigationScanner> navigation_scanner_;  // the same
+    std::optional<onboard::ReflectorWatch> reflectors_;                         // with it
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;

@@ -38,6 +38,7 @@ vda5050::StateMessage Vehicle::state() {
                                 {{"marker", code}}});
     }
     if (light_) write_light(state);
+    if (reflectors_) write_reflectors(state);
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();
@@ -56,6 +57,22 @@ void Vehicle::write_light(vda5050::StateMessage& state) const {
         state.errors.push_back({"lightRefused",
                                 false,
                                 out.name + " is left out: " + out.code + ".",
+                                {{"part", out.name}, {"why", out.code}}});
+    }
+}
+
+void Vehicle::write_reflectors(vda5050::StateMessage& state) const {
+    state.reflectors = reflectors_->sights();
+    const auto& why_not = reflectors_->why_not();
+    if (why_not && type_.cameras.empty() && !light_) {
+        state.errors.push_back(
+            {"reflectorsLost", false, why_not->what, {{"why", why_not->reason.code}}});
+    }
+    if (!reflectors_->newest()) return;
+    for (const auto& out : reflectors_->newest()->left_out) {
+        state.errors.push_back({"reflectorRefused",
+                                false,
+                                "Reflector " + out.name + " does not stand where the survey says.",
                                 {{"part", out.name}, {"why", out.code}}});
     }
 }

@@ -7,6 +7,7 @@
 #include "api/plant/plant_file.hpp"
 #include "core/localisation/igps_pose.hpp"
 #include "core/localisation/pose_filter.hpp"
+#include "core/localisation/reflector_pose.hpp"
 
 namespace {
 
@@ -78,6 +79,59 @@ void igps_fix(benchmark::State& state) {
     state.counters["beams"] = static_cast<double>(beams);
 }
 BENCHMARK(igps_fix);
+
+/// The measuring hall, and what a navigation scanner sees of its reflectors from the middle.
+struct Hall {
+    Hall() {
+        auto loaded = api::plant_file::load_plant_file(PULSELINE_PLANTS "/measuring-hall.json");
+        if (!loaded) throw std::runtime_error(loaded.error().what);
+        plant = std::move(*loaded);
+        scanner = *plant.vehicle_types.front().navigation_scanner;
+        const auto scanner_from_hall = inverse(pose * scanner.body_from_scanner);
+        for (const auto& one :
+             localisation::reflectors_in_view(plant, plant.halls.front().id, scanner, pose)) {
+            const auto at = scanner_from_hall * one.position;
+            auto sight = localisation::expected_sight(scanner, std::hypot(at.x_m, at.y_m));
+            sight.range_m = std::hypot(at.x_m, at.y_m);
+            sight.bearing_rad = std::atan2(at.y_m, at.x_m);
+            seen.push_back(localisation::seen_reflector(sight, scanner));
+        }
+    }
+    const geometry::Pose2 pose{22, 14.5, 0.3};
+    plant::Plant plant;
+    plant::NavigationScanner scanner;
+    std::vector<localisation::SeenReflector> seen;
+};
+
+const Hall& hall() {
+    static const Hall kHall;
+    return kHall;
+}
+
+/// One turn of the scanner near a believed pose.
+void reflector_fix(benchmark::State& state) {
+    const Eigen::Vector3d variance(1e-4, 1e-4, 1e-5);
+    for (auto _ : state) {
+        auto fix =
+            localisation::locate_by_reflectors(hall().seen, hall().plant.reflectors, hall().scanner,
+                                               {hall().pose, variance.asDiagonal()});
+        if (!fix) throw std::runtime_error(fix.error().what);
+        benchmark::DoNotOptimize(fix);
+    }
+    state.counters["reflectors"] = static_cast<double>(hall().seen.size());
+}
+BENCHMARK(reflector_fix);
+
+/// Once, by a vehicle that knows nothing.
+void reflectors_found(benchmark::State& state) {
+    for (auto _ : state) {
+        auto fix =
+            localisation::find_by_reflectors(hall().seen, hall().plant.reflectors, hall().scanner);
+        if (!fix) throw std::runtime_error(fix.error().what);
+        benchmark::DoNotOptimize(fix);
+    }
+}
+BENCHMARK(reflectors_found);
 
 }  // namespace
 

@@ -127,6 +127,42 @@ TEST(PlantStore, KeepsEveryFieldOfTransmittersAndReceivers) {
     EXPECT_EQ(kept.vehicle_types[0].receivers[1].name, "nose");
 }
 
+TEST(PlantStore, KeepsEveryFieldOfReflectorsAndScanners) {
+    Database database(":memory:");
+    plant::Plant plant = demo("measuring-hall");
+    plant.reflectors.resize(2);
+    plant.reflectors[1] = {plant::ReflectorId("other"), plant::HallId("hall"), {1.1, 2.2}, 0.0033};
+    plant.vehicle_types[0].navigation_scanner =
+        plant::NavigationScanner{{-0.7, 0.1, 0.2}, 1.9, 9, 0.005, 55, 0.03, 0.007, 1.5e-4};
+    PlantStore(database).import(plant);
+
+    const plant::Plant kept = PlantStore(database).load().value();
+    ASSERT_EQ(kept.reflectors.size(), 2u);
+    EXPECT_EQ(kept.reflectors[0].id, plant.reflectors[0].id);
+    EXPECT_EQ(kept.reflectors[1].id.str(), "other");
+    EXPECT_EQ(kept.reflectors[1].hall.str(), "hall");
+    EXPECT_EQ(kept.reflectors[1].position, (geometry::Point2{1.1, 2.2}));
+    EXPECT_EQ(kept.reflectors[1].sigma_m, 0.0033);
+    const auto& scanner = kept.vehicle_types[0].navigation_scanner;
+    ASSERT_TRUE(scanner);
+    EXPECT_EQ(scanner->body_from_scanner, (geometry::Pose2{-0.7, 0.1, 0.2}));
+    EXPECT_EQ(scanner->z_m, 1.9);
+    EXPECT_EQ(scanner->rate_hz, 9);
+    EXPECT_EQ(scanner->step_rad, 0.005);
+    EXPECT_EQ(scanner->range_m, 55);
+    EXPECT_EQ(scanner->reflector_radius_m, 0.03);
+    EXPECT_EQ(scanner->sigma_range_m, 0.007);
+    EXPECT_EQ(scanner->sigma_bearing_rad, 1.5e-4);
+
+    PlantStore(database).import(demo("pulse-line"));
+    EXPECT_FALSE(PlantStore(database).load()->vehicle_types[0].navigation_scanner);
+    for (const std::string damaged : {"[", "{}", "{\"x_m\":1}"}) {
+        database.sql() << "UPDATE vehicle_types SET navigation_scanner = :damaged",
+            soci::use(damaged);
+        EXPECT_THROW(PlantStore(database).load(), Error) << damaged;
+    }
+}
+
 TEST(PlantStore, DamagedReceiversAreAnError) {
     Database database(":memory:");
     PlantStore store(database);

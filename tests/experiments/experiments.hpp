@@ -26,8 +26,13 @@ bool landmark_accuracy(const Options& options);
 bool stop_adjustment(const Options& options);
 
 /// Li 2022, eq. 4 and 5: drives of 200 m by odometry alone, over codes at the spacing that is
-/// computed for the type, and by iGPS. False when a code is missed, or a drive ends too far off.
+/// computed for the type, by iGPS and by reflectors. False when a code is missed, or a drive ends
+/// too far off.
 bool navigation(const Options& options);
+
+/// Li 2022, section 5.1, Table 1: where a measuring vehicle believes to stand over four markers, by
+/// them and by reflectors. False when it is worse than Li's, or a stated sigma does not hold.
+bool self_positioning(const Options& options);
 
 /// Wang, section 5: stops at one place of the iGPS cell, steered and measured by light alone; what
 /// is left when transmitters fail; how well the light tells a pose over the whole cell. False when

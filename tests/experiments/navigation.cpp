@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <set>
 #include <stdexcept>
@@ -15,7 +16,9 @@
 #include "core/localisation/codes_on_way.hpp"
 #include "core/onboard/light_watch.hpp"
 #include "core/onboard/marker_watch.hpp"
+#include "core/onboard/reflector_watch.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
+#include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/receivers.hpp"
 #include "server/agent/camera_sensing.hpp"
 #include "tests/experiments/experiments.hpp"
@@ -58,7 +61,7 @@ struct Drive {
     double beside_m = 0;  // of its line, at the end
 };
 
-enum class Method { kOdometry, kCodes, kLight };
+enum class Method { kOdometry, kCodes, kLight, kReflectors };
 
 /// Transmitters on both sides of the way, as they stand in a hall.
 void set_up_transmitters(plant::Plant& plant) {
@@ -77,14 +80,30 @@ void set_up_transmitters(plant::Plant& plant) {
     }
 }
 
+/// Reflectors on both walls of the way, no two distances alike.
+void set_up_reflectors(plant::Plant& plant) {
+    constexpr double kEvery_m = 12;
+    constexpr double kWall_m = 12;
+    for (int i = 0; i * kEvery_m <= kLength_m + kEvery_m; ++i) {
+        plant::Reflector reflector;
+        reflector.id = plant::ReflectorId(fmt::format("r-{}", i + 1));
+        reflector.hall = plant.halls.front().id;
+        reflector.position = {i * kEvery_m + 3 * std::sin(2.4 * i),
+                              i % 2 == 0 ? kWall_m : -kWall_m};
+        plant.reflectors.push_back(reflector);
+    }
+}
+
 /// A straight way of kLength_m along x in an empty hall, by codes one every `spacing_m`.
 plant::Plant straight_way(plant::Plant plant, const plant::VehicleType& type, Method method,
                           double spacing_m) {
     plant.markers.clear();
     plant.transmitters.clear();
+    plant.reflectors.clear();
     plant.areas.clear();
     plant.halls.front().outline = {{-30, -30}, {230, -30}, {230, 30}, {-30, 30}};
     if (method == Method::kLight) set_up_transmitters(plant);
+    if (method == Method::kReflectors) set_up_reflectors(plant);
     for (double at_m = spacing_m; spacing_m > 0 && at_m <= kLength_m; at_m += spacing_m) {
         plant::Marker marker;
         const std::string number = std::to_string(plant.markers.size() + 1);
@@ -154,6 +173,13 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
                                              drive.true_pose(), seed);
     onboard::LightWatch light(receivers, drive, estimate, watch.trail(), world.errors.receiver);
 
+    std::optional<simulation::SimulatedNavigationScanner> scanner;
+    std::optional<onboard::ReflectorWatch> reflectors;
+    if (type.navigation_scanner) {
+        scanner.emplace(world, world.plant.halls.front().id, type, drive.true_pose(), seed);
+        reflectors.emplace(*scanner, drive, estimate, watch.trail(), world.errors.reflector);
+    }
+
     auto ahead = edges_over(world.plant, plant::cameras_of(type, loaded));
     std::set<std::string> below;
     for (const auto& edge : ahead) {
@@ -172,6 +198,7 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
         for (; done < drive.segments_done(); ++done) ahead.pop_front();
         watch.step(dt_s, ahead);
         light.step(dt_s, world.plant.transmitters, true);
+        if (reflectors) reflectors->step(dt_s, world.plant.reflectors, true);
         for (const auto& payload : watch.take_taken()) below.erase(payload);
         if (!watch.refused().empty() && watch.refused() != refused) {
             ++made.refused;
@@ -260,7 +287,8 @@ void plot(const std::string& file, const std::vector<Curve>& curves) {
         svg << fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} m</text>\n", x(i),
                            kBottom + 20, (i + 1) * static_cast<std::size_t>(kCheckpoint_m));
     }
-    constexpr std::array kColours{"#0b5cad", "#7a3e9d", "#00796b", "#c2410c", "#a16207", "#b91c1c"};
+    constexpr std::array kColours{"#0b5cad", "#7a3e9d", "#00796b", "#c2410c", "#a16207",
+                                  "#b91c1c", "#4b5563", "#be185d", "#3f6212", "#0e7490"};
     for (std::size_t c = 0; c < curves.size(); ++c) {
         const char* colour = kColours[c % kColours.size()];
         std::string points;
@@ -277,16 +305,28 @@ void plot(const std::string& file, const std::vector<Curve>& curves) {
 std::vector<Method> methods_of(const plant::VehicleType& type) {
     std::vector<Method> methods{Method::kOdometry, Method::kCodes};
     if (!type.receivers.empty()) methods.push_back(Method::kLight);
+    if (type.navigation_scanner) methods.push_back(Method::kReflectors);
     return methods;
 }
 
 const char* name_of(Method method) {
-    return method == Method::kOdometry ? "odometry" : method == Method::kCodes ? "codes" : "iGPS";
+    switch (method) {
+        case Method::kOdometry:
+            return "odometry";
+        case Method::kCodes:
+            return "codes";
+        case Method::kLight:
+            return "iGPS";
+        case Method::kReflectors:
+            return "reflectors";
+    }
+    return "";
 }
 
 /// Of 95 % of the drives; odometry has no bound.
 double most_at_end_mm(Method method) {
-    return method == Method::kOdometry ? 1e9 : method == Method::kCodes ? kEnd_mm : kEndByLight_mm;
+    if (method == Method::kOdometry) return 1e9;
+    return method == Method::kLight ? kEndByLight_mm : kEnd_mm;
 }
 
 /// Li 2022, eq. 5, with an error that grows as he supposes: what it says of the spacing, printed
@@ -327,7 +367,7 @@ bool navigation(const Options& options) {
     fmt::print("{:<22}{:>10}{:>18}{:>18}{:>18}{:>10}{:>9}{:>9}\n", "", "code every",
                "50 m: 95 %, max", "100 m", "200 m", "covered", "missed", "refused");
     std::vector<Curve> curves;
-    for (const char* id : {"TP-01", "OM-01", "DL-01"}) {
+    for (const char* id : {"TP-01", "OM-01", "MV-01", "DL-01"}) {
         const auto& vehicle = *plant::find_vehicle(*plant, plant::VehicleId(id));
         const auto& type = *plant::find_vehicle_type(*plant, vehicle.type);
         double spacing_m = 0;

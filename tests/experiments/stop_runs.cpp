@@ -49,23 +49,6 @@ private:
     vda5050::StopMeasurement last_;
 };
 
-vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
-                              double tolerance_m) {
-    vda5050::StopTarget target;
-    target.station_id = station.id.str();
-    target.station_number = station.number;
-    target.target = station.pose;
-    target.tolerance_x_m = tolerance_m;
-    target.tolerance_y_m = tolerance_m;
-    target.tolerance_heading_rad = station.tolerance.dheading_rad;
-    for (const auto& id : station.markers) {
-        const auto& marker = *plant::find_marker(plant, id);
-        target.markers.push_back({marker.payload, plant::to_string(marker.kind), marker.size_m,
-                                  marker.pose, marker.sigma_xy_m, marker.sigma_heading_rad});
-    }
-    return target;
-}
-
 vda5050::OrderMessage order_to(const std::string& id, const std::string& map,
                                const std::vector<kinematics::Segment>& segments,
                                const vda5050::StopTarget& target) {
@@ -214,6 +197,23 @@ private:
 };
 
 }  // namespace
+
+vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
+                              double tolerance_m) {
+    vda5050::StopTarget target;
+    target.station_id = station.id.str();
+    target.station_number = station.number;
+    target.target = station.pose;
+    target.tolerance_x_m = tolerance_m;
+    target.tolerance_y_m = tolerance_m;
+    target.tolerance_heading_rad = station.tolerance.dheading_rad;
+    for (const auto& id : station.markers) {
+        const auto& marker = *plant::find_marker(plant, id);
+        target.markers.push_back({marker.payload, plant::to_string(marker.kind), marker.size_m,
+                                  marker.pose, marker.sigma_xy_m, marker.sigma_heading_rad});
+    }
+    return target;
+}
 
 std::vector<StopFamily> stop_families() {
     StopFamily platform{"platform, QR", "TP-01", {2, 3, 1}};

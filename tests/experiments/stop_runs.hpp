@@ -7,6 +7,8 @@
 
 #include "core/geometry/pose2.hpp"
 #include "core/localisation/error_budget.hpp"
+#include "core/plant/plant.hpp"
+#include "core/vda5050/messages.hpp"
 
 /// Many stops of simulated vehicles, closed loop: each drives from station to station by its
 /// wheels, measures by what it sees, and adjusts. Each is a machine of its own, drawn from the
@@ -56,6 +58,10 @@ struct StopRuns {
     localisation::ErrorBudget errors;
     double spoil_m = 0;  // a measurement that is off by so much without knowing it
 };
+
+/// What an order brings to a stop at the station, whose tolerance is `tolerance_m` either way.
+vda5050::StopTarget target_at(const plant::Plant& plant, const plant::Station& station,
+                              double tolerance_m);
 
 /// `plants`: the folder of the family's plant. Images are rendered and read; all errors come from
 /// the seeds. A machine that refuses a stop makes no more.

@@ -70,7 +70,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "mass_kg": 10200, "max_load_kg": 22000}
 
 
-def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=()):
+def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=(), scanner=None):
     return {"id": kind, "name": name, "kinematics": "mecanum", "footprint": rect(length, width), "load_footprint": [],
             "max_speed_mps": speed, "max_accel_mps2": 0.4, "max_turn_rate_radps": 0.6, "max_turn_accel_radps2": 0.4,
             "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2, "height_m": height,
@@ -79,10 +79,12 @@ def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, rece
             "wheels": [wheel(n, sx * (length / 2 - 0.35), sy * (width / 2 - 0.15), True, False, 0.3)
                        for n, sx, sy in [("FL", 1, 1), ("FR", 1, -1), ("BL", -1, 1), ("BR", -1, -1)]],
             "cameras": [camera("front", camera_x)], **({"receivers": list(receivers)} if receivers else {}),
+            **({"navigation_scanner": scanner} if scanner else {}),
             "brackets": [], "mass_kg": mass, "max_load_kg": load}
 
 
-MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 0.9, 1.2, 900, 400)
+MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 0.9, 1.2, 900, 400,
+                    scanner={"pose": pose(-0.9, 0, 0), "z_m": 2.0})  # on a mast
 OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1800, 3000,
                [{"name": n, "position": point(x, y), "z_m": 0.55} for n, x, y in
                 [("front left", 1.5, 0.95), ("front right", 1.5, -0.95), ("rear left", -1.5, 0.95),
@@ -130,7 +132,8 @@ def named_too(thing):
 class Plant:
     def __init__(self, ident, name):
         self.ident, self.name = ident, name
-        self.halls, self.stations, self.markers, self.transmitters, self.areas = [], [], [], [], []
+        self.halls, self.stations, self.markers, self.areas = [], [], [], []
+        self.transmitters, self.reflectors = [], []
         self.types, self.vehicles, self.nodes, self.edges = [], [], {}, []
         self.hall = None
 
@@ -151,6 +154,11 @@ class Plant:
             heading = round(pose(x, y, 0.3 + i)["heading_rad"], 6)
             self.transmitters.append({"id": f"tx-{i + 1}", "hall": self.hall, "position": point(x, y), "z_m": z,
                                       "heading_rad": heading, "rate_hz": round(38 + 0.6 * i, 1)})
+
+    def reflect(self, places):
+        """Reflectors; no two distances alike, so that how they stand to each other tells which they are."""
+        for i, (x, y) in enumerate(places):
+            self.reflectors.append({"id": f"r-{i + 1:02d}", "hall": self.hall, "position": point(x, y)})
 
     def station(self, number, name, p, vehicle_type, rest=True, charger=False):
         ident = f"st{number:02d}"
@@ -203,7 +211,8 @@ class Plant:
         plant = {"$schema": "../../api/plant.schema.json", "id": self.ident,
                  **named_too({"name": self.name}), "revision": 1,
                  "halls": halls, "stations": stations, "markers": self.markers,
-                 **({"transmitters": self.transmitters} if self.transmitters else {}), "areas": areas,
+                 **({"transmitters": self.transmitters} if self.transmitters else {}),
+                 **({"reflectors": self.reflectors} if self.reflectors else {}), "areas": areas,
                  "vehicle_types": types, "vehicles": self.vehicles,
                  "roadmap": {"nodes": list(self.nodes.values()), "edges": self.edges},
                  "routing": {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}}
@@ -271,6 +280,8 @@ def measuring_hall(folder):
                      6: (38, 3.5, 0)}.items():
         p.station(n, f"Tracker place {n}", where, MEASURING)
     p.area("fuselage", "obstacle", "Fuselage", ring([(9, 9), (12, 7.2), (34, 7.2), (35.5, 9), (34, 10.8), (12, 10.8)]))
+    p.reflect([(0.15, 3.1), (0.15, 12.2), (7.3, 17.85), (15.9, 17.85), (27.4, 17.85), (37.2, 17.85), (44.85, 13.9),
+               (44.85, 5.2), (40.1, 0.15), (30.6, 0.15), (19.3, 0.15), (10.2, 0.15)])
     payload = 100
     for y in (12.6, 5.4):
         for i in range(9):
@@ -387,6 +398,12 @@ def final_assembly(folder):
     p.area("gate-south", "no_go", "South gate", box(58, 0, 62, 2.2))
 
     p.transmit([(51.4, 42.4), (82.6, 42.4), (82.6, 58.2), (51.4, 58.2)], 2.8)
+    # On the walls all round, and on the columns between the measuring hall and the pulse line.
+    p.reflect([(3.2, 59.85), (12.7, 59.85), (24.1, 59.85), (33.8, 59.85), (45.3, 59.85), (58.2, 59.85), (69.4, 59.85),
+               (81.3, 59.85), (93.6, 59.85), (107.1, 59.85), (119.85, 53.3), (119.85, 44.7), (119.85, 33.2),
+               (119.85, 24.3), (119.85, 12.6), (103.3, 0.15), (92.8, 0.15), (48.6, 0.15), (37.9, 0.15), (26.7, 0.15),
+               (13.4, 0.15), (0.15, 8.3), (0.15, 17.2), (0.15, 27.9), (0.15, 34.1), (0.15, 43.6), (0.15, 52.9),
+               (10.2, 41.1), (19.8, 41.1), (30.1, 41.1), (39.8, 41.1)])
     payload = 100
     for y in (55.7, 52.9, 48.1, 45.3):
         for i in range(9):

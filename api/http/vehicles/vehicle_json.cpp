@@ -145,6 +145,9 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     if (vehicle.leg) json["leg"] = leg_json(*vehicle.leg);
     if (const auto& basis = vehicle.pose_basis) json["pose_basis"] = basis_json(*basis);
     if (!state.receivers.empty()) json["receivers"] = list_json(state.receivers, receiver_json);
+    if (type != nullptr && type->navigation_scanner) {
+        json["reflectors_in_view"] = state.reflectors.size();
+    }
     if (const auto codes = fleet::codes_under_way(state); codes.passed > 0) {
         json["codes_under_way"] = {{"passed", codes.passed}, {"read", codes.read}};
         if (codes.read > 0) json["codes_under_way"]["last"] = codes.last;

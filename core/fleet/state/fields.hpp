@@ -39,7 +39,7 @@ PULSELINE_LAST(fleet::StepPhase, kAfter)
 PULSELINE_LAST(fleet::JobMethod, kClear)
 PULSELINE_LAST(fleet::Link, kGone)
 PULSELINE_LAST(fleet::Activity, kUnknown)
-PULSELINE_LAST(fleet::PoseBasis::Kind, kReceivers)
+PULSELINE_LAST(fleet::PoseBasis::Kind, kReflectors)
 
 namespace geometry {
 PULSELINE_FIELDS(Point2, x_m, y_m)
@@ -76,6 +76,7 @@ PULSELINE_FIELDS(Tolerance, shape, dx_m, dy_m, dheading_rad)
 PULSELINE_FIELDS(LightPlane, a, b, offset_m)
 PULSELINE_FIELDS(Transmitter, id, hall, position, z_m, roll_rad, pitch_rad, heading_rad, rate_hz,
                  first, second, range_m, elevation_rad, sigma_rad, sigma_place_m, sigma_turn_rad)
+PULSELINE_FIELDS(Reflector, id, hall, position, sigma_m)
 }  // namespace plant
 
 namespace vda5050 {
@@ -86,8 +87,9 @@ PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id)
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Action>
 void fields(V& visit, S& it) {
-    auto& [type, id, blocking, stop_target, init_position, params, markers, transmitters] = it;
-    visit(type, id, blocking, stop_target, init_position, params, transmitters);
+    auto& [type, id, blocking, stop_target, init_position, params, markers, transmitters,
+           reflectors] = it;
+    visit(type, id, blocking, stop_target, init_position, params, transmitters, reflectors);
 }
 PULSELINE_FIELDS(OrderNode, node_id, sequence_id, released, pose, has_heading,
                  allowed_deviation_xy_m, allowed_deviation_theta_rad, map_id, actions)
@@ -107,6 +109,7 @@ PULSELINE_FIELDS(BracketLoad, name, force_a_n, force_b_n)
 PULSELINE_FIELDS(WheelStatus, name, steering_rad, speed_mps, temperature_c, fault)
 PULSELINE_FIELDS(CameraReading, camera, found, payload, code, angle_rad, sigma_m, rms_px, why_not)
 PULSELINE_FIELDS(ReceiverReading, receiver, found, place, z_m, sigma_m, transmitters, why_not)
+PULSELINE_FIELDS(ReflectorSight, place, sigma_m)
 PULSELINE_FIELDS(ParkingFoot, name, extension_m)
 PULSELINE_FIELDS(NodeState, node_id, sequence_id, released)
 PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, last_node_id,
@@ -114,7 +117,7 @@ PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, 
                  distance_since_last_node_m, operating_mode, pose, position_initialized,
                  localization_score, deviation_range_m, map_id, velocity_mps, turn_rate_radps,
                  battery_percent, charging, e_stop, field_violation, action_states, errors,
-                 brackets, wheels, cameras, receivers, parking_feet, load_kg)
+                 brackets, wheels, cameras, receivers, reflectors, parking_feet, load_kg)
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
                  actions, node_actions, json)
 }  // namespace vda5050

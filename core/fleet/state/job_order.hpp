@@ -208,7 +208,8 @@ struct PoseBasis {
         kCodes,      // surveyed codes that its cameras saw when it became known
         kStop,       // a stop that was measured at a station
         kStatement,  // a person's word
-        kReceivers   // iGPS, when it became known
+        kReceivers,  // iGPS, when it became known
+        kReflectors  // those around its navigation scanner, the same
     };
     Kind kind = Kind::kVehicle;
     plant::StationId station;  // of the stop

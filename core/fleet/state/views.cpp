@@ -32,6 +32,8 @@ const char* to_string(PoseBasis::Kind kind) {
             return "statement";
         case PoseBasis::Kind::kReceivers:
             return "receivers";
+        case PoseBasis::Kind::kReflectors:
+            return "reflectors";
     }
     return "vehicle";
 }

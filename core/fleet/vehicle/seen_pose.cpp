@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
+#include "core/base/square.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/localisation/dual_camera.hpp"
+#include "core/localisation/reflector_pose.hpp"
 #include "core/localisation/rigid_fit.hpp"
 
 namespace pulseline::fleet {
@@ -16,6 +19,10 @@ namespace {
 constexpr double kSigmaUp_rad = 2e-4;
 // One that a vehicle says to know far better than that would outweigh all others.
 constexpr double kLeastSigma_m = 1e-5;
+constexpr double kLeastSightSigma_m = 1e-3;
+// How far a vehicle is from where it says to stand, as far as its reflectors are told apart by it.
+constexpr double kTold_m = 0.1;
+constexpr double kTold_rad = 0.03;
 
 std::optional<Pose2> by_receivers(const LiveVehicle& live) {
     const auto& known = live.type->receivers;
@@ -55,6 +62,32 @@ std::optional<Pose2> by_codes(const FleetState& fleet, const LiveVehicle& live) 
     return fix->pose;
 }
 
+/// Where it says to stand is enough to tell its reflectors apart; otherwise how they stand to each
+/// other has to.
+std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& live) {
+    const auto& scanner = live.type->navigation_scanner;
+    if (!scanner || live.state.reflectors.empty()) return std::nullopt;
+    std::vector<localisation::SeenReflector> seen;
+    for (const auto& sight : live.state.reflectors) {
+        if (!std::isfinite(sight.place.x_m) || !std::isfinite(sight.place.y_m)) continue;
+        const double sigma_m = std::max(sight.sigma_m, kLeastSightSigma_m);
+        seen.push_back({sight.place, square(sigma_m) * Eigen::Matrix2d::Identity()});
+    }
+    std::vector<plant::Reflector> here;
+    std::ranges::copy_if(
+        fleet.plant.reflectors, std::back_inserter(here),
+        [hall = hall_of(fleet, live)](const auto& one) { return one.hall.str() == hall; });
+    if (live.state.position_initialized && live.state.pose) {
+        const Eigen::Vector3d variance(square(kTold_m), square(kTold_m), square(kTold_rad));
+        const auto near = localisation::locate_by_reflectors(
+            seen, here, *scanner, {*live.state.pose, variance.asDiagonal()});
+        if (near) return near->fix.pose;
+    }
+    const auto found = localisation::find_by_reflectors(seen, here, *scanner);
+    if (!found) return std::nullopt;
+    return found->fix.pose;
+}
+
 }  // namespace
 
 std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live) {
@@ -67,6 +100,9 @@ std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& li
     }
     if (const auto pose = by_codes(fleet, live); in_hall(pose)) {
         return SeenPose{*pose, PoseBasis::Kind::kCodes};
+    }
+    if (const auto pose = by_reflectors(fleet, live); in_hall(pose)) {
+        return SeenPose{*pose, PoseBasis::Kind::kReflectors};
     }
     return std::nullopt;
 }

@@ -10,10 +10,11 @@ namespace pulseline::fleet {
 
 struct SeenPose {
     Pose2 pose;
-    PoseBasis::Kind basis = PoseBasis::Kind::kCodes;  // or kReceivers
+    PoseBasis::Kind basis = PoseBasis::Kind::kCodes;  // or kReceivers, kReflectors
 };
 
-/// By its receivers of iGPS, else by the codes below its cameras; nothing: they do not tell.
+/// By its receivers of iGPS, else by the codes below its cameras, else by the reflectors around;
+/// nothing: they do not tell.
 std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live);
 
 }  // namespace pulseline::fleet

@@ -6,16 +6,18 @@
 #include "core/kinematics/primitives.hpp"
 #include "core/localisation/codes_on_way.hpp"
 #include "core/localisation/igps_light.hpp"
+#include "core/localisation/reflector_pose.hpp"
 
 namespace pulseline::planning {
 namespace {
 
 // What traffic keeps free beside a vehicle (core/fleet/tables/floor_graph.hpp).
 constexpr double kBeside_m = 0.1;
-constexpr double kByLight_m = 1e-4;
-constexpr double kByLight_rad = 1e-4;
+constexpr double kByBeacons_m = 1e-4;
+constexpr double kByBeacons_rad = 1e-4;
 constexpr double kLookEvery_m = 0.5;
 constexpr std::size_t kTransmitters = 2;
+constexpr std::size_t kReflectors = 3;  // one more than a pose needs: it may be hidden
 
 /// A stretch of the leg's way on which it finds itself, if it has driven so far at most without.
 struct Sight {
@@ -36,8 +38,13 @@ void add_codes(const LegTask& task, const kinematics::Segment& segment, double b
     }
 }
 
-void add_light(const LegTask& task, const kinematics::Segment& segment, double before_m,
-               std::vector<Sight>& sights) {
+bool has_beacons(const LegTask& task) {
+    return task.reach.has_beacons() &&
+           !(task.plant.transmitters.empty() && task.plant.reflectors.empty());
+}
+
+void add_beacons(const LegTask& task, const kinematics::Segment& segment, double before_m,
+                 std::vector<Sight>& sights) {
     const double length_m = std::abs(segment.length_m);
     const int looks = 1 + static_cast<int>(std::ceil(length_m / kLookEvery_m));
     for (int i = 0; i <= looks; ++i) {
@@ -51,12 +58,12 @@ void add_light(const LegTask& task, const kinematics::Segment& segment, double b
 
 std::vector<Sight> sights_along(const LegTask& task,
                                 const std::vector<kinematics::Segment>& segments) {
-    const bool by_light = task.reach.has_receivers() && !task.plant.transmitters.empty();
+    const bool by_beacons = has_beacons(task);
     std::vector<Sight> sights;
     double before_m = 0;
     for (const auto& segment : segments) {
         if (!task.reach.cameras().empty()) add_codes(task, segment, before_m, sights);
-        if (by_light) add_light(task, segment, before_m, sights);
+        if (by_beacons) add_beacons(task, segment, before_m, sights);
         before_m += std::abs(segment.length_m);
     }
     std::ranges::sort(sights, {}, &Sight::from_m);
@@ -78,7 +85,7 @@ double at_end_m(const LegTask& task) {
     if (const double size_m = size_at(task); size_m > 0 && !task.reach.cameras().empty()) {
         return task.reach.at_most_m(size_m);
     }
-    return task.reach.has_receivers() ? task.reach.in_the_dark_m() : 0;
+    return task.reach.has_beacons() ? task.reach.in_the_dark_m() : 0;
 }
 
 double mean_height_m(const std::vector<plant::Receiver>& receivers) {
@@ -92,7 +99,8 @@ double mean_height_m(const std::vector<plant::Receiver>& receivers) {
 CodeReach::CodeReach(const plant::VehicleType& type, bool loaded)
     : cameras_(plant::cameras_of(type, loaded)),
       receiver_m_(mean_height_m(type.receivers)),
-      noise_(cameras_.empty() && type.receivers.empty()
+      scanner_(type.navigation_scanner),
+      noise_(cameras_.empty() && !has_beacons()
                  ? localisation::OdometryNoise()
                  : localisation::odometry_noise(localisation::DriveErrors(), type)) {}
 
@@ -108,7 +116,8 @@ double CodeReach::at_most_m(double size_m) const {
 
 double CodeReach::in_the_dark_m() const {
     if (!in_the_dark_m_) {
-        in_the_dark_m_ = localisation::sure_way_m({kByLight_m, kByLight_rad}, 0, kBeside_m, noise_);
+        in_the_dark_m_ =
+            localisation::sure_way_m({kByBeacons_m, kByBeacons_rad}, 0, kBeside_m, noise_);
     }
     return *in_the_dark_m_;
 }
@@ -123,15 +132,19 @@ bool CodeReach::is_lit(const plant::Plant& plant, const plant::HallId& hall,
     if (added) {
         const Eigen::Vector3d place(at.x_m, at.y_m, receiver_m_);
         known->second =
-            localisation::transmitters_in_view(plant, hall, place).size() >= kTransmitters;
+            (receiver_m_ > 0 &&
+             localisation::transmitters_in_view(plant, hall, place).size() >= kTransmitters) ||
+            (scanner_ &&
+             localisation::reflectors_in_view(plant, hall, *scanner_, {at.x_m, at.y_m, 0}).size() >=
+                 kReflectors);
     }
     return known->second;
 }
 
 BlindWay blind_way(const LegTask& task, const std::vector<kinematics::Segment>& segments) {
     const bool by_codes = !task.reach.cameras().empty() && !task.plant.markers.empty();
-    const bool by_light = task.reach.has_receivers() && !task.plant.transmitters.empty();
-    if (!by_codes && !by_light) return {};
+    const bool by_beacons = has_beacons(task);
+    if (!by_codes && !by_beacons) return {};
     auto sights = sights_along(task, segments);
     double length_m = 0;
     for (const auto& segment : segments) length_m += std::abs(segment.length_m);

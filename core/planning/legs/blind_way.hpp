@@ -16,17 +16,20 @@ class CodeReach {
 public:
     CodeReach(const plant::VehicleType& type, bool loaded);
     const std::vector<plant::Camera>& cameras() const { return cameras_; }
-    bool has_receivers() const { return receiver_m_ > 0; }
+    /// Of iGPS or reflectors.
+    bool has_beacons() const { return receiver_m_ > 0 || scanner_.has_value(); }
     /// By localisation::blind_way_m, of its best camera.
     double at_most_m(double size_m) const;
-    /// Until iGPS is seen again: as long as it stays on the floor that traffic keeps beside it.
+    /// Until beacons are seen again: as long as it stays on the floor that traffic keeps beside it.
     double in_the_dark_m() const;
-    /// Whether the light of two transmitters falls on it there, looked at cell by cell.
+    /// Whether the light of two transmitters falls on it there, or it sees three reflectors, looked
+    /// at cell by cell.
     bool is_lit(const plant::Plant& plant, const plant::HallId& hall, geometry::Point2 at) const;
 
 private:
     std::vector<plant::Camera> cameras_;
     double receiver_m_ = 0;  // how high they sit; 0: it has none
+    std::optional<plant::NavigationScanner> scanner_;
     localisation::OdometryNoise noise_;
     mutable std::map<double, double> at_most_m_;  // by size
     mutable std::optional<double> in_the_dark_m_;

@@ -60,7 +60,8 @@ Vector3d SimulatedReceivers::place_at(const plant::Receiver& receiver, double ag
 bool SimulatedReceivers::is_lit(const plant::Transmitter& transmitter,
                                 const Vector3d& point) const {
     if (transmitter.hall != hall_ || covered_.contains(transmitter.id)) return false;
-    if (!localisation::sees(world_.plant, transmitter, {point.x(), point.y()})) return false;
+    if (!localisation::in_sight(world_.plant, hall_, transmitter.position, {point.x(), point.y()}))
+        return false;
     return std::ranges::none_of(
         bodies_, [&](const geometry::Polygon& body) { return shades(body, transmitter, point); });
 }

@@ -1,5 +1,6 @@
 #include "core/simulation/world/world.hpp"
 
+#include <algorithm>
 #include <random>
 #include <utility>
 
@@ -10,6 +11,24 @@ namespace {
 
 constexpr double kPlaced_m = 0.008;
 constexpr double kPlaced_rad = 0.1 * kPi / 180;
+
+/// Anywhere on the floor of a hall that has reflectors.
+void add_shining_things(const plant::Plant& plant, const plant::Hall& hall, std::uint64_t seed,
+                        const localisation::ErrorBudget& errors, World& world) {
+    const bool looked_at = std::ranges::any_of(
+        plant.reflectors, [&](const plant::Reflector& r) { return r.hall == hall.id; });
+    if (!looked_at) return;
+    std::mt19937_64 random(seed_for(seed, "shining " + hall.id.str()));
+    const auto box = geometry::bounding_box(hall.outline);
+    std::uniform_real_distribution<double> x(box.min.x_m, box.max.x_m);
+    std::uniform_real_distribution<double> y(box.min.y_m, box.max.y_m);
+    for (int left = errors.reflector.shining_things; left > 0;) {
+        const geometry::Point2 at{x(random), y(random)};
+        if (!geometry::contains(hall.outline, at)) continue;
+        world.shining_things.push_back({hall.id, at});
+        --left;
+    }
+}
 
 }  // namespace
 
@@ -50,6 +69,15 @@ World make_world(plant::Plant plant, std::uint64_t seed, const localisation::Err
         }
         world.transmitters.push_back(std::move(standing));
     }
+    for (const auto& surveyed : plant.reflectors) {
+        std::mt19937_64 random(seed_for(seed, "reflector " + surveyed.id.str()));
+        std::normal_distribution<double> normal(0, surveyed.sigma_m);
+        plant::Reflector standing = surveyed;
+        standing.position.x_m += normal(random);
+        standing.position.y_m += normal(random);
+        world.reflectors.push_back(std::move(standing));
+    }
+    for (const auto& hall : plant.halls) add_shining_things(plant, hall, seed, errors, world);
     world.plant = std::move(plant);
     return world;
 }

@@ -21,17 +21,25 @@ struct TrueMarker {
     Pose2 pose;
 };
 
-/// What the simulated hall is like in truth: the plant as drawn, the codes as they lie and the
-/// transmitters as they stand.
+/// Not a reflector, but as bright to a navigation scanner.
+struct ShiningThing {
+    plant::HallId hall;
+    geometry::Point2 position;
+};
+
+/// What the simulated hall is like in truth: the plant as drawn, the codes as they lie,
+/// transmitters and reflectors as they stand.
 struct World {
     plant::Plant plant;
     std::vector<TrueMarker> markers;
     std::vector<plant::Transmitter> transmitters;  // as they truly stand
-    localisation::ErrorBudget errors;              // of which its machines are drawn, too
+    std::vector<plant::Reflector> reflectors;      // so do they
+    std::vector<ShiningThing> shining_things;
+    localisation::ErrorBudget errors;  // of which its machines are drawn, too
 };
 
 /// The codes lie where the survey says + an error of its sigma, and are printed with the budget's
-/// errors; transmitters stand and are turned as theirs say. All are drawn from the seed. Every
+/// errors; transmitters and reflectors stand as theirs say. All are drawn from the seed. Every
 /// program with the same plant, seed and budget sees the same world.
 World make_world(plant::Plant plant, std::uint64_t seed,
                  const localisation::ErrorBudget& errors = localisation::ErrorBudget::nominal());

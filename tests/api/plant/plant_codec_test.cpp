@@ -208,6 +208,39 @@ TEST(PlantText, ATransmitterHasSheetsThatLeanBy30DegreesUnlessItSaysOthers) {
               Json({{"a", 0}, {"b", std::sqrt(3)}, {"offset_m", 0}}));
 }
 
+const Json kReflector = {
+    {"id", "r"}, {"hall", "hall"}, {"position", {{"x_m", 1.5}, {"y_m", 2.5}}}, {"sigma_m", 0.0013}};
+const Json kScanner = {{"pose", {{"x_m", -0.7}, {"y_m", 0.1}, {"heading_rad", 0.2}}},
+                       {"z_m", 1.9},
+                       {"rate_hz", 9},
+                       {"step_rad", 0.005},
+                       {"range_m", 55},
+                       {"reflector_radius_m", 0.03},
+                       {"sigma_range_m", 0.007},
+                       {"sigma_bearing_rad", 1.5e-4}};
+
+TEST(PlantText, KeepsEveryFieldOfAReflectorAndAScanner) {
+    Json file = document(kPlants + "/measuring-hall.json");
+    file["reflectors"][1] = kReflector;
+    file["vehicle_types"][0]["navigation_scanner"] = kScanner;
+    json::FieldErrors errors;
+    const Plant plant = decode_plant(file, errors);
+    ASSERT_TRUE(errors.empty());
+    for (const PlantForm form : {PlantForm::kFile, PlantForm::kApi}) {
+        const Json written = encode_plant(plant, form);
+        EXPECT_EQ(written["reflectors"].size(), 12u);
+        EXPECT_EQ(written["reflectors"][1], kReflector);
+        EXPECT_EQ(written["vehicle_types"][0]["navigation_scanner"], kScanner);
+    }
+}
+
+TEST(PlantText, WithoutReflectorsSaysNothingOfThem) {
+    const Plant plant = load_plant_file(kPlants + "/pulse-line.json").value();
+    const Json written = encode_plant(plant, PlantForm::kApi);
+    EXPECT_FALSE(written.contains("reflectors"));
+    EXPECT_FALSE(written["vehicle_types"][0].contains("navigation_scanner"));
+}
+
 TEST(PlantText, WithoutIgpsSaysNothingOfIt) {
     const Plant plant = load_plant_file(kPlants + "/pulse-line.json").value();
 
@@ -269,6 +302,8 @@ TEST(PlantSchema, RefusesWhatTheCodecRefuses) {
 TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
     Json sound = document(kPlants + "/igps-cell.json");
     sound["transmitters"][0] = full_transmitter();
+    sound["reflectors"] = Json::array({kReflector});
+    sound["vehicle_types"][0]["navigation_scanner"] = kScanner;
     const Json others = document(kPlants + "/pulse-line.json");
     sound["markers"] = others["markers"];
     for (const char* parts : {"cameras", "brackets"})
@@ -281,6 +316,8 @@ TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
         {"/$defs/marker", "/markers/0"},
         {"/$defs/transmitter", "/transmitters/0"},
         {"/$defs/light_plane", "/transmitters/0/first"},
+        {"/$defs/reflector", "/reflectors/0"},
+        {"/$defs/navigation_scanner", "/vehicle_types/0/navigation_scanner"},
         {"/$defs/area", "/areas/0"},
         {"/$defs/vehicle_type", "/vehicle_types/0"},
         {"/$defs/wheel", "/vehicle_types/0/wheels/0"},

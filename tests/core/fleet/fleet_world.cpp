@@ -168,6 +168,7 @@ void FakeVehicle::receive(const VehicleMessage& message) {
             if (action.type == "stopPause") state.paused = false;
             if (action.type == "stopCharging") state.charging = false;
             if (action.type == "setTransmitters") transmitters = action.transmitters;
+            if (action.type == "setReflectors") reflectors = action.reflectors;
             if (action.type == "initPosition") {
                 state.pose = action.init_position->pose;
                 state.position_initialized = true;

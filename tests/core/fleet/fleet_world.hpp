@@ -56,6 +56,7 @@ public:
     bool stands = false;                    // does not move, whatever it is told
     bool sees_codes = true;  // reports the codes below its cameras while standing on them
     std::vector<plant::Transmitter> transmitters;  // of the newest setTransmitters
+    std::vector<plant::Reflector> reflectors;      // of the newest setReflectors
     int orders_received = 0;
     int node_steps = 0;
 

@@ -122,6 +122,27 @@ TEST_F(BlindWayTest, APlaceWithoutCodesIsNotMissed) {
     EXPECT_FALSE(taken.blind.loses_itself());
 }
 
+TEST_F(BlindWayTest, AmongReflectorsItKnowsItsWayWithoutCodes) {
+    codes_on_lanes(9);
+    auto& plant = world.plant();
+    for (auto& type : plant.vehicle_types) type.navigation_scanner = plant::NavigationScanner{};
+    const auto reflect = [&](std::initializer_list<Point2> places) {
+        for (const Point2 at : places) {
+            plant::Reflector one;
+            one.id = plant::ReflectorId("r" + std::to_string(plant.reflectors.size()));
+            one.hall = plant::HallId("hall");
+            one.position = at;
+            plant.reflectors.push_back(one);
+        }
+    };
+    reflect({{15, 25}, {27, 33}});
+    EXPECT_FALSE(plan().route.empty()) << "one of two is easily hidden";
+    reflect({{14, 41}});
+    const LegPlan taken = plan();
+    EXPECT_TRUE(taken.route.empty());
+    EXPECT_FALSE(taken.blind.loses_itself());
+}
+
 TEST_F(BlindWayTest, OverClosedFloorNobodyIsLedForTheSakeOfCodes) {
     codes_on_lanes(9);
     LegPlanner planner(world.plant());

@@ -64,6 +64,7 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_fault("slip=FL:0.2@3")->share, 0.2);
     EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
     EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
+    EXPECT_EQ(parse_fault("scanner-covered@5")->kind, Fault::Kind::kScannerCovered);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->kind, Fault::Kind::kTransmitterDark);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->part, "tx-1");
     for (const char* bad : {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2",

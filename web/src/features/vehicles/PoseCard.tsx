@@ -3,7 +3,7 @@ import type { Vehicle } from "@/shared/api/types";
 import { Card, StatusSymbol, Value } from "@/shared/ui";
 import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { lightWords, poseWords } from "@/shared/words/poseBasis";
+import { lightWords, poseWords, reflectorWords } from "@/shared/words/poseBasis";
 import type { Heard } from "./useHeard";
 import "./PoseCard.css";
 
@@ -16,9 +16,10 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const words = useWords();
   const codes = vehicle.codes_under_way;
   const light = lightWords(vehicle);
+  const reflectors = reflectorWords(vehicle);
   const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
-  const measured = ["stop", "codes", "receivers"].includes(basis.key);
+  const measured = ["stop", "codes", "receivers", "reflectors"].includes(basis.key);
   // What has been driven since is reckoned, not measured.
   const symbol = !vehicle.pose_known
     ? "a-2"
@@ -80,6 +81,14 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
         <p className="basis" data-light={light.key}>
           <StatusSymbol name={light.key === "all" ? "c-ok" : light.key === "some" ? "a-3" : "a-2"} />
           <span>{t(`pose.light.${light.key}`, light.values)}</span>
+        </p>
+      )}
+      {reflectors && (
+        <p className="basis" data-reflectors={reflectors.values.seen}>
+          <StatusSymbol
+            name={reflectors.key === "all" ? "c-ok" : reflectors.key === "some" ? "a-3" : "a-2"}
+          />
+          <span>{t(`pose.reflectors.${reflectors.key}`, reflectors.values)}</span>
         </p>
       )}
     </Card>

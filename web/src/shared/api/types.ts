@@ -14,6 +14,7 @@ export type Hall = Schemas["Hall"];
 export type Station = Schemas["Station"];
 export type Marker = Schemas["Marker"];
 export type Transmitter = Schemas["Transmitter"];
+export type Reflector = Schemas["Reflector"];
 export type Area = Schemas["Area"];
 export type VehicleType = Schemas["VehicleType"];
 export type StationState = Schemas["StationState"];

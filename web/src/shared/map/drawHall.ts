@@ -25,7 +25,10 @@ export function drawHall(pen: Pen, model: HallModel, layers: MapLayers): void {
   if (layers.roadmap) drawLanes(pen, model);
   g.restore();
   if (layers.markers && detailOf(pen.k) !== "far") drawMarkers(pen, model);
-  if (layers.markers) drawTransmitters(pen, model);
+  if (layers.markers) {
+    drawTransmitters(pen, model);
+    drawReflectors(pen, model);
+  }
   drawGates(pen, model);
   drawBrackets(pen, model);
   drawObstacles(pen, model);
@@ -188,6 +191,17 @@ function drawMarkers(pen: Pen, model: HallModel): void {
   }
 }
 
+/** What a thing is called, to the right of it, where there is room. */
+function nameBeside(pen: Pen, name: string, x: number, y: number): void {
+  if (detailOf(pen.k) !== "close") return;
+  const { g, palette } = pen;
+  g.font = `12px ${palette.font}`;
+  g.fillStyle = palette["ink-3"];
+  g.textAlign = "left";
+  g.textBaseline = "middle";
+  g.fillText(name, x + 5, y);
+}
+
 /** A head on its tripod: a triangle about a dot. */
 function drawTransmitters(pen: Pen, model: HallModel): void {
   const { g, palette } = pen;
@@ -206,12 +220,7 @@ function drawTransmitters(pen: Pen, model: HallModel): void {
     g.beginPath();
     g.arc(p.x, p.y, 1.25, 0, 7);
     pen.fill(palette["map-marker"]);
-    if (detailOf(pen.k) !== "close") continue;
-    g.font = `12px ${palette.font}`;
-    g.fillStyle = palette["ink-3"];
-    g.textAlign = "left";
-    g.textBaseline = "middle";
-    g.fillText(id, p.x + kSide + 5, p.y);
+    nameBeside(pen, id, p.x + kSide, p.y);
   }
 }
 
@@ -263,5 +272,21 @@ function drawBrackets(pen: Pen, model: HallModel): void {
       g.restore();
       pen.stroke(palette["ink-2"], 1);
     }
+  }
+}
+
+/** An upright cylinder from above: a small full disc in a ring. */
+function drawReflectors(pen: Pen, model: HallModel): void {
+  const { g, palette } = pen;
+  const kRing = 4;
+  for (const { id, position } of model.reflectors) {
+    const p = pen.at(position.x_m, position.y_m);
+    g.beginPath();
+    g.arc(p.x, p.y, kRing, 0, 7);
+    pen.stroke(palette["map-marker"], 1);
+    g.beginPath();
+    g.arc(p.x, p.y, 1.75, 0, 7);
+    pen.fill(palette["map-marker"]);
+    nameBeside(pen, id, p.x + kRing, p.y);
   }
 }

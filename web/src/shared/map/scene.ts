@@ -9,6 +9,7 @@ import type {
   Ring,
   Station,
   StationState,
+  Reflector,
   Transmitter,
   Vehicle,
   VehicleType,
@@ -92,6 +93,7 @@ export interface HallModel {
   stations: readonly Station[];
   markers: readonly Marker[];
   transmitters: readonly Transmitter[];
+  reflectors: readonly Reflector[];
   types: ReadonlyMap<string, VehicleType>;
   typeOf: ReadonlyMap<string, string>;
   /** Where each vehicle is at home, for those at home in this hall. */
@@ -161,6 +163,7 @@ export function hallModel(plant: Plant, hallId?: string): HallModel | undefined 
     stations,
     markers: here(plant.markers),
     transmitters: here(plant.transmitters ?? []),
+    reflectors: here(plant.reflectors ?? []),
     types: new Map(plant.vehicle_types.map((type) => [type.id, type])),
     typeOf: new Map(plant.vehicles.map((v) => [v.id, v.type])),
     homeOf: new Map(

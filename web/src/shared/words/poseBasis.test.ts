@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Vehicle } from "@/shared/api/types";
-import { lightWords, poseWords } from "./poseBasis";
+import { lightWords, poseWords, reflectorWords } from "./poseBasis";
 
 type Basis = NonNullable<Vehicle["pose_basis"]>;
 const said = (pose_basis: Basis | undefined, pose_known = true) =>
@@ -29,6 +29,11 @@ it.each<[string, ReturnType<typeof said>, [string, object, string | undefined]]>
     "seen by iGPS",
     said({ kind: "receivers", at, driven_m: 0 }),
     ["receivers", { time: "20:15:03" }, undefined],
+  ],
+  [
+    "seen by reflectors",
+    said({ kind: "reflectors", at, driven_m: 0 }),
+    ["reflectors", { time: "20:15:03" }, undefined],
   ],
   [
     "said by a person",
@@ -76,3 +81,11 @@ it.each<[string, Receiver[], object | undefined]>([
     { key: "none", values: { lit: "1", all: "2", transmitters: "2", sigma: "0.06" } },
   ],
 ])("light: %s", (_, receivers, expected) => expect(lightWords({ receivers } as Vehicle)).toEqual(expected));
+
+it.each<[number | undefined, object | undefined]>([
+  [undefined, undefined],
+  [0, { key: "none", values: { seen: "0" } }],
+  [2, { key: "some", values: { seen: "2" } }],
+  [7, { key: "all", values: { seen: "7" } }],
+])("%s reflectors in view", (seen, expected) =>
+  expect(reflectorWords({ reflectors_in_view: seen } as Vehicle)).toEqual(expected));

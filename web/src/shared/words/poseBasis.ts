@@ -31,6 +31,8 @@ export function poseWords(
       return { key: "codes", values: { time: at }, since };
     case "receivers":
       return { key: "receivers", values: { time: at }, since };
+    case "reflectors":
+      return { key: "reflectors", values: { time: at }, since };
     case "statement":
       return { key: "statement", values: { by: who(basis.by ?? ""), time: at }, since };
     case "vehicle":
@@ -39,7 +41,7 @@ export function poseWords(
 }
 
 export interface LightWords {
-  /** How much of iGPS it sees: all receivers know their place, enough of them, or too few. */
+  /** How much it sees: of iGPS all receivers know their place, enough of them, or too few. */
   key: "all" | "some" | "none";
   values: Record<string, string>;
 }
@@ -62,4 +64,14 @@ export function lightWords(v: Vehicle): LightWords | undefined {
   };
   if (lit.length < kReceivers) return { key: "none", values };
   return { key: lit.length === receivers.length ? "all" : "some", values };
+}
+
+/** Three fit one pose only; with two it goes on from where it is. */
+const kReflectors = 3;
+
+/** What the navigation scanner sees of the reflectors around; undefined: the vehicle has none. */
+export function reflectorWords(v: Vehicle): LightWords | undefined {
+  const seen = v.reflectors_in_view;
+  if (seen === undefined) return undefined;
+  return { key: seen >= kReflectors ? "all" : seen > 0 ? "some" : "none", values: { seen: String(seen) } };
 }

@@ -1,4 +1,5 @@
-// What is said of iGPS over the link: where the transmitters stand, and what the receivers see.
+// What is said of beacons over the link: where transmitters and reflectors stand, and what
+// receivers and scanners see of them.
 #include <gtest/gtest.h>
 
 #include "api/vda5050/instant_actions.hpp"
@@ -127,6 +128,74 @@ TEST(ReceiverReadings, AnEntryThatLacksSomethingIsLeftOut) {
     const auto read = decode_state(message);
     ASSERT_TRUE(read) << read.error().what;
     EXPECT_TRUE(read->receivers.empty());
+}
+
+InstantActionsMessage set_reflectors(std::vector<plant::Reflector> reflectors) {
+    Action action;
+    action.type = kSetReflectors;
+    action.id = "a-1";
+    action.reflectors = std::move(reflectors);
+    return {{action}};
+}
+
+plant::Reflector reflector(const char* id) {
+    plant::Reflector one;
+    one.id = plant::ReflectorId(id);
+    one.hall = plant::HallId("hall-1");
+    one.position = {1.5, -2.5};
+    one.sigma_m = 0.0013;
+    return one;
+}
+
+TEST(SetReflectors, RoundTripKeepsEveryNumber) {
+    const auto sent = set_reflectors({reflector("r-1"), reflector("r-2")});
+    const auto read = decode_instant_actions(parsed(encode_instant_actions(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->actions[0].reflectors.size(), 2u);
+    const plant::Reflector& one = read->actions[0].reflectors[1];
+    EXPECT_EQ(one.id.str(), "r-2");
+    EXPECT_EQ(one.hall.str(), "hall-1");
+    EXPECT_EQ(one.position, (geometry::Point2{1.5, -2.5}));
+    EXPECT_EQ(one.sigma_m, 0.0013);
+    const auto none =
+        decode_instant_actions(parsed(encode_instant_actions(set_reflectors({}), header())));
+    ASSERT_TRUE(none) << none.error().what;
+    EXPECT_TRUE(none->actions[0].reflectors.empty());
+}
+
+TEST(SetReflectors, WhatCannotBeIsNamedByItsField) {
+    const Json message =
+        parsed(encode_instant_actions(set_reflectors({reflector("r-1")}), header()));
+    for (const auto& [field, value] : {std::pair<const char*, Json>{"sigma_m", -1},
+                                       {"x_m", 1e9},
+                                       {"y_m", "north"},
+                                       {"mapId", 3},
+                                       {"id", ""}}) {
+        Json spoilt = message;
+        spoilt["actions"][0]["actionParameters"][0]["value"][0][field] = value;
+        const auto read = decode_instant_actions(spoilt);
+        ASSERT_FALSE(read) << field;
+        EXPECT_EQ(read.error().field,
+                  std::string("/actions/0/actionParameters/reflectors/0/") + field);
+    }
+}
+
+TEST(ReflectorSights, RoundTripAndLeaveOutWhatLacksSomething) {
+    StateMessage sent = testing::state();
+    sent.reflectors = {{{12.5, -3.25}, 0.004}, {{-40, 7}, 0.02}};
+    Json message = parsed(encode_state(sent, header()));
+    const auto read = decode_state(message);
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->reflectors.size(), 2u);
+    EXPECT_EQ(read->reflectors[0].place, sent.reflectors[0].place);
+    EXPECT_EQ(read->reflectors[0].sigma_m, 0.004);
+    EXPECT_EQ(read->reflectors[1].place, sent.reflectors[1].place);
+    for (auto& entry : message["information"]) {
+        if (entry["infoType"] == "reflector") entry["infoReferences"].erase(1);
+    }
+    const auto without = decode_state(message);
+    ASSERT_TRUE(without) << without.error().what;
+    EXPECT_TRUE(without->reflectors.empty());
 }
 
 }  // namespace

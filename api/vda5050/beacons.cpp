@@ -1,4 +1,4 @@
-#include "api/vda5050/transmitters.hpp"
+#include "api/vda5050/beacons.hpp"
 
 #include "api/vda5050/header.hpp"
 #include "api/vda5050/limits.hpp"
@@ -7,6 +7,7 @@ namespace pulseline::vda5050 {
 namespace {
 
 constexpr json::CountLimits kTransmitters{0, 64};
+constexpr json::CountLimits kReflectors{0, 200};
 constexpr json::NumberLimits kLean{-1e3, 1e3};
 constexpr json::NumberLimits kRate_hz{0.1, 1e4};
 
@@ -66,6 +67,32 @@ std::vector<plant::Transmitter> read_transmitters(json::ObjectReader& in) {
         transmitters.push_back(std::move(t));
     });
     return transmitters;
+}
+
+Json reflectors_json(const std::vector<plant::Reflector>& reflectors) {
+    Json list = Json::array();
+    for (const auto& r : reflectors) {
+        list.push_back({{"id", r.id.str()},
+                        {"mapId", r.hall.str()},
+                        {"x_m", finite(r.position.x_m)},
+                        {"y_m", finite(r.position.y_m)},
+                        {"sigma_m", finite(r.sigma_m)}});
+    }
+    return list;
+}
+
+std::vector<plant::Reflector> read_reflectors(json::ObjectReader& in) {
+    std::vector<plant::Reflector> reflectors;
+    in.items("reflectors", kReflectors, [&](const Json& item, const std::string& pointer) {
+        json::ObjectReader read(item, pointer, in.errors());
+        plant::Reflector r;
+        r.id = plant::ReflectorId(read.text("id", {1, 200}));
+        r.hall = plant::HallId(read.text("mapId", {1, 200}));
+        r.position = {read.number("x_m", limits::kPlace_m), read.number("y_m", limits::kPlace_m)};
+        r.sigma_m = read.number("sigma_m", limits::kSigma_m);
+        reflectors.push_back(std::move(r));
+    });
+    return reflectors;
 }
 
 }  // namespace pulseline::vda5050
