@@ -48,8 +48,12 @@ Eigen::Matrix3d BeaconCorrection::odometry_since(double heading_rad, double seen
            turned.toRotationMatrix().transpose();
 }
 
-BeaconCorrection::Taken BeaconCorrection::take(const BeaconFix& seen, double seen_ago_s) {
-    if (estimate_.see(seen, odometry_since(seen.fix.pose.heading_rad, seen_ago_s))) {
+BeaconCorrection::Taken BeaconCorrection::take(const BeaconFix& seen, double seen_ago_s,
+                                               bool news) {
+    const Status agrees =
+        news ? estimate_.see(seen, odometry_since(seen.fix.pose.heading_rad, seen_ago_s))
+             : estimate_.check(seen);
+    if (agrees) {
         refused_ = 0;
         return Taken::kCorrected;
     }

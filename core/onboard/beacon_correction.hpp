@@ -21,8 +21,9 @@ public:
     /// Adds to a fix what it may be off because stamps do not quite agree while the vehicle drives.
     void blur(localisation::PoseFix& fix) const;
     enum class Taken { kCorrected, kRefused, kBegunAnew };
-    /// A pose of now, by what was seen `seen_ago_s` before.
-    Taken take(const localisation::BeaconFix& seen, double seen_ago_s);
+    /// A pose of now, by what was seen `seen_ago_s` before. One that is no `news`, since the noise
+    /// of the one before is in it, only checks.
+    Taken take(const localisation::BeaconFix& seen, double seen_ago_s, bool news = true);
     /// Poses refused in a row, all alike.
     int refused() const { return refused_; }
 

@@ -99,6 +99,12 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     return {};
 }
 
+Status PoseEstimate::check(const localisation::BeaconFix& seen) {
+    catch_up();
+    localisation::PoseFilter filter = filter_;
+    return filter.correct(seen.fix, localisation::matrix(seen.lasting));
+}
+
 void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
     lasting_ = localisation::matrix(seen.lasting);

@@ -25,6 +25,8 @@ public:
     /// only checked by it. Fails as the other one.
     Status see(const localisation::BeaconFix& seen,
                const Eigen::Matrix3d& since = Eigen::Matrix3d::Zero());
+    /// Whether a pose by beacons agrees; nothing changes. Fails as the others.
+    Status check(const localisation::BeaconFix& seen);
     /// It is where beacons put it, whatever its odometry says.
     void restart_at(const localisation::BeaconFix& seen);
     /// Without a motion, the drive believes to be here from now on.

@@ -42,7 +42,17 @@ void ReflectorWatch::step(double dt_s, const std::vector<plant::Reflector>& refl
         return;
     }
     correction_.blur(fix->fix);
-    if (correction_.take(*fix, seen_ago_s_) == BeaconCorrection::Taken::kBegunAnew) without_ = 0;
+    const bool news = !(drive_.standing() && told_standing_);
+    switch (correction_.take(*fix, seen_ago_s_, news)) {
+        case BeaconCorrection::Taken::kBegunAnew:
+            without_ = 0;
+            [[fallthrough]];
+        case BeaconCorrection::Taken::kCorrected:
+            told_standing_ = drive_.standing();
+            break;
+        case BeaconCorrection::Taken::kRefused:
+            break;
+    }
     newest_ = std::move(*fix);
 }
 

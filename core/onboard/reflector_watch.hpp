@@ -14,9 +14,10 @@
 namespace pulseline::onboard {
 
 /// Reflectors correct the pose that the vehicle steers by, each turn of its navigation scanner,
-/// standing and driving, as BeaconCorrection says. While they do not fit to where it believes to
-/// be, it looks for the place of the hall that they do fit to. Thread safety: none. No clock: time
-/// passes by step().
+/// as BeaconCorrection says; standing, the same rays fall on them in the same way again, so that
+/// the first turn tells all and the others only check it. While they do not fit to where it
+/// believes to be, it looks for the place of the hall that they do fit to. Thread safety: none. No
+/// clock: time passes by step().
 class ReflectorWatch {
 public:
     /// All must outlive it. REQUIRES: the drive's type has a navigation scanner.
@@ -50,8 +51,9 @@ private:
     std::vector<vda5050::ReflectorSight> sights_;
     std::optional<localisation::BeaconFix> newest_;
     std::optional<Error> why_not_;
-    int without_ = 0;        // turns in a row that did not fit
-    double seen_ago_s_ = 0;  // of the last turn's sights, on average
+    int without_ = 0;             // turns in a row that did not fit
+    bool told_standing_ = false;  // it has stood since a turn corrected it
+    double seen_ago_s_ = 0;       // of the last turn's sights, on average
 };
 
 }  // namespace pulseline::onboard

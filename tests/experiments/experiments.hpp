@@ -31,7 +31,7 @@ bool stop_adjustment(const Options& options);
 bool navigation(const Options& options);
 
 /// Li 2022, section 5.1, Table 1: where a measuring vehicle believes to stand over four markers, by
-/// them and by reflectors. False when it is worse than Li's, or a stated sigma does not hold.
+/// them and by reflectors. False when it is worse than is asked, or a stated sigma does not hold.
 bool self_positioning(const Options& options);
 
 /// Wang, section 5: stops at one place of the iGPS cell, steered and measured by light alone; what

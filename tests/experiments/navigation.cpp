@@ -303,9 +303,10 @@ void plot(const std::string& file, const std::vector<Curve>& curves) {
 }
 
 std::vector<Method> methods_of(const plant::VehicleType& type) {
+    // Its wheels and camera are the omnidirectional mover's, which shows the others.
+    if (type.navigation_scanner) return {Method::kReflectors};
     std::vector<Method> methods{Method::kOdometry, Method::kCodes};
     if (!type.receivers.empty()) methods.push_back(Method::kLight);
-    if (type.navigation_scanner) methods.push_back(Method::kReflectors);
     return methods;
 }
 

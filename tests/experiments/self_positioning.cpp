@@ -2,8 +2,10 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "api/plant/plant_file.hpp"
@@ -20,12 +22,11 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr int kMarkers = 4;
+constexpr std::size_t kMarkers = 4;
 constexpr int kTimes = 20;
 // How an AGV comes to stand over a marker before it knows better.
 constexpr double kPlaced_m = 0.02;
 constexpr double kPlaced_rad = 0.01;
-constexpr double kTurn_s = 0.125;
 // What one sigma of three coordinates covers jointly: chi-square of three degrees of freedom, 95 %.
 constexpr double kNinetyFive = 7.815;
 
@@ -40,13 +41,20 @@ struct Printed {
     double y_mm = 0;
     double r_mm = 0;
 };
+// What is asked of calibrated ones. Ours has its one camera 0.9 m before its middle, so that the
+// code's direction counts; where Li's hangs, he does not say.
+constexpr double kMarker_mm = 1.8;
+constexpr double kReflectors_mm = 8;
+// A turn in which something that shines puts two reflectors out of place is passed over.
+constexpr double kMissed = 0.005;
 constexpr Printed kMarkerBased{0.846, 0.762, 1.139};
 constexpr Printed kAmcl{38.769, 35.508, 52.572};
 constexpr Printed kNav350{2.967, 3.204, 4.367};
 
 class Method {
 public:
-    Method(const char* name, Printed printed) : name_(name), printed_(printed) {}
+    Method(const char* name, Printed printed, double asked_mm)
+        : name_(name), printed_(printed), asked_mm_(asked_mm) {}
 
     void take(const Pose2& pose, const Eigen::Matrix3d& covariance, const Pose2& truth) {
         const Eigen::Vector3d off(pose.x_m - truth.x_m, pose.y_m - truth.y_m,
@@ -56,8 +64,9 @@ public:
     }
     void miss() { ++missed_; }
 
-    /// False when a measurement failed, it is worse than Li's, or does not hold what it states.
-    bool print() const {
+    /// False when a measurement failed, does not hold what it states or, if `calibrated`, is
+    /// worse than is asked.
+    bool print(const std::string& errors, bool calibrated) const {
         double x2 = 0;
         double y2 = 0;
         for (const Off& off : offs_) {
@@ -70,20 +79,46 @@ public:
         const double r_mm = std::hypot(x_mm, y_mm);
         const double share = covered_ / count;
         // Of a machine's constant errors so few machines show no even share.
-        const bool good = missed_ == 0 && r_mm <= printed_.r_mm && share >= 0.85;
-        fmt::print("{:<14}{:>9.3f}{:>9.3f}{:>9.3f}{:>12.3f}{:>9.3f}{:>9.3f}{:>12.1f}%{:>9}{}\n",
-                   name_, x_mm, y_mm, r_mm, printed_.x_mm, printed_.y_mm, printed_.r_mm,
-                   100 * share, missed_, good ? "" : "  NO");
+        const bool good =
+            missed_ <= kMissed * count && share >= 0.85 && (!calibrated || r_mm <= asked_mm_);
+        fmt::print("{:<22}{:>9.3f}{:>9.3f}{:>9.3f}{:>12.3f}{:>9.3f}{:>9.3f}{:>12.1f}%{:>9}{}\n",
+                   name_ + (", " + errors), x_mm, y_mm, r_mm, printed_.x_mm, printed_.y_mm,
+                   printed_.r_mm, 100 * share, missed_, good ? "" : "  NO");
         return good;
     }
 
 private:
     const char* name_;
     Printed printed_;
+    double asked_mm_;
     std::vector<Off> offs_;
     double covered_ = 0;
     int missed_ = 0;
 };
+
+/// By one turn of the scanner, from near where it should stand: more of them are not better, since
+/// the same rays fall on the reflectors.
+std::optional<localisation::PoseFix> by_reflectors(const simulation::World& world,
+                                                   const plant::Station& station,
+                                                   const simulation::ServoDrive& drive,
+                                                   std::uint64_t seed) {
+    const plant::VehicleType& type = drive.type();
+    const plant::NavigationScanner& known = *type.navigation_scanner;
+    simulation::SimulatedNavigationScanner scanner(world, station.hall, type, drive.true_pose(),
+                                                   seed);
+    auto turn = scanner.take_turn(1 / known.rate_hz);
+    while (!turn) turn = scanner.take_turn(1 / known.rate_hz);
+    std::vector<localisation::SeenReflector> seen;
+    for (const auto& sight : localisation::reflector_sights(*turn, known)) {
+        seen.push_back(localisation::seen_reflector(sight, known));
+    }
+    const Eigen::Vector3d variance(square(kPlaced_m), square(kPlaced_m), square(kPlaced_rad));
+    const auto fix = localisation::locate_by_reflectors(seen, world.plant.reflectors, known,
+                                                        {station.pose, variance.asDiagonal()},
+                                                        world.errors.reflector);
+    if (!fix) return std::nullopt;
+    return fix->fix;
+}
 
 void measure(const plant::Plant& plant, const plant::Vehicle& vehicle,
              const plant::Station& station, std::uint64_t seed,
@@ -105,20 +140,9 @@ void measure(const plant::Plant& plant, const plant::Vehicle& vehicle,
     } else {
         codes.miss();
     }
-    simulation::SimulatedNavigationScanner scanner(world, station.hall, type, drive.true_pose(),
-                                                   seed);
-    std::vector<localisation::SeenReflector> seen;
-    const auto& known = *type.navigation_scanner;
-    auto turn = scanner.take_turn(kTurn_s);
-    while (!turn) turn = scanner.take_turn(kTurn_s);
-    for (const auto& sight : localisation::reflector_sights(*turn, known)) {
-        seen.push_back(localisation::seen_reflector(sight, known));
-    }
-    const Eigen::Vector3d variance(square(kPlaced_m), square(kPlaced_m), square(kPlaced_rad));
-    const auto fix = localisation::locate_by_reflectors(
-        seen, plant.reflectors, known, {station.pose, variance.asDiagonal()}, errors.reflector);
+    const auto fix = by_reflectors(world, station, drive, seed);
     if (fix) {
-        reflectors.take(fix->fix.pose, localisation::matrix(fix->fix.covariance), truth);
+        reflectors.take(fix->pose, localisation::matrix(fix->covariance), truth);
     } else {
         reflectors.miss();
     }
@@ -130,25 +154,29 @@ bool self_positioning(const Options& options) {
     const auto plant =
         api::plant_file::load_plant_file(options.folder + "/../../db/plants/measuring-hall.json");
     if (!plant) throw std::runtime_error(plant.error().what);
-    const auto errors = localisation::ErrorBudget::named(options.errors);
-    Method codes("marker", kMarkerBased);
-    Method reflectors("reflectors", kNav350);
     const int times = options.runs.value_or(kTimes);
-    for (int station = 0; station < kMarkers; ++station) {
-        for (int i = 0; i < times; ++i) {
-            measure(*plant, plant->vehicles.front(),
-                    plant->stations[static_cast<std::size_t>(station)],
-                    options.seed + static_cast<std::uint64_t>(i), errors, codes, reflectors);
-        }
-    }
     fmt::print(
-        "\nLi 2022, Table 1: {} machines at each of {} markers, {} errors, +-3 sigma of where they "
-        "believe to stand, mm; right of it Li's own (AMCL: {:.3f}, {:.3f}, {:.3f})\n",
-        times, kMarkers, options.errors, kAmcl.x_mm, kAmcl.y_mm, kAmcl.r_mm);
-    fmt::print("{:<14}{:>9}{:>9}{:>9}{:>12}{:>9}{:>9}{:>13}{:>9}\n", "", "x", "y", "r", "Li: x",
+        "\nLi 2022, Table 1: {} machines at each of {} markers, +-3 sigma of where they believe to "
+        "stand, mm; right of it Li's own (AMCL: {:.3f}, {:.3f}, {:.3f})\n",
+        times, kMarkers, kAmcl.x_mm, kAmcl.y_mm, kAmcl.r_mm);
+    fmt::print("{:<22}{:>9}{:>9}{:>9}{:>12}{:>9}{:>9}{:>13}{:>9}\n", "", "x", "y", "r", "Li: x",
                "y", "r", "covered", "missed");
-    bool good = codes.print();
-    good &= reflectors.print();
+    bool good = true;
+    // Li's cameras were calibrated with a laser tracker where they hang.
+    for (const char* name : {"kind", "nominal"}) {
+        const auto errors = localisation::ErrorBudget::named(name);
+        Method codes("marker", kMarkerBased, kMarker_mm);
+        Method reflectors("reflectors", kNav350, kReflectors_mm);
+        for (std::size_t station = 0; station < kMarkers; ++station) {
+            for (int i = 0; i < times; ++i) {
+                measure(*plant, plant->vehicles.front(), plant->stations[station],
+                        options.seed + static_cast<std::uint64_t>(i), errors, codes, reflectors);
+            }
+        }
+        const bool calibrated = std::string(name) == "kind";
+        good &= codes.print(name, calibrated);
+        good &= reflectors.print(name, calibrated);
+    }
     return good;
 }
 

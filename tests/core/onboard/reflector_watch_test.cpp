@@ -137,6 +137,22 @@ TEST(ReflectorWatch, WhatCodesHaveToldBetterIsOnlyCheckedByThem) {
     EXPECT_LT(looking.estimate.sigma_xy_m(), 2e-4);
 }
 
+/// The rays fall on the reflectors in the same way each turn: what they are off stays.
+TEST(ReflectorWatch, StandingItKnowsNoBetterAfterAMinute) {
+    int covered = 0;
+    constexpr int kRuns = 60;
+    for (std::uint64_t seed = 1; seed <= kRuns; ++seed) {
+        Looking looking(seed, walls(), {0.005, -0.004, 0.002});
+        looking.stand(0.3);
+        ASSERT_TRUE(looking.reflectors.newest());
+        const double first_m = looking.estimate.sigma_xy_m();
+        looking.stand(60);
+        EXPECT_NEAR(looking.estimate.sigma_xy_m(), first_m, 1e-9);
+        covered += looking.off_m() <= 2.45 * looking.estimate.sigma_xy_m();  // 95 % of two axes
+    }
+    EXPECT_GE(covered, kRuns * 88 / 100);
+}
+
 TEST(ReflectorWatch, WithoutAPoseItTellsTheNearestThatItSees) {
     Looking looking(5, walls(), {12, 3, 0.6});
     for (int i = 0; i < 10; ++i) looking.step(false);
