@@ -48,7 +48,8 @@ test("between codes it drives by reflectors, and arrives where it should before 
 test("with its scanner covered it says that it sees none, and goes on by codes", async () => {
   await system.kill(system.agents.get(ID));
   system.startAgent(ID, { seed: 31, sensing: "analytic", extra: ["--fault", "scanner-covered"] });
-  await client.untilReady(ID);
-  await until("no reflector in view", async () => (await vehicle()).reflectors_in_view === 0, { timeout_s: 20 });
-  assert.equal((await vehicle()).pose_basis.kind, "codes");
+  await until("a pose by codes, and no reflector in view", async () => {
+    const { pose_known, pose_basis, reflectors_in_view } = await vehicle();
+    return pose_known && pose_basis.kind === "codes" && reflectors_in_view === 0;
+  }, { timeout_s: 20 });
 });
