@@ -88,4 +88,5 @@ it.each<[number | undefined, object | undefined]>([
   [2, { key: "some", values: { seen: "2" } }],
   [7, { key: "all", values: { seen: "7" } }],
 ])("%s reflectors in view", (seen, expected) =>
-  expect(reflectorWords({ reflectors_in_view: seen } as Vehicle)).toEqual(expected));
+  expect(reflectorWords({ reflectors_in_view: seen } as Vehicle)).toEqual(expected),
+);
