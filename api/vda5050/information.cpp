@@ -184,8 +184,8 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
     } else if (type == "reflector") {
         ReflectorSight sight{
             {in.number("x_m", limits::kOnVehicle_m), in.number("y_m", limits::kOnVehicle_m)},
-            in.number("sigma_m", limits::kSigma_m)};
-        keep(state.reflectors, sight, in);
+            in.number("sigma_m", limits::kSight_m)};
+        if (state.reflectors.size() < kMostReflectorSights) keep(state.reflectors, sight, in);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;

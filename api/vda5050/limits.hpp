@@ -12,6 +12,7 @@ inline constexpr json::NumberLimits kAngle_rad{-100, 100};
 /// The official schemas' half turn, a little more than pi. No angle that is sent exceeds it.
 inline constexpr double kSchemaPi = 3.14159265359;
 inline constexpr json::NumberLimits kSigma_m{0, 100};
+inline constexpr json::NumberLimits kSight_m{0, 1};  // of a reflector, by a laser scanner
 inline constexpr json::NumberLimits kSigma_rad{0, 4};
 inline constexpr json::NumberLimits kLength_m{0, 1e3};        // of bodies and widths of ways
 inline constexpr json::NumberLimits kOnVehicle_m{-1e3, 1e3};  // in the body frame

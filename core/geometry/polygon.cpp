@@ -104,6 +104,17 @@ bool contains(const Polygon& polygon, Point2 point) {
     return on_edge || inside;
 }
 
+bool crosses(const Polygon& polygon, Point2 from, Point2 to) {
+    const auto side = [](Point2 a, Point2 b, Point2 p) { return cross(b - a, p - a); };
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Point2 a = polygon[i];
+        const Point2 b = polygon[(i + 1) % polygon.size()];
+        if (side(from, to, a) * side(from, to, b) < 0 && side(a, b, from) * side(a, b, to) < 0)
+            return true;
+    }
+    return false;
+}
+
 bool intersects(const Polygon& a, const Polygon& b) {
     if (a.empty() || b.empty()) return false;
     if (box_distance(bounding_box(a), bounding_box(b)) > kOnEdge_m) return false;

@@ -20,6 +20,8 @@ double area_m2(const Polygon& polygon);
 bool contains(const Polygon& polygon, Point2 point);
 /// True when the polygons share a point (touching counts).
 bool intersects(const Polygon& a, const Polygon& b);
+/// Whether the straight way leads through an edge; one that only touches it does not.
+bool crosses(const Polygon& polygon, Point2 from, Point2 to);
 /// Smallest distance between two polygons; 0 when they meet.
 double distance(const Polygon& a, const Polygon& b);
 /// > 0 when counterclockwise.

@@ -25,6 +25,8 @@ constexpr int kFitRounds = 4;       // of Gauss-Newton: quadratic, and near from
 constexpr double kFindSigmas = 4;
 constexpr double kBase_m = 2;      // between two sights that a place is tried by
 constexpr std::size_t kTried = 6;  // the nearest, two of which are known in any case
+// Places tried: an odd layout of 200 reflectors suggests some 2,000, one of equal distances all.
+constexpr int kMostPlaces = 4000;
 constexpr double kSamePlace_m = 0.5;
 constexpr double kSameTurn_rad = 0.1;
 
@@ -194,6 +196,8 @@ double tolerance_m(std::span<const SeenReflector> seen, std::size_t a, std::size
     return kFindSigmas * std::hypot(sigma_of(seen[k]), lever * by_two_m);
 }
 
+double distance_squared(Point2 a, Point2 b) { return dot(a - b, a - b); }
+
 bool is_taken(const Place& place, const plant::Reflector* reflector) {
     return std::ranges::find(place.pairs, reflector, &Match::reflector) != place.pairs.end();
 }
@@ -204,10 +208,11 @@ Place place_by(std::span<const SeenReflector> seen, std::span<const plant::Refle
     for (std::size_t k = 0; k < seen.size(); ++k) {
         const Point2 at = pose * seen[k].in_body;
         const double within_m = tolerance_m(seen, a, b, k);
-        const auto near = std::ranges::find_if(reflectors, [&](const plant::Reflector& r) {
-            return distance(r.position, at) <= within_m + kFindSigmas * r.sigma_m;
+        const auto near = std::ranges::min_element(reflectors, {}, [&](const plant::Reflector& r) {
+            return distance_squared(r.position, at);
         });
-        if (near == reflectors.end() || is_taken(place, &*near)) continue;
+        const double off_m = distance(near->position, at);
+        if (off_m > within_m + kFindSigmas * near->sigma_m || is_taken(place, &*near)) continue;
         place.pairs.push_back({seen[k], &*near});
     }
     return place;
@@ -230,12 +235,14 @@ void keep(std::vector<Place>& places, Place place) {
     }
 }
 
-std::vector<Place> places_of(std::span<const SeenReflector> seen,
-                             std::span<const plant::Reflector> reflectors) {
+/// All of them, most pairs first; nothing: reflectors at equal distances suggest too many.
+std::optional<std::vector<Place>> places_of(std::span<const SeenReflector> seen,
+                                            std::span<const plant::Reflector> reflectors) {
     std::vector<Place> places;
-    const std::size_t tried = std::min(kTried, seen.size());
-    for (std::size_t a = 0; a < tried; ++a) {
-        for (std::size_t b = a + 1; b < tried; ++b) {
+    int tried = 0;
+    const std::size_t nearest = std::min(kTried, seen.size());
+    for (std::size_t a = 0; a < nearest; ++a) {
+        for (std::size_t b = a + 1; b < nearest; ++b) {
             const double base_m = distance(seen[a].in_body, seen[b].in_body);
             if (base_m < kBase_m) continue;
             const double within_m = kFindSigmas * std::hypot(sigma_of(seen[a]), sigma_of(seen[b]));
@@ -244,6 +251,7 @@ std::vector<Place> places_of(std::span<const SeenReflector> seen,
                     const double apart_m = distance(first.position, second.position);
                     const double survey_m = kFindSigmas * std::hypot(first.sigma_m, second.sigma_m);
                     if (std::abs(apart_m - base_m) > within_m + survey_m) continue;
+                    if (++tried > kMostPlaces) return std::nullopt;
                     const Pose2 pose =
                         pose_by(seen[a].in_body, seen[b].in_body, first.position, second.position);
                     keep(places, place_by(seen, reflectors, a, b, pose));
@@ -254,6 +262,14 @@ std::vector<Place> places_of(std::span<const SeenReflector> seen,
     std::ranges::sort(places, std::greater{},
                       [](const Place& place) { return place.pairs.size(); });
     return places;
+}
+
+tl::unexpected<Error> ambiguous(std::int64_t places) {
+    return fail(Errc::kConflict, "reflectors_ambiguous",
+                "From " + std::to_string(places) +
+                    " places of the hall the reflectors may look so; say where the vehicle "
+                    "stands, or add reflectors at odd places.",
+                {}, {{"places", places}});
 }
 
 }  // namespace
@@ -315,18 +331,13 @@ Result<BeaconFix> find_by_reflectors(std::span<const SeenReflector> seen,
     std::ranges::sort(nearest, {},
                       [](const SeenReflector& one) { return dot(one.in_body, one.in_body); });
     auto places = places_of(nearest, reflectors);
-    const std::size_t best = places.empty() ? 0 : places.front().pairs.size();
+    if (!places) return ambiguous(kMostPlaces);
+    const std::size_t best = places->empty() ? 0 : places->front().pairs.size();
     if (auto status = enough(best, kFewestToFind); !status) return fail(status.error());
-    const auto rivals = std::ranges::count_if(
-        places, [&](const Place& place) { return place.pairs.size() + kMargin > best; });
-    if (rivals > 1) {
-        return fail(Errc::kConflict, "reflectors_ambiguous",
-                    "From " + std::to_string(rivals) +
-                        " places of the hall the reflectors may look so; say where the vehicle "
-                        "stands, or add reflectors at odd places.",
-                    {}, {{"places", static_cast<std::int64_t>(rivals)}});
-    }
-    return fix_of(std::move(places.front().pairs), places.front().pose, scanner, errors);
+    const auto alike = std::ranges::count_if(
+        *places, [&](const Place& place) { return place.pairs.size() + kMargin > best; });
+    if (alike > 1) return ambiguous(alike);
+    return fix_of(std::move(places->front().pairs), places->front().pose, scanner, errors);
 }
 
 std::vector<plant::Reflector> reflectors_in_view(const plant::Plant& plant,

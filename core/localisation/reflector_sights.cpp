@@ -15,8 +15,7 @@ constexpr double kNearest_m = 0.3;  // nearer the lens sees nothing
 constexpr double kSameRange_m = 0.15;
 constexpr double kNeighbour = 1.5;  // steps between rays side by side
 constexpr double kTooWide = 1.5;    // times as wide as a reflector and the beam are
-constexpr double kRemissionNoise = 0.05;
-constexpr int kWays = 32;  // that the rays may fall beside the axis, looked at
+constexpr int kWays = 32;           // that the rays may fall beside the axis, looked at
 // Mean over a lit half circle of how far its face lies before the axis.
 constexpr double kFace = kPi / 4;
 
@@ -67,17 +66,18 @@ double sampling_rad(const plant::NavigationScanner& scanner, double range_m, std
 }
 
 /// Spread of the middle of brightness by noise of each ray's.
-double noise_rad(std::span<const BrightEcho> rays, double middle_rad) {
+double noise_rad(std::span<const BrightEcho> rays, double middle_rad, double remission) {
     double sum = 0;
     double moved = 0;
     for (const BrightEcho& ray : rays) {
         sum += ray.remission;
-        moved += square(ray.remission * kRemissionNoise * wrap(ray.angle_rad - middle_rad));
+        moved += square(ray.remission * remission * wrap(ray.angle_rad - middle_rad));
     }
     return std::sqrt(moved) / sum;
 }
 
-ReflectorSight sight_of(std::span<const BrightEcho> rays, const plant::NavigationScanner& scanner) {
+ReflectorSight sight_of(std::span<const BrightEcho> rays, const plant::NavigationScanner& scanner,
+                        const ReflectorErrors& errors) {
     ReflectorSight sight;
     double sum = 0;
     for (const BrightEcho& ray : rays) {
@@ -92,7 +92,7 @@ ReflectorSight sight_of(std::span<const BrightEcho> rays, const plant::Navigatio
     sight.sigma_range_m = scanner.sigma_range_m / std::sqrt(sum);
     sight.sigma_bearing_rad = std::hypot(scanner.sigma_bearing_rad / std::sqrt(sight.rays),
                                          sampling_rad(scanner, sight.range_m, rays.size()),
-                                         noise_rad(rays, sight.bearing_rad));
+                                         noise_rad(rays, sight.bearing_rad, errors.remission));
     return sight;
 }
 
@@ -115,7 +115,8 @@ double remission_at(const plant::NavigationScanner& scanner, double range_m, dou
 }
 
 std::vector<ReflectorSight> reflector_sights(std::span<const BrightEcho> echoes,
-                                             const plant::NavigationScanner& scanner) {
+                                             const plant::NavigationScanner& scanner,
+                                             const ReflectorErrors& errors) {
     std::vector<BrightEcho> rays(echoes.begin(), echoes.end());
     std::erase_if(rays, [](const BrightEcho& ray) {
         return !(ray.remission >= kLeastRemission) || !(ray.range_m >= kNearest_m) ||
@@ -136,17 +137,10 @@ std::vector<ReflectorSight> reflector_sights(std::span<const BrightEcho> echoes,
         std::size_t to = from + 1;
         while (to < rays.size() && together(rays[to - 1], rays[to])) ++to;
         const std::span<const BrightEcho> one(rays.data() + from, to - from);
-        if (!too_wide(one, scanner)) sights.push_back(sight_of(one, scanner));
+        if (!too_wide(one, scanner)) sights.push_back(sight_of(one, scanner, errors));
         from = to;
     }
     return sights;
-}
-
-ReflectorSight expected_sight(const plant::NavigationScanner& scanner, double range_m) {
-    range_m = std::max(range_m, kNearest_m);
-    auto rays = rays_about(scanner, range_m, 0);
-    if (rays.empty()) rays.push_back({0, range_m, kLeastRemission, 0});
-    return sight_of(rays, scanner);
 }
 
 }  // namespace pulseline::localisation

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "core/localisation/error_budget.hpp"
 #include "core/plant/plant.hpp"
 
 /// What one turn of a navigation scanner shows of the reflectors around it. Angles and places are
@@ -28,10 +29,11 @@ struct ReflectorSight {
 };
 
 /// Rays side by side at the same range are one reflector: its bearing is the middle of their
-/// brightness, and its face lies a quarter of its circle's round before the axis. What is wider
+/// brightness, and its face lies before the axis by pi/4 of its radius, on average. What is wider
 /// than a reflector can be, metal or two behind each other, is none.
 std::vector<ReflectorSight> reflector_sights(std::span<const BrightEcho> echoes,
-                                             const plant::NavigationScanner& scanner);
+                                             const plant::NavigationScanner& scanner,
+                                             const ReflectorErrors& errors = {});
 
 /// How bright a ray comes back that passes the axis of a reflector at this distance sideways: the
 /// share of the beam, a disc that widens with the range, that lies on it.
@@ -40,8 +42,5 @@ double remission_at(const plant::NavigationScanner& scanner, double range_m, dou
 double beam_radius_m(double range_m);
 /// Less is not told from bare metal.
 inline constexpr double kLeastRemission = 0.2;
-
-/// Sigmas of a reflector at this range, by as many rays as fall on it.
-ReflectorSight expected_sight(const plant::NavigationScanner& scanner, double range_m);
 
 }  // namespace pulseline::localisation

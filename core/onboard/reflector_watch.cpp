@@ -13,7 +13,7 @@ using localisation::SeenReflector;
 // Turns that fit nowhere near before it looks through the whole hall: somebody who walks by hides
 // reflectors for less.
 constexpr int kLooksAroundAfter = 8;
-constexpr std::size_t kTold = 12;  // the nearest: states stay short
+constexpr double kWorse = 1.01;
 
 }  // namespace
 
@@ -42,13 +42,15 @@ void ReflectorWatch::step(double dt_s, const std::vector<plant::Reflector>& refl
         return;
     }
     correction_.blur(fix->fix);
-    const bool news = !(drive_.standing() && told_standing_);
+    if (!drive_.standing()) told_standing_m_.reset();
+    // Of a place that is less well known by now, somebody has said something else.
+    const bool news = !told_standing_m_ || estimate_.sigma_xy_m() > kWorse * *told_standing_m_;
     switch (correction_.take(*fix, seen_ago_s_, news)) {
         case BeaconCorrection::Taken::kBegunAnew:
             without_ = 0;
             [[fallthrough]];
         case BeaconCorrection::Taken::kCorrected:
-            told_standing_ = drive_.standing();
+            if (drive_.standing()) told_standing_m_ = estimate_.sigma_xy_m();
             break;
         case BeaconCorrection::Taken::kRefused:
             break;
@@ -62,7 +64,7 @@ std::vector<SeenReflector> ReflectorWatch::seen_in(
     const plant::NavigationScanner& type = *drive_.type().navigation_scanner;
     std::vector<SeenReflector> seen;
     double ago_s = 0;
-    for (const auto& sight : localisation::reflector_sights(turn, type)) {
+    for (const auto& sight : localisation::reflector_sights(turn, type, errors_)) {
         const double age_s = std::max(0.0, sight.age_s);
         if (!drive_.standing() && !trail_.remembers(age_s)) continue;
         const geometry::Pose2 way =
@@ -96,7 +98,8 @@ void ReflectorWatch::tell(const std::vector<SeenReflector>& seen) {
     std::ranges::sort(sights_, {}, [](const vda5050::ReflectorSight& sight) {
         return dot(sight.place, sight.place);
     });
-    if (sights_.size() > kTold) sights_.resize(kTold);
+    if (sights_.size() > vda5050::kMostReflectorSights)
+        sights_.resize(vda5050::kMostReflectorSights);
 }
 
 }  // namespace pulseline::onboard

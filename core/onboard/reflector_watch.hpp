@@ -51,9 +51,11 @@ private:
     std::vector<vda5050::ReflectorSight> sights_;
     std::optional<localisation::BeaconFix> newest_;
     std::optional<Error> why_not_;
-    int without_ = 0;             // turns in a row that did not fit
-    bool told_standing_ = false;  // it has stood since a turn corrected it
-    double seen_ago_s_ = 0;       // of the last turn's sights, on average
+    int without_ = 0;  // turns in a row that did not fit
+    /// Sigma of the place that a turn corrected last and that it stands at since; nothing: none
+    /// has.
+    std::optional<double> told_standing_m_;
+    double seen_ago_s_ = 0;  // of the last turn's sights, on average
 };
 
 }  // namespace pulseline::onboard

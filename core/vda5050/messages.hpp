@@ -168,6 +168,9 @@ struct ReflectorSight {
     double sigma_m = 0;      // per axis
 };
 
+/// That a state tells of: more make no pose better, and each costs whoever has to name them.
+inline constexpr std::size_t kMostReflectorSights = 12;
+
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
@@ -210,7 +213,7 @@ struct StateMessage {
     std::vector<WheelStatus> wheels;
     std::vector<CameraReading> cameras;
     std::vector<ReceiverReading> receivers;
-    std::vector<ReflectorSight> reflectors;  // the nearest
+    std::vector<ReflectorSight> reflectors;  // the nearest, kMostReflectorSights of them
     std::vector<ParkingFoot> parking_feet;
     double load_kg = 0;
 };

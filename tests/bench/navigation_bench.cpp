@@ -91,9 +91,8 @@ struct Hall {
         for (const auto& one :
              localisation::reflectors_in_view(plant, plant.halls.front().id, scanner, pose)) {
             const auto at = scanner_from_hall * one.position;
-            auto sight = localisation::expected_sight(scanner, std::hypot(at.x_m, at.y_m));
-            sight.range_m = std::hypot(at.x_m, at.y_m);
-            sight.bearing_rad = std::atan2(at.y_m, at.x_m);
+            const localisation::ReflectorSight sight{std::atan2(at.y_m, at.x_m),
+                                                     std::hypot(at.x_m, at.y_m), 5e-4, 0.005};
             seen.push_back(localisation::seen_reflector(sight, scanner));
         }
     }
@@ -132,6 +131,27 @@ void reflectors_found(benchmark::State& state) {
     }
 }
 BENCHMARK(reflectors_found);
+
+/// The same among 200 reflectors at equal distances, where it has to give up.
+void reflectors_alike(benchmark::State& state) {
+    std::vector<plant::Reflector> grid;
+    for (int i = 0; i < 200; ++i) {
+        plant::Reflector one;
+        one.position = {5.0 * (i % 20), 5.0 * (i / 20)};
+        grid.push_back(one);
+    }
+    std::vector<localisation::SeenReflector> seen;
+    for (int i = 0; i < 12; ++i) {
+        seen.push_back(
+            {{5.0 * (i % 4) - 6, 5.0 * (i / 4) - 6}, 0.01 * Eigen::Matrix2d::Identity()});
+    }
+    for (auto _ : state) {
+        auto fix = localisation::find_by_reflectors(seen, grid, hall().scanner);
+        if (fix) throw std::runtime_error("found among places that look alike");
+        benchmark::DoNotOptimize(fix);
+    }
+}
+BENCHMARK(reflectors_alike);
 
 }  // namespace
 

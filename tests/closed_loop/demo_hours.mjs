@@ -60,7 +60,7 @@ async function look() {
     if (state === "Ended" || state === "Aborted") {
       open.delete(id);
       if (state === "Ended") ++ended;
-      else if (reason?.code === "cancelled") ++cancelled;
+      else if (reason?.code === "cancelled_by_person") ++cancelled;
       else bad(`an order of ${vehicle} was aborted: ${reason?.code}`);
     } else if (random() < CANCELLED_A_LOOK) {
       await client.request("POST", `/api/v1/job-orders/${id}/cancel`);

@@ -199,8 +199,9 @@ test("both press Start at the same moment: one drives, the other waits behind it
     await arm(page);
     await go(page).click();
   }));
-  const both = await until("both orders are stored", async () => {
-    const found = [await newestOf("operator"), await newestOf("anna")];
+  let found = [];
+  const both = await until(() => `both orders are stored, not ${JSON.stringify({ pressed, found })}`, async () => {
+    found = [await newestOf("operator"), await newestOf("anna")];
     return found.every((o) => o && !["Ended", "Aborted"].includes(o.state)) && found;
   }, { timeout_s: 10, every_ms: 50 });
   const driving = await until("one of them has the vehicle", async () => {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <set>
@@ -21,6 +20,7 @@
 #include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/receivers.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "tests/experiments/error_curves.hpp"
 #include "tests/experiments/experiments.hpp"
 
 namespace pulseline::experiments {
@@ -254,54 +254,6 @@ double covered(const std::vector<Drive>& drives) {
     return all == 0 ? 0 : static_cast<double>(inside) / all;
 }
 
-struct Curve {
-    std::string name;
-    std::vector<double> off_mm;  // 95 % of the drives, at each checkpoint
-};
-
-/// Error over distance, logarithmic, one line a family and method.
-void plot(const std::string& file, const std::vector<Curve>& curves) {
-    constexpr double kWidth = 900;
-    constexpr double kHeight = 480;
-    constexpr double kLeft = 70;
-    constexpr double kBottom = 430;
-    const auto x = [](std::size_t i) {
-        return kLeft + static_cast<double>(i + 1) * kCheckpoint_m / kLength_m * 560;
-    };
-    const auto y = [](double mm) {
-        return kBottom - std::log10(std::max(0.1, mm) / 0.1) / 4 * 400;
-    };
-    std::ofstream svg(file);
-    svg << fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
-        "font-family=\"sans-serif\" font-size=\"13\">\n"
-        "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-        kWidth, kHeight);
-    for (const double mm : {0.1, 1.0, 10.0, 100.0, 1000.0}) {
-        svg << fmt::format(
-            "<path d=\"M{} {:.1f}h560\" stroke=\"#ddd\"/><text x=\"{}\" y=\"{:.1f}\" "
-            "text-anchor=\"end\">{} mm</text>\n",
-            kLeft, y(mm), kLeft - 6, y(mm) + 4, mm);
-    }
-    for (const std::size_t i : {std::size_t{4}, std::size_t{9}, std::size_t{14}, std::size_t{19}}) {
-        svg << fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{} m</text>\n", x(i),
-                           kBottom + 20, (i + 1) * static_cast<std::size_t>(kCheckpoint_m));
-    }
-    constexpr std::array kColours{"#0b5cad", "#7a3e9d", "#00796b", "#c2410c", "#a16207",
-                                  "#b91c1c", "#4b5563", "#be185d", "#3f6212", "#0e7490"};
-    for (std::size_t c = 0; c < curves.size(); ++c) {
-        const char* colour = kColours[c % kColours.size()];
-        std::string points;
-        for (std::size_t i = 0; i < curves[c].off_mm.size(); ++i)
-            points += fmt::format("{:.1f},{:.1f} ", x(i), y(curves[c].off_mm[i]));
-        svg << fmt::format(
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n"
-            "<text x=\"645\" y=\"{}\" fill=\"{}\">{}</text>\n",
-            points, colour, 50 + 22 * c, colour, curves[c].name);
-    }
-    svg << "</svg>\n";
-}
-
 std::vector<Method> methods_of(const plant::VehicleType& type) {
     // Its wheels and camera are the omnidirectional mover's, which shows the others.
     if (type.navigation_scanner) return {Method::kReflectors};
@@ -413,7 +365,7 @@ bool navigation(const Options& options) {
             curves.push_back(std::move(curve));
         }
     }
-    if (!options.plot.empty()) plot(options.plot, curves);
+    if (!options.plot.empty()) plot(options.plot, curves, kCheckpoint_m);
     return good;
 }
 

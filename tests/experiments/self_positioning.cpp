@@ -109,7 +109,7 @@ std::optional<localisation::PoseFix> by_reflectors(const simulation::World& worl
     auto turn = scanner.take_turn(1 / known.rate_hz);
     while (!turn) turn = scanner.take_turn(1 / known.rate_hz);
     std::vector<localisation::SeenReflector> seen;
-    for (const auto& sight : localisation::reflector_sights(*turn, known)) {
+    for (const auto& sight : localisation::reflector_sights(*turn, known, world.errors.reflector)) {
         seen.push_back(localisation::seen_reflector(sight, known));
     }
     const Eigen::Vector3d variance(square(kPlaced_m), square(kPlaced_m), square(kPlaced_rad));

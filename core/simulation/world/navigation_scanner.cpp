@@ -11,18 +11,7 @@ namespace {
 using geometry::Point2;
 using localisation::BrightEcho;
 
-constexpr double kVehicle_m = 1.2;  // how high vehicles stand in its way
-constexpr double kLate_s = 0.1;     // a turn is taken some time after it ended, at most
-
-bool meets(Point2 a, Point2 b, const geometry::Polygon& body) {
-    const auto side = [](Point2 from, Point2 to, Point2 p) { return cross(to - from, p - from); };
-    for (std::size_t i = 0; i < body.size(); ++i) {
-        const Point2 c = body[i];
-        const Point2 d = body[(i + 1) % body.size()];
-        if (side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0) return true;
-    }
-    return false;
-}
+constexpr double kLate_s = 0.1;  // a turn is taken some time after it ended, at most
 
 }  // namespace
 
@@ -58,7 +47,7 @@ std::optional<std::vector<BrightEcho>> SimulatedNavigationScanner::take_turn(dou
     until_s_ += turn_s;
     if (until_s_ <= 0) until_s_ = turn_s;  // turns that nobody took are lost
     bodies_.clear();
-    if (neighbours_ && actual_.z_m < kVehicle_m) neighbours_(true_pose_.position(), bodies_);
+    if (neighbours_ && actual_.z_m < kVehiclesStand_m) neighbours_(true_pose_.position(), bodies_);
     std::vector<BrightEcho> echoes;
     if (covered_) return echoes;
     Turn turn;
@@ -112,8 +101,9 @@ void SimulatedNavigationScanner::add_rays(Point2 shining, double ended_s, double
 
 bool SimulatedNavigationScanner::is_hidden(Point2 from, Point2 shining) const {
     return !localisation::in_sight(world_.plant, hall_, from, shining) ||
-           std::ranges::any_of(
-               bodies_, [&](const geometry::Polygon& body) { return meets(from, shining, body); });
+           std::ranges::any_of(bodies_, [&](const geometry::Polygon& body) {
+               return geometry::crosses(body, from, shining);
+           });
 }
 
 }  // namespace pulseline::simulation

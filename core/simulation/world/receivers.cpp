@@ -11,7 +11,6 @@ using geometry::Point2;
 
 constexpr double kEvery_s = 0.04;
 constexpr double kRemembered_s = 0.2;  // the slowest heads turn in less
-constexpr double kBody_m = 1.2;        // how high vehicles stand in the light's way
 
 /// Share of the way from a to b at which it meets the segment from c to d; nothing: it does not.
 std::optional<double> meets(Point2 a, Point2 b, Point2 c, Point2 d) {
@@ -29,7 +28,7 @@ bool shades(const geometry::Polygon& body, const plant::Transmitter& from, const
     for (std::size_t i = 0; i < body.size(); ++i) {
         const auto share =
             meets(from.position, {point.x(), point.y()}, body[i], body[(i + 1) % body.size()]);
-        if (share && from.z_m + *share * (point.z() - from.z_m) < kBody_m) return true;
+        if (share && from.z_m + *share * (point.z() - from.z_m) < kVehiclesStand_m) return true;
     }
     return false;
 }

@@ -12,6 +12,9 @@ namespace pulseline::simulation {
 
 using geometry::Pose2;
 
+/// How high vehicles stand in the way of light and rays.
+inline constexpr double kVehiclesStand_m = 1.2;
+
 /// A floor code where it truly lies, which the survey only nearly knows.
 struct TrueMarker {
     std::string payload;

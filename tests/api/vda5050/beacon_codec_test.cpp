@@ -198,5 +198,15 @@ TEST(ReflectorSights, RoundTripAndLeaveOutWhatLacksSomething) {
     EXPECT_TRUE(without->reflectors.empty());
 }
 
+TEST(ReflectorSights, NobodyTellsOfMoreThanAPoseNeeds) {
+    StateMessage sent = testing::state();
+    for (int i = 0; i < 300; ++i) sent.reflectors.push_back({{1.0 * i, 2}, 0.01});
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_EQ(read->reflectors.size(), kMostReflectorSights);
+    sent.reflectors = {{{1, 2}, 50}};
+    EXPECT_FALSE(decode_state(parsed(encode_state(sent, header())))) << "no scanner is so poor";
+}
+
 }  // namespace
 }  // namespace pulseline::vda5050

@@ -39,6 +39,17 @@ TEST(Polygon, TransformKeepsAreaAndDistances) {
     }
 }
 
+TEST(Polygon, OnlyAWayThroughAnEdgeCrossesIt) {
+    const Polygon square = rectangle(2, 2);
+    EXPECT_TRUE(crosses(square, {-3, 0.2}, {3, 0.1}));
+    EXPECT_TRUE(crosses(square, {0, 0}, {0, 5})) << "out of it";
+    EXPECT_FALSE(crosses(square, {-0.5, 0}, {0.5, 0.3})) << "inside";
+    EXPECT_FALSE(crosses(square, {-3, 2}, {3, 2})) << "beside";
+    EXPECT_FALSE(crosses(square, {-3, 1}, {3, 1})) << "along an edge";
+    EXPECT_FALSE(crosses(square, {0, 3}, {0, 1})) << "up to it";
+    EXPECT_FALSE(crosses({}, {0, 0}, {1, 1}));
+}
+
 TEST(Polygon, BoundaryCountsAsInside) {
     const Polygon s = square(0, 0, 2);
 

@@ -134,9 +134,8 @@ TEST(LocateByReflectors, IsExactWhereSightsAre) {
     std::vector<SeenReflector> seen;
     for (const auto& one : hall()) {
         const Point2 at = scanner_from_hall * one.position;
-        auto sight = expected_sight(kScanner, std::hypot(at.x_m, at.y_m));
-        sight.range_m = std::hypot(at.x_m, at.y_m);
-        sight.bearing_rad = std::atan2(at.y_m, at.x_m);
+        const ReflectorSight sight{std::atan2(at.y_m, at.x_m), std::hypot(at.x_m, at.y_m), 5e-4,
+                                   0.005};
         seen.push_back(seen_reflector(sight, kScanner));
     }
     auto near = truth;
@@ -255,6 +254,26 @@ TEST(FindByReflectors, WhereTwoPlacesLookAlikeItTakesNeither) {
         seen_from({alike[0], alike[1], alike[2]}, {6, 4, 1}, random), alike, kScanner);
     ASSERT_FALSE(three);
     EXPECT_EQ(three.error().reason.code, "too_few_reflectors");
+}
+
+/// Whoever sends nonsense must not hold up who works it out: places tried are bounded.
+TEST(FindByReflectors, AGridOfEqualDistancesIsGivenUpSoon) {
+    std::vector<plant::Reflector> grid;
+    std::vector<SeenReflector> seen;
+    for (int i = 0; i < 200; ++i) {
+        plant::Reflector one;
+        one.id = plant::ReflectorId("r" + std::to_string(i));
+        one.position = {5.0 * (i % 20), 5.0 * (i / 20)};
+        grid.push_back(one);
+    }
+    for (int i = 0; i < 12; ++i) {
+        seen.push_back(
+            {{5.0 * (i % 4) - 6, 5.0 * (i / 4) - 6}, 0.01 * Eigen::Matrix2d::Identity()});
+    }
+    const auto fix = find_by_reflectors(seen, grid, kScanner);
+    ASSERT_FALSE(fix);
+    EXPECT_EQ(fix.error().reason.code, "reflectors_ambiguous");
+    EXPECT_FALSE(find_by_reflectors(seen, {}, kScanner)) << "told of none";
 }
 
 }  // namespace

@@ -5,19 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/onboard/marker_watch.hpp"
-#include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/receivers.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
-#include "tests/core/simulation/platform.hpp"
+#include "tests/core/onboard/straight_drive.hpp"
 
 namespace pulseline::onboard {
 namespace {
 
 using namespace simulation;
-using simulation::testing::straight;
 
 constexpr double kStep_s = LightWatch::kFineStep_s;
+static_assert(kStep_s == testing::StraightDrive::kStep_s);
 
 plant::VehicleType mover() {
     plant::VehicleType type = pulseline::testing::mecanum();
@@ -50,60 +48,19 @@ plant::Plant cell() {
 }
 
 /// A vehicle that drives along x in the light.
-class Lit {
+class Lit : public testing::StraightDrive {
 public:
     explicit Lit(std::uint64_t seed, plant::Plant plant = cell(), const Pose2& true_pose = {})
-        : world(make_world(std::move(plant), seed)),
-          drive(type, true_pose, seed),
-          receivers(world, plant::HallId("cell"), type, drive.true_pose(), seed) {
-        drive.set_believed({});
-        estimate.start_at(Pose2{});
-    }
+        : StraightDrive(mover(), std::move(plant), true_pose, seed),
+          receivers(world, plant::HallId("cell"), type, drive.true_pose(), seed),
+          light(receivers, drive, estimate, watch.trail()),
+          known(world.plant.transmitters) {}
 
-    void step(bool located = true) {
-        drive.step(kStep_s);
-        estimate.drive_to(drive.believed_pose());
-        watch.step(kStep_s, ahead);
-        light.step(kStep_s, known, located);
-    }
-    void stand(double time_s) {
-        for (double at_s = 0; at_s < time_s; at_s += kStep_s) step();
-    }
-    template <class Each>
-    void run(double length_m, Each each) {
-        for (double at_m = 0; at_m < length_m; at_m += 2.5) {
-            vda5050::OrderEdge edge;
-            edge.segment = straight({at_m, 0, 0}, 2.5);
-            drive.append(edge.segment);
-            ahead.push_back(edge);
-        }
-        for (int i = 0; i < 10'000 && !drive.idle(); ++i) {
-            step();
-            each();
-        }
-        ASSERT_TRUE(drive.idle());
-    }
-    double off_m() const {
-        return distance(estimate.pose().position(), drive.true_pose().position());
-    }
+    void look(bool located) override { light.step(kStep_s, known, located); }
 
-    struct Blind : WaySensing {
-        std::vector<WayReading> look_below(std::span<const vda5050::SurveyedMarker>, const Pose2&,
-                                           double) override {
-            return {};
-        }
-    };
-
-    plant::VehicleType type = mover();
-    World world;
-    ServoDrive drive;
     SimulatedReceivers receivers;
-    Blind cameras;
-    PoseEstimate estimate{Pose2{}, localisation::odometry_noise({}, type)};
-    MarkerWatch watch{cameras, drive, estimate};
-    LightWatch light{receivers, drive, estimate, watch.trail()};
-    std::deque<vda5050::OrderEdge> ahead;
-    std::vector<plant::Transmitter> known = world.plant.transmitters;
+    LightWatch light;
+    std::vector<plant::Transmitter> known;
 };
 
 TEST(LightWatch, ADriveIsSteeredByTheLight) {
@@ -195,11 +152,7 @@ TEST(LightWatch, SaysWhyWhenTheLightGoesOut) {
 /// It was pushed: the light says so again and again, its wheels know nothing of it.
 TEST(LightWatch, LightThatKeepsContradictingTheWheelsIsBelieved) {
     Lit lit(7, cell(), {0.25, 0.1, 0.05});
-    lit.estimate.take([] {
-        localisation::PoseFix sure;
-        sure.covariance = {{{1e-8, 0, 0}, {0, 1e-8, 0}, {0, 0, 1e-8}}};
-        return sure;
-    }());
+    lit.knows_exactly();
     lit.stand(0.1);
     EXPECT_GT(lit.off_m(), 0.2) << "two looks may be wrong";
     lit.stand(0.4);

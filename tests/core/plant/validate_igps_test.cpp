@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/plant/validate.hpp"
+#include "tests/core/plant/one_fault.hpp"
 
 namespace pulseline::plant {
 namespace {
@@ -55,16 +56,9 @@ Plant igps_plant() {
     return plant;
 }
 
-struct IgpsCase {
-    const char* name;
-    std::function<void(Plant&)> damage;
-    const char* element;
-    const char* code;
-};
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-const IgpsCase kIgpsCases[] = {
+const testing::FaultCase kIgpsCases[] = {
     {"TwoTransmittersOfOneId", [](Plant& p) { p.transmitters[1].id = TransmitterId("t1"); },
      "/transmitters/1/id", "duplicate_id"},
     {"TransmitterWithoutId", [](Plant& p) { p.transmitters[1].id = {}; }, "/transmitters/1/id",
@@ -180,22 +174,13 @@ TEST(ValidateIgps, AHallMayHaveSixteenTransmitters) {
     expect_no_fault(plant);
 }
 
-class BrokenIgps : public testing::TestWithParam<IgpsCase> {};
+class BrokenIgps : public ::testing::TestWithParam<testing::FaultCase> {};
 
 TEST_P(BrokenIgps, IsNamedAloneWithARemedy) {
-    Plant plant = igps_plant();
-    GetParam().damage(plant);
-    const std::vector<Fault> faults = validate(plant);
-
-    ASSERT_EQ(faults.size(), 1u);
-    EXPECT_EQ(faults[0].element, GetParam().element);
-    EXPECT_EQ(faults[0].code, GetParam().code);
-    EXPECT_FALSE(faults[0].what.empty());
-    EXPECT_FALSE(faults[0].remedy.empty());
+    testing::expect_named_alone(igps_plant(), GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenIgps, testing::ValuesIn(kIgpsCases),
-                         [](const auto& broken) { return std::string(broken.param.name); });
+INSTANTIATE_TEST_SUITE_P(Each, BrokenIgps, ::testing::ValuesIn(kIgpsCases), testing::name_of);
 
 }  // namespace
 }  // namespace pulseline::plant

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/plant/validate.hpp"
+#include "tests/core/plant/one_fault.hpp"
 
 namespace pulseline::plant {
 namespace {
@@ -52,16 +53,9 @@ Plant plant_with_reflectors() {
 
 NavigationScanner& scanner(Plant& plant) { return *plant.vehicle_types[0].navigation_scanner; }
 
-struct Case {
-    const char* name;
-    std::function<void(Plant&)> damage;
-    const char* element;
-    const char* code;
-};
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-const Case kCases[] = {
+const testing::FaultCase kCases[] = {
     {"TwoOfOneId", [](Plant& p) { p.reflectors[1].id = ReflectorId("a"); }, "/reflectors/1/id",
      "duplicate_id"},
     {"WithoutId", [](Plant& p) { p.reflectors[1].id = {}; }, "/reflectors/1/id", "empty_id"},
@@ -116,22 +110,13 @@ const Case kCases[] = {
 
 TEST(Reflectors, ThreeAreEnough) { EXPECT_TRUE(validate(plant_with_reflectors()).empty()); }
 
-class BrokenReflectors : public testing::TestWithParam<Case> {};
+class BrokenReflectors : public ::testing::TestWithParam<testing::FaultCase> {};
 
 TEST_P(BrokenReflectors, AreNamedAloneWithARemedy) {
-    Plant plant = plant_with_reflectors();
-    GetParam().damage(plant);
-    const std::vector<Fault> faults = validate(plant);
-
-    ASSERT_EQ(faults.size(), 1u);
-    EXPECT_EQ(faults[0].element, GetParam().element);
-    EXPECT_EQ(faults[0].code, GetParam().code);
-    EXPECT_FALSE(faults[0].what.empty());
-    EXPECT_FALSE(faults[0].remedy.empty());
+    testing::expect_named_alone(plant_with_reflectors(), GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, BrokenReflectors, testing::ValuesIn(kCases),
-                         [](const auto& broken) { return std::string(broken.param.name); });
+INSTANTIATE_TEST_SUITE_P(Each, BrokenReflectors, ::testing::ValuesIn(kCases), testing::name_of);
 
 }  // namespace
 }  // namespace pulseline::plant

@@ -1,8 +1,10 @@
 import { useTranslation } from "react-i18next";
 import type { ReactNode } from "react";
+import type { Plant } from "@/shared/api/types";
+import "./Legend.css";
 
 /** Key to the drawing, and the map's buttons at its end. */
-export function Legend({ revision, children }: { revision: number; children: ReactNode }) {
+export function Legend({ plant, children }: { plant: Plant; children: ReactNode }) {
   const { t } = useTranslation("map");
   return (
     <div className="legend" role="group" aria-label={t("legend.label")}>
@@ -32,6 +34,24 @@ export function Legend({ revision, children }: { revision: number; children: Rea
         </svg>
         {t("legend.marker")}
       </span>
+      {(plant.transmitters ?? []).length > 0 && (
+        <span className="gt-sm">
+          <svg viewBox="0 0 16 16" className="one" aria-hidden="true">
+            <path d="M8 2L13.2 11H2.8Z" fill="none" stroke="var(--map-marker)" strokeWidth="1.25" />
+            <circle cx="8" cy="8" r="1.25" fill="var(--map-marker)" />
+          </svg>
+          {t("legend.transmitter")}
+        </span>
+      )}
+      {(plant.reflectors ?? []).length > 0 && (
+        <span className="gt-sm">
+          <svg viewBox="0 0 16 16" className="one" aria-hidden="true">
+            <circle cx="8" cy="8" r="4.5" fill="none" stroke="var(--map-marker)" strokeWidth="1" />
+            <circle cx="8" cy="8" r="1.75" fill="var(--map-marker)" />
+          </svg>
+          {t("legend.reflector")}
+        </span>
+      )}
       <span>
         <svg viewBox="0 0 36 16" aria-hidden="true">
           <rect
@@ -48,7 +68,7 @@ export function Legend({ revision, children }: { revision: number; children: Rea
         {t("legend.stale")}
       </span>
       <span className="r" />
-      <span className="gt-sm cap">{t("legend.revision", { revision })}</span>
+      <span className="gt-sm cap">{t("legend.revision", { revision: plant.revision })}</span>
       {children}
     </div>
   );

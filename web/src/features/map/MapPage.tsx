@@ -151,7 +151,7 @@ export function MapPage() {
           onPick={pick}
           overlays={overlays}
         />
-        <Legend revision={plant.data.revision}>
+        <Legend plant={plant.data}>
           {(mayCommand || closures.length > 0) && (
             <button
               type="button"
