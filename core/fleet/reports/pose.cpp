@@ -132,7 +132,7 @@ void note_seen(LiveVehicle& live, Time now) {
 
 /// Of a pose that was not known before: what it can rest on, seen from here.
 PoseBasis basis_of(const FleetState& fleet, const LiveVehicle& live, const Pose2& told, Time now) {
-    const auto seen = seen_pose(fleet, live);
+    const auto seen = seen_pose(fleet, live, Reach::kNearIt);
     const bool agrees = seen && is_near(seen->pose, told);
     return {agrees ? seen->basis : PoseBasis::Kind::kVehicle, {}, {}, now, 0};
 }
@@ -299,12 +299,16 @@ void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessa
     fleet.store(live);
 }
 
-void offer_seen_pose(FleetState& fleet, LiveVehicle& live, Time now) {
+void offer_seen_pose(FleetState& fleet, LiveVehicle& live, std::optional<Time> before, Time now) {
     const vda5050::StateMessage& state = live.state;
     if (state.position_initialized || state.driving || is_in_doubt(live)) return;
     if (live.record.integration < Integration::kRespect) return;
     if (is_asked(live, vda5050::kInitPosition)) return;
-    const auto seen = seen_pose(fleet, live);
+    const auto second_of = [](Time t) {
+        return std::chrono::floor<std::chrono::seconds>(t.time_since_epoch());
+    };
+    const bool next_second = !before || second_of(*before) != second_of(now);
+    const auto seen = seen_pose(fleet, live, next_second ? Reach::kWholeHall : Reach::kNearIt);
     if (!seen) return;
     vda5050::Action action;
     action.type = vda5050::kInitPosition;

@@ -81,7 +81,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     if (is_overtaken(live, state)) return;
     live.newest_header = state.header_id;
     const vda5050::StateMessage before = std::exchange(live.state, state);
-    live.state_at = now;
+    const std::optional<Time> stated_before = std::exchange(live.state_at, now);
     live.reconciled = true;
     fleet.changed_vehicles.insert(live.record.id);
     note_errors(fleet, live, before.errors, now);
@@ -93,7 +93,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     watch_foreign_order(fleet, live, now);
     if (!state.driving) hold_where_it_stands(fleet, live, now);
     halt_or_resume(fleet, live, now);
-    offer_seen_pose(fleet, live, now);
+    offer_seen_pose(fleet, live, stated_before, now);
 }
 
 }  // namespace pulseline::fleet

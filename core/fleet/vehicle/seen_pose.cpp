@@ -64,7 +64,7 @@ std::optional<Pose2> by_codes(const FleetState& fleet, const LiveVehicle& live) 
 
 /// Where it says to stand is enough to tell its reflectors apart; otherwise how they stand to each
 /// other has to.
-std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& live) {
+std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& live, Reach reach) {
     const auto& scanner = live.type->navigation_scanner;
     if (!scanner || live.state.reflectors.empty()) return std::nullopt;
     std::vector<localisation::SeenReflector> seen;
@@ -83,6 +83,7 @@ std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& l
             seen, here, *scanner, {*live.state.pose, variance.asDiagonal()});
         if (near) return near->fix.pose;
     }
+    if (reach == Reach::kNearIt) return std::nullopt;
     const auto found = localisation::find_by_reflectors(seen, here, *scanner);
     if (!found) return std::nullopt;
     return found->fix.pose;
@@ -90,7 +91,7 @@ std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& l
 
 }  // namespace
 
-std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live) {
+std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live, Reach reach) {
     // A vehicle cannot stand outside the walls: then a sense or the survey is wrong.
     const auto in_hall = [&](const std::optional<Pose2>& pose) {
         return pose && is_in_hall(fleet, {*pose, hall_of(fleet, live)});
@@ -101,7 +102,7 @@ std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& li
     if (const auto pose = by_codes(fleet, live); in_hall(pose)) {
         return SeenPose{*pose, PoseBasis::Kind::kCodes};
     }
-    if (const auto pose = by_reflectors(fleet, live); in_hall(pose)) {
+    if (const auto pose = by_reflectors(fleet, live, reach); in_hall(pose)) {
         return SeenPose{*pose, PoseBasis::Kind::kReflectors};
     }
     return std::nullopt;

@@ -13,8 +13,12 @@ struct SeenPose {
     PoseBasis::Kind basis = PoseBasis::Kind::kCodes;  // or kReceivers, kReflectors
 };
 
+/// How far from where a vehicle says to stand its reflectors are looked for. Through a hall of many
+/// that stand alike it takes tens of milliseconds, so that nobody may have it done with each state.
+enum class Reach { kNearIt, kWholeHall };
+
 /// By its receivers of iGPS, else by the codes below its cameras, else by the reflectors around;
 /// nothing: they do not tell.
-std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live);
+std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live, Reach reach);
 
 }  // namespace pulseline::fleet

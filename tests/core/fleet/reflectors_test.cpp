@@ -82,6 +82,24 @@ TEST(Reflectors, TellAVehicleWhereItStands) {
     EXPECT_LT(geometry::distance(vehicle.state.pose->position(), stands.position()), 1e-6);
 }
 
+/// Looking through a whole hall takes long: whoever talks fast has it done no more often.
+TEST(Reflectors, AreLookedForInTheWholeHallOnceASecond) {
+    World world(reflecting_plant());
+    auto& vehicle = world.vehicle("V1");
+    vehicle.sees_codes = false;
+    vehicle.state.position_initialized = false;
+    vehicle.state.pose.reset();
+    world.connect_all();
+    world.run(std::ceil(seconds(world.now.time_since_epoch())) -
+              seconds(world.now.time_since_epoch()) + 1.2);
+
+    vehicle.state.reflectors = seen_from(world, {12.02, 20.01, 0.004});
+    world.run(0.6);
+    EXPECT_FALSE(view(world).pose_known) << "of this second it has told before";
+    world.run(0.6);
+    EXPECT_TRUE(view(world).pose_known);
+}
+
 TEST(Reflectors, ThatCannotBeTrueTellNothing) {
     const Pose2 stands{12.02, 20.01, 0};
     const auto told = [&](const std::function<void(std::vector<vda5050::ReflectorSight>&)>& spoil) {
