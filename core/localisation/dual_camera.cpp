@@ -218,6 +218,8 @@ const char* to_string(Method method) {
             return "igps";
         case Method::kReflectors:
             return "reflectors";
+        case Method::kContours:
+            return "contours";
     }
     return "";
 }

@@ -34,7 +34,7 @@ struct SurveyedCode {
     double sigma_heading_rad = 0;
 };
 
-enum class Method { kSingleCamera, kDualCamera, kIgps, kReflectors };
+enum class Method { kSingleCamera, kDualCamera, kIgps, kReflectors, kContours };
 
 struct PoseFix {
     Pose2 pose;

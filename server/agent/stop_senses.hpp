@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/onboard/light_watch.hpp"
+#include "core/onboard/pose/light_watch.hpp"
 #include "core/onboard/stop_sensing.hpp"
 #include "server/agent/camera_sensing.hpp"
 

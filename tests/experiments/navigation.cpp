@@ -13,13 +13,16 @@
 #include "api/plant/plant_file.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/localisation/codes_on_way.hpp"
-#include "core/onboard/light_watch.hpp"
-#include "core/onboard/marker_watch.hpp"
-#include "core/onboard/reflector_watch.hpp"
+#include "core/onboard/pose/contour_watch.hpp"
+#include "core/onboard/pose/light_watch.hpp"
+#include "core/onboard/pose/marker_watch.hpp"
+#include "core/onboard/pose/reflector_watch.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/receivers.hpp"
+#include "core/simulation/world/scanners.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/map_hall.hpp"
 #include "tests/experiments/error_curves.hpp"
 #include "tests/experiments/experiments.hpp"
 
@@ -40,6 +43,7 @@ constexpr double kStart_rad = 3e-4;
 // Of where a drive with codes ends.
 constexpr double kEnd_mm = 10;
 constexpr double kEndByLight_mm = 1;
+constexpr double kEndByContours_mm = 50;
 // Of all that is stated with 95 %, what holds.
 constexpr double kCovered = 0.95;
 constexpr double kCoveredWithin = 0.03;
@@ -61,7 +65,7 @@ struct Drive {
     double beside_m = 0;  // of its line, at the end
 };
 
-enum class Method { kOdometry, kCodes, kLight, kReflectors };
+enum class Method { kOdometry, kCodes, kLight, kReflectors, kContours };
 
 /// Transmitters on both sides of the way, as they stand in a hall.
 void set_up_transmitters(plant::Plant& plant) {
@@ -94,6 +98,28 @@ void set_up_reflectors(plant::Plant& plant) {
     }
 }
 
+/// Racks and jigs on both sides of the way, no two alike.
+void set_up_racks(plant::Plant& plant) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> share(0, 1);
+    for (const double side : {-1.0, 1.0}) {
+        for (double at_m = -20; at_m < kLength_m + 20; at_m += 5 + 5 * share(random)) {
+            const double from_m = 3.5 + 2 * share(random);
+            const double to_m = from_m + 0.6 + 1.4 * share(random);
+            const double end_m = at_m + 1 + 2 * share(random);
+            plant::Area rack;
+            rack.id = plant::AreaId(fmt::format("rack-{}", plant.areas.size() + 1));
+            rack.hall = plant.halls.front().id;
+            rack.kind = plant::AreaKind::kObstacle;
+            rack.outline = {{at_m, std::min(side * from_m, side * to_m)},
+                            {end_m, std::min(side * from_m, side * to_m)},
+                            {end_m, std::max(side * from_m, side * to_m)},
+                            {at_m, std::max(side * from_m, side * to_m)}};
+            plant.areas.push_back(rack);
+        }
+    }
+}
+
 /// A straight way of kLength_m along x in an empty hall, by codes one every `spacing_m`.
 plant::Plant straight_way(plant::Plant plant, const plant::VehicleType& type, Method method,
                           double spacing_m) {
@@ -104,6 +130,7 @@ plant::Plant straight_way(plant::Plant plant, const plant::VehicleType& type, Me
     plant.halls.front().outline = {{-30, -30}, {230, -30}, {230, 30}, {-30, 30}};
     if (method == Method::kLight) set_up_transmitters(plant);
     if (method == Method::kReflectors) set_up_reflectors(plant);
+    if (method == Method::kContours) set_up_racks(plant);
     for (double at_m = spacing_m; spacing_m > 0 && at_m <= kLength_m; at_m += spacing_m) {
         plant::Marker marker;
         const std::string number = std::to_string(plant.markers.size() + 1);
@@ -120,24 +147,16 @@ plant::Plant straight_way(plant::Plant plant, const plant::VehicleType& type, Me
     return plant;
 }
 
-std::deque<vda5050::OrderEdge> edges_over(const plant::Plant& plant,
-                                          const std::vector<plant::Camera>& cameras) {
-    std::deque<vda5050::OrderEdge> edges;
+std::vector<kinematics::Segment> pieces() {
+    std::vector<kinematics::Segment> pieces;
     for (double at_m = 0; at_m < kLength_m; at_m += kPiece_m) {
-        vda5050::OrderEdge edge;
-        edge.segment.start = {at_m, 0, 0};
-        edge.segment.end = {at_m + kPiece_m, 0, 0};
-        edge.segment.length_m = kPiece_m;
-        edge.actions.emplace_back();
-        for (const auto& marker : plant.markers) {
-            if (!localisation::is_passed(marker, cameras, edge.segment)) continue;
-            edge.actions.back().markers.push_back({marker.payload, plant::to_string(marker.kind),
-                                                   marker.size_m, marker.pose, marker.sigma_xy_m,
-                                                   marker.sigma_heading_rad});
-        }
-        edges.push_back(std::move(edge));
+        kinematics::Segment piece;
+        piece.start = {at_m, 0, 0};
+        piece.end = {at_m + kPiece_m, 0, 0};
+        piece.length_m = kPiece_m;
+        pieces.push_back(piece);
     }
-    return edges;
+    return pieces;
 }
 
 Checkpoint checkpoint(const onboard::PoseEstimate& estimate, const Pose2& truth) {
@@ -151,8 +170,9 @@ Checkpoint checkpoint(const onboard::PoseEstimate& estimate, const Pose2& truth)
             std::sqrt(covariance(2, 2))};
 }
 
+/// `map`: of the contours; none: it does not look at them.
 Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
-                  std::uint64_t seed) {
+                  std::uint64_t seed, const std::shared_ptr<const mapping::MatchedMap>& map) {
     const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
     const bool loaded = plant::is_loaded(vehicle);
     std::mt19937_64 random(seed);
@@ -180,7 +200,13 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
         reflectors.emplace(*scanner, drive, estimate, watch.trail(), world.errors.reflector);
     }
 
-    auto ahead = edges_over(world.plant, plant::cameras_of(type, loaded));
+    simulation::SimulatedScanners scanners(world, world.plant.halls.front().id, type,
+                                           drive.true_pose(), seed);
+    std::optional<onboard::ContourWatch> contours;
+    if (map) contours.emplace(scanners, drive, estimate, watch.trail(), map, seed);
+
+    auto ahead = agent::edges_over(world.plant, world.plant.halls.front().id,
+                                   plant::cameras_of(type, loaded), pieces());
     std::set<std::string> below;
     for (const auto& edge : ahead) {
         drive.append(edge.segment);
@@ -199,6 +225,7 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
         watch.step(dt_s, ahead);
         light.step(dt_s, world.plant.transmitters, true);
         if (reflectors) reflectors->step(dt_s, world.plant.reflectors, true);
+        if (contours) contours->step(dt_s, true);
         for (const auto& payload : watch.take_taken()) below.erase(payload);
         if (!watch.refused().empty() && watch.refused() != refused) {
             ++made.refused;
@@ -221,6 +248,17 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
     made.missed = static_cast<int>(below.size());
     made.beside_m = std::abs(drive.true_pose().y_m);
     return made;
+}
+
+/// As a vehicle has mapped the way before, by its codes, which lie there no more.
+std::shared_ptr<const mapping::MatchedMap> map_of(const plant::Plant& way,
+                                                  const plant::Vehicle& vehicle,
+                                                  const localisation::ErrorBudget& errors) {
+    constexpr std::uint64_t kMappedBy = 99;
+    auto map = agent::map_hall(simulation::make_world(way, kMappedBy, errors), vehicle,
+                               way.halls.front().id, pieces(), kMappedBy, [](double) {});
+    if (!map) throw std::runtime_error(map.error().what);
+    return mapping::prepare(std::move(*map));
 }
 
 /// Value that `share` of them do not exceed.
@@ -259,6 +297,7 @@ std::vector<Method> methods_of(const plant::VehicleType& type) {
     if (type.navigation_scanner) return {Method::kReflectors};
     std::vector<Method> methods{Method::kOdometry, Method::kCodes};
     if (!type.receivers.empty()) methods.push_back(Method::kLight);
+    if (type.kinematics == plant::Kinematics::kDifferential) methods.push_back(Method::kContours);
     return methods;
 }
 
@@ -272,6 +311,8 @@ const char* name_of(Method method) {
             return "iGPS";
         case Method::kReflectors:
             return "reflectors";
+        case Method::kContours:
+            return "contours";
     }
     return "";
 }
@@ -279,6 +320,7 @@ const char* name_of(Method method) {
 /// Of 95 % of the drives; odometry has no bound.
 double most_at_end_mm(Method method) {
     if (method == Method::kOdometry) return 1e9;
+    if (method == Method::kContours) return kEndByContours_mm;
     return method == Method::kLight ? kEndByLight_mm : kEnd_mm;
 }
 
@@ -331,11 +373,15 @@ bool navigation(const Options& options) {
         for (const Method method : methods_of(type)) {
             const double every_m = method == Method::kCodes ? options.stretch * spacing_m : 0;
             const auto way = straight_way(*plant, type, method, every_m);
+            std::shared_ptr<const mapping::MatchedMap> map;
+            if (method == Method::kContours) {
+                map = map_of(straight_way(*plant, type, method, spacing_m), vehicle, errors);
+            }
             std::vector<Drive> made;
             for (int i = 0; i < drives; ++i) {
                 const auto seed = options.seed + static_cast<std::uint64_t>(i);
                 made.push_back(
-                    drive_along(simulation::make_world(way, seed, errors), vehicle, seed));
+                    drive_along(simulation::make_world(way, seed, errors), vehicle, seed, map));
             }
             int missed = 0;
             int refused = 0;

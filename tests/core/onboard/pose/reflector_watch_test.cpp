@@ -1,4 +1,4 @@
-#include "core/onboard/reflector_watch.hpp"
+#include "core/onboard/pose/reflector_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/simulation/world/navigation_scanner.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
-#include "tests/core/onboard/straight_drive.hpp"
+#include "tests/core/onboard/pose/straight_drive.hpp"
 
 namespace pulseline::onboard {
 namespace {

@@ -1,4 +1,4 @@
-#include "core/onboard/marker_watch.hpp"
+#include "core/onboard/pose/marker_watch.hpp"
 
 #include <gtest/gtest.h>
 

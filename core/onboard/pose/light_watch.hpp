@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "core/localisation/igps_pose.hpp"
-#include "core/onboard/beacon_correction.hpp"
+#include "core/onboard/pose/beacon_correction.hpp"
 #include "core/onboard/drive.hpp"
-#include "core/onboard/odometry_trail.hpp"
-#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/pose/odometry_trail.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
 #include "core/onboard/receivers.hpp"
 #include "core/vda5050/messages.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +65,10 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
     catch_up();
     filter_ = against_codes();
     lasting_.setZero();
-    if (!filter_.correct(fix)) filter_.restart(fix.pose, localisation::matrix(fix.covariance));
+    if (!filter_.correct(fix)) {
+        filter_.restart(fix.pose, localisation::matrix(fix.covariance));
+        ++begun_;
+    }
     driven_ = now_ = fix.pose;
 }
 
@@ -108,6 +111,7 @@ Status PoseEstimate::check(const localisation::BeaconFix& seen) {
 void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
     lasting_ = localisation::matrix(seen.lasting);
+    ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
 }
 
@@ -118,6 +122,7 @@ void PoseEstimate::led_to(const Pose2& believed) {
 
 void PoseEstimate::start_at(const Pose2& pose) {
     filter_.restart(pose, told());
+    ++begun_;
     lasting_.setZero();
     driven_ = now_ = pose;
 }

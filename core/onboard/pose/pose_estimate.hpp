@@ -37,6 +37,8 @@ public:
     /// A person said where it stands.
     void start_at(const geometry::Pose2& pose);
 
+    /// How often it has begun anew, whatever its odometry said.
+    int begun() const { return begun_; }
     const localisation::OdometryNoise& noise() const { return noise_; }
     /// Where it is now; the drive may believe something else until it was led there.
     geometry::Pose2 pose() const { return filter_.pose() * (inverse(driven_) * now_); }
@@ -58,6 +60,7 @@ private:
     Eigen::Matrix3d lasting_ = Eigen::Matrix3d::Zero();
     geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
     geometry::Pose2 now_;     // by the drive's belief
+    int begun_ = 0;
 };
 
 }  // namespace pulseline::onboard

@@ -1,4 +1,4 @@
-#include "core/onboard/reflector_watch.hpp"
+#include "core/onboard/pose/reflector_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

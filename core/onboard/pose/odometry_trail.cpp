@@ -1,4 +1,4 @@
-#include "core/onboard/odometry_trail.hpp"
+#include "core/onboard/pose/odometry_trail.hpp"
 
 namespace pulseline::onboard {
 namespace {

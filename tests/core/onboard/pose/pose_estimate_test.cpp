@@ -1,4 +1,4 @@
-#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "core/onboard/beacon_correction.hpp"
+#include "core/onboard/pose/beacon_correction.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

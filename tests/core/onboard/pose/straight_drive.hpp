@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/onboard/marker_watch.hpp"
+#include "core/onboard/pose/marker_watch.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/world.hpp"
 #include "tests/core/simulation/platform.hpp"

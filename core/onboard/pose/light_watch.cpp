@@ -1,4 +1,4 @@
-#include "core/onboard/light_watch.hpp"
+#include "core/onboard/pose/light_watch.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "core/localisation/beacon_fix.hpp"
 #include "core/onboard/drive.hpp"
-#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
 
 namespace pulseline::onboard {
 

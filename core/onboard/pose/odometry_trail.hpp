@@ -19,6 +19,8 @@ public:
 
     /// By the drive, at the end of the last step.
     const Pose2& believed() const { return believed_; }
+    /// The way driven since the beginning, by the wheels alone.
+    const Pose2& driven() const { return odometry_; }
     bool remembers(double age_s) const { return past_.reach_back(age_s); }
     /// The body then, seen from the body now. REQUIRES: something is remembered.
     Pose2 now_from_then(double age_s) const { return inverse(odometry_) * past_.at(age_s); }

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/onboard/drive.hpp"
-#include "core/onboard/odometry_trail.hpp"
-#include "core/onboard/pose_estimate.hpp"
+#include "core/onboard/pose/odometry_trail.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
 #include "core/onboard/way_sensing.hpp"
 #include "core/vda5050/messages.hpp"
 

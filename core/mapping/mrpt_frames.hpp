@@ -1,0 +1,22 @@
+#pragma once
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose2D.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/control/scan.hpp"
+
+/// What vehicles tell, as MRPT takes it.
+namespace pulseline::mapping {
+
+mrpt::poses::CPose2D in_mrpt(const geometry::Pose2& pose);
+/// Covariance of (ahead_m, left_m, turn_rad).
+mrpt::obs::CActionCollection movement(const geometry::Pose2& moved,
+                                      const Eigen::Matrix3d& covariance);
+/// One turn of each of a vehicle's scanners.
+mrpt::obs::CSensoryFrame frame_of(const std::vector<control::Scan>& scans);
+
+}  // namespace pulseline::mapping

@@ -1,0 +1,137 @@
+#include "core/onboard/pose/contour_watch.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/square.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+using geometry::Pose2;
+
+constexpr double kEvery_m = 0.15;
+constexpr double kEvery_rad = 0.05;
+// Standing it looks until it has seen all that there is to see.
+constexpr double kStanding_s = 0.3;
+constexpr int kLooksStanding = 12;
+// Where it begins to look around: a person's finger on the screen, 95 % within 0.1 m and 5 deg.
+constexpr double kAround_m = 0.05;
+constexpr double kAround_rad = 0.044;
+// A map is no better than the pose that it was made with, nor than its cells.
+constexpr double kMap_m = 0.012;
+constexpr double kMap_rad = 0.0012;
+// Clouds one after the other have nearly all in common.
+constexpr double kLasting = 0.9;
+// Of what scanners meet, vehicles and people are not in the map.
+constexpr double kExplained = 0.5;
+constexpr int kFewestReturns = 12;
+constexpr int kLostAfter = 8;
+constexpr double kWidest_m = 0.25;  // one place, not several
+
+Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
+    return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
+}
+
+}  // namespace
+
+Eigen::Matrix3d way_covariance(const Pose2& way, const localisation::OdometryNoise& noise) {
+    const double ahead_m = std::abs(way.x_m);
+    const double left_m = std::abs(way.y_m);
+    const double way_m = ahead_m + left_m;
+    const double turn_rad = std::abs(way.heading_rad);
+    const Eigen::Vector3d variance(
+        square(noise.forward_m_per_sqrt_m) * ahead_m +
+            square(noise.sideways_m_per_sqrt_m) * left_m + square(noise.scale * way_m),
+        square(noise.left_m_per_sqrt_m) * ahead_m + square(noise.sideways_m_per_sqrt_m) * left_m +
+            square(noise.crab_rad * way_m),
+        square(noise.heading_rad_per_sqrt_m) * way_m +
+            square(noise.heading_rad_per_sqrt_rad) * turn_rad +
+            square(noise.bend_rad_per_m * way_m));
+    return Eigen::Matrix3d(variance.asDiagonal()) + diagonal(noise.fine_m, noise.fine_rad);
+}
+
+ContourWatch::ContourWatch(Scanners& scanners, const Drive& drive, PoseEstimate& estimate,
+                           const OdometryTrail& trail,
+                           std::shared_ptr<const mapping::MatchedMap> map, std::uint64_t seed)
+    : scanners_(scanners),
+      drive_(drive),
+      estimate_(estimate),
+      trail_(trail),
+      correction_(drive, estimate, 0),
+      particles_(std::move(map), seed) {}
+
+void ContourWatch::step(double dt_s, bool located) {
+    if (!located) {
+        begun_.reset();
+        newest_.reset();
+        explained_.reset();
+        why_not_.reset();
+        return;
+    }
+    if (begun_ != estimate_.begun()) begin();
+    if (is_due(dt_s)) look();
+}
+
+bool ContourWatch::is_due(double dt_s) {
+    const Pose2 way = inverse(looked_from_) * trail_.driven();
+    if (norm(way.position()) >= kEvery_m || std::abs(way.heading_rad) >= kEvery_rad) {
+        looks_standing_ = 0;
+        return true;
+    }
+    stood_s_ = drive_.standing() ? stood_s_ + dt_s * drive_.time_factor() : 0;
+    if (stood_s_ < kStanding_s || looks_standing_ >= kLooksStanding) return false;
+    ++looks_standing_;
+    return true;
+}
+
+void ContourWatch::begin() {
+    begun_ = estimate_.begun();
+    particles_.begin_at(estimate_.pose(),
+                        estimate_.covariance() + diagonal(kAround_m, kAround_rad));
+    looked_from_ = trail_.driven();
+    looks_standing_ = 0;
+    unexplained_ = 0;
+}
+
+void ContourWatch::look() {
+    const Pose2 way = inverse(looked_from_) * trail_.driven();
+    looked_from_ = trail_.driven();
+    stood_s_ = 0;
+    scanners_.scan(scans_);
+    const auto cloud = particles_.step(way, way_covariance(way, estimate_.noise()), scans_);
+    newest_.reset();
+    why_not_.reset();
+    explained_.reset();
+    if (cloud.returns < kFewestReturns) return;  // nothing stands near
+    explained_ = cloud.explained;
+    if (cloud.explained >= kExplained) {
+        unexplained_ = 0;
+        correct(cloud);
+        return;
+    }
+    why_not_ = Error{Errc::kConflict,
+                     {"contours_lost", {{"explained", cloud.explained}}},
+                     "What the scanners see is not what the map has here. Look whether the vehicle "
+                     "stands where it believes to stand, or map the hall anew.",
+                     {}};
+    if (++unexplained_ >= kLostAfter) begin();
+}
+
+void ContourWatch::correct(const mapping::MonteCarlo::Cloud& cloud) {
+    const Eigen::Matrix3d covariance = cloud.covariance + diagonal(kMap_m, kMap_rad);
+    if (localisation::worse_axis_m(covariance) > kWidest_m) return;
+    localisation::BeaconFix fix;
+    fix.fix.pose = cloud.pose;
+    fix.fix.method = localisation::Method::kContours;
+    set_covariance(fix.fix, covariance);
+    fix.lasting = localisation::rows(kLasting * covariance);
+    if (correction_.take(fix, 0) == BeaconCorrection::Taken::kBegunAnew) {
+        begun_ = estimate_.begun();  // at the particles
+    }
+    newest_ = std::move(fix);
+}
+
+}  // namespace pulseline::onboard

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/mapping/monte_carlo.hpp"
+#include "core/onboard/drive.hpp"
+#include "core/onboard/pose/beacon_correction.hpp"
+#include "core/onboard/pose/odometry_trail.hpp"
+#include "core/onboard/pose/pose_estimate.hpp"
+#include "core/onboard/scanners.hpp"
+
+namespace pulseline::onboard {
+
+/// Of (ahead_m, left_m, turn_rad), for a short way that the wheels have told.
+Eigen::Matrix3d way_covariance(const geometry::Pose2& way,
+                               const localisation::OdometryNoise& noise);
+
+/// What its scanners see of walls and things, against the map of the hall, corrects the pose that
+/// the vehicle steers by (natural features; Li 2022's second method), as BeaconCorrection says.
+/// Where somebody said it stands, it looks wider around than it would believe a person: 0.1 m and
+/// 5 deg off it still finds the place. Thread safety: none. No clock: time passes by step().
+class ContourWatch {
+public:
+    /// All must outlive it.
+    ContourWatch(Scanners& scanners, const Drive& drive, PoseEstimate& estimate,
+                 const OdometryTrail& trail, std::shared_ptr<const mapping::MatchedMap> map,
+                 std::uint64_t seed);
+
+    /// After each step of the trail. Without a pose (`located`) it does nothing.
+    void step(double dt_s, bool located);
+
+    /// The newest pose by contours; nothing: the last look gave none.
+    const std::optional<localisation::BeaconFix>& newest() const { return newest_; }
+    /// Of the rays that met something, the share that the map explains; nothing: it has not looked.
+    const std::optional<double>& explained() const { return explained_; }
+    /// Error contours_lost {explained}: what is around it is not what the map has there.
+    const std::optional<Error>& why_not() const { return why_not_; }
+
+private:
+    bool is_due(double dt_s);
+    void begin();
+    void look();
+    void correct(const mapping::MonteCarlo::Cloud& cloud);
+
+    Scanners& scanners_;
+    const Drive& drive_;
+    PoseEstimate& estimate_;
+    const OdometryTrail& trail_;
+    BeaconCorrection correction_;
+    mapping::MonteCarlo particles_;
+    std::vector<control::Scan> scans_;
+    std::optional<int> begun_;  // of the estimate, that the particles started from; nothing: none
+    geometry::Pose2 looked_from_;  // by the trail
+    double stood_s_ = 0;           // since the last look
+    int looks_standing_ = 0;
+    int unexplained_ = 0;  // looks in a row
+    std::optional<localisation::BeaconFix> newest_;
+    std::optional<double> explained_;
+    std::optional<Error> why_not_;
+};
+
+}  // namespace pulseline::onboard
