@@ -212,11 +212,12 @@ TEST(Architecture, ObjectsToWhatItShould) {
     EXPECT_EQ(objection({"db/fleet/a.cpp", "db/plant/a.hpp"}), "");
 }
 
-TEST(Architecture, OmplIsInOneFileAndOpenCvWhereImagesAre) {
+TEST(Architecture, OmplIsInOneFileMrptInOneFolderAndOpenCvWhereImagesAre) {
     static const std::regex kOmpl("^\\s*#\\s*include\\s*<ompl/");
+    static const std::regex kMrpt("^\\s*#\\s*include\\s*<mrpt/");
     static const std::regex kOpenCv("^\\s*#\\s*include\\s*<opencv2/");
     static const std::vector<std::string> kImages = {
-        "core/vision/",      "core/calibration/", "core/printing/", "core/simulation/world/",
+        "core/vision/",      "core/calibration/", "core/printing/", "core/mapping/", "core/simulation/world/",
         "api/localization/", "api/http/",         "api/plant/",     "server/"};
     std::set<std::string> ompl;
     for (const char* top : {"core", "api", "db", "server"}) {
@@ -226,6 +227,9 @@ TEST(Architecture, OmplIsInOneFileAndOpenCvWhereImagesAre) {
             std::ifstream in(entry.path());
             for (std::string line; std::getline(in, line);) {
                 if (std::regex_search(line, kOmpl)) ompl.insert(file.generic_string());
+                EXPECT_TRUE(!std::regex_search(line, kMrpt) ||
+                            file.generic_string().rfind("core/mapping/", 0) == 0)
+                    << file;
                 if (!std::regex_search(line, kOpenCv)) continue;
                 EXPECT_TRUE(std::any_of(kImages.begin(), kImages.end(), [&](const auto& folder) {
                     return file.generic_string().rfind(folder, 0) == 0;

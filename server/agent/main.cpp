@@ -1,14 +1,20 @@
 // pulseline-agent: simulated vehicles that obey a Pulseline server over the vehicle link.
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <opencv2/core/utility.hpp>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "api/plant/plant_file.hpp"
+#include "core/mapping/monte_carlo.hpp"
 #include "server/agent/hand_held_link.hpp"
 #include "server/agent/link_client.hpp"
+#include "server/agent/map_command.hpp"
 #include "server/agent/options.hpp"
 #include "server/agent/truth_log.hpp"
 #include "server/agent/vehicle.hpp"
@@ -31,6 +37,31 @@ struct Unit {
     std::unique_ptr<LinkClient> link;
 };
 
+/// Maps of the halls, each read once.
+class HallMaps {
+public:
+    explicit HallMaps(std::string folder) : folder_(std::move(folder)) {}
+
+    /// Nothing: there is none of that hall. Errors: as mapping::read_map.
+    Result<std::shared_ptr<const mapping::MatchedMap>> of(const plant::HallId& hall) {
+        if (folder_.empty()) return nullptr;
+        const auto known = maps_.find(hall);
+        if (known != maps_.end()) return known->second;
+        const auto file = std::filesystem::path(folder_) / (hall.str() + ".yaml");
+        if (!std::filesystem::exists(file)) {
+            server::log::warn("map.none", {{"file", file.string()}});
+            return maps_[hall] = nullptr;
+        }
+        auto map = mapping::read_map(file);
+        if (!map) return fail(map.error());
+        return maps_[hall] = mapping::prepare(std::move(*map));
+    }
+
+private:
+    std::string folder_;
+    std::map<plant::HallId, std::shared_ptr<const mapping::MatchedMap>> maps_;
+};
+
 /// Where the vehicle truly stands: where its log left it, else placed at home.
 Result<geometry::Pose2> start_pose(const Options& options, const simulation::World& world,
                                    const plant::Vehicle& vehicle) {
@@ -42,7 +73,8 @@ Result<geometry::Pose2> start_pose(const Options& options, const simulation::Wor
 
 Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
                                               const simulation::World& world,
-                                              const Identity& identity, TruthLog* truth) {
+                                              const Identity& identity, HallMaps& maps,
+                                              TruthLog* truth) {
     const auto* vehicle =
         plant::find_vehicle(world.plant, identity.manufacturer, identity.serial_number);
     if (vehicle == nullptr) {
@@ -63,6 +95,9 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     settings.battery_percent = options.battery_percent;
     settings.rendered = options.rendered;
     settings.learned = options.learned;
+    auto map = maps.of(plant::find_station(world.plant, vehicle->home)->hall);
+    if (!map) return fail(map.error());
+    settings.map = std::move(*map);
     settings.servo_drive = options.servo_drive;
     settings.vehicles = static_cast<int>(options.vehicles.size());
     settings.faults = options.faults;
@@ -124,13 +159,14 @@ Result<int> run(const Options& options) {
 
     net::io_context io(1);
     std::vector<Unit> units;
+    HallMaps maps(options.maps);
     if (!options.truth_log.empty()) {
         auto log = TruthLog::open(options.truth_log);
         if (!log) return fail(log.error());
         truth.emplace(std::move(*log));
     }
     for (const auto& identity : options.vehicles) {
-        auto vehicle = make_vehicle(options, world, identity, truth ? &*truth : nullptr);
+        auto vehicle = make_vehicle(options, world, identity, maps, truth ? &*truth : nullptr);
         if (!vehicle) return fail(vehicle.error());
         auto link = std::make_unique<LinkClient>(
             io, tls, options.server, identity, !options.insecure, **vehicle,
@@ -183,6 +219,7 @@ Result<int> run(const Options& options) {
 int main(int argc, char** argv) {
     using namespace pulseline;
     cv::setNumThreads(1);  // many agents share one machine
+    if (argc > 1 && std::string_view(argv[1]) == "map") return agent::map_command(argc - 1, argv + 1);
     int exit_code = 0;
     const auto options = agent::read_options(argc, argv, exit_code);
     if (!options) return exit_code;

@@ -261,6 +261,9 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     app.add_option("--hand-held", options.hand_held,
                    "socket for a hand-held control beside the vehicle (Unix, JSON lines)");
+    app.add_option("--maps", options.maps,
+                   "folder with maps of the halls (HALL.yaml, as `pulseline-agent map` makes "
+                   "them), by which vehicles know from walls and things where they are");
     app.add_option("--learned", options.learned,
                    "folder in which vehicles keep what they learn of their small moves");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");

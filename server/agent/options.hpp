@@ -47,6 +47,7 @@ struct Options {
     std::vector<Identity> vehicles;
     std::string world_file;
     std::string truth_log;  // empty: none
+    std::string maps;       // folder with maps of halls; empty: scanners only look out
     std::string learned;    // folder for what the vehicles learn; empty: none
     std::string hand_held;  // socket of a hand-held control; empty: none
     std::uint64_t seed = 1;

@@ -135,6 +135,10 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
         look_out_.emplace(*scanners_, vehicle, *drive_);
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
+        if (settings.map) {
+            contours_.emplace(*scanners_, *drive_, estimate_, watch_.trail(), settings.map,
+                              simulation::seed_for(settings.seed, "particles " + vehicle.id.str()));
+        }
     }
 }
 
@@ -206,6 +210,7 @@ void Vehicle::know_pose(double dt_s) {
         state_due_ |= lit != light_->newest().has_value();
     }
     if (reflectors_) reflectors_->step(dt_s, executor_.reflectors(), located);
+    if (contours_) contours_->step(dt_s, located);
 }
 
 void Vehicle::note_rest() {

@@ -10,6 +10,7 @@
 #include "api/vda5050/header.hpp"
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
+#include "core/onboard/pose/contour_watch.hpp"
 #include "core/onboard/pose/light_watch.hpp"
 #include "core/onboard/look_out.hpp"
 #include "core/onboard/pose/marker_watch.hpp"
@@ -40,6 +41,7 @@ struct VehicleSettings {
     std::vector<Fault> faults;
     bool servo_drive = false;  // wheel by wheel; a type without driven wheels stays statistical
     std::string learned = {};  // folder for what it learns; empty: forgotten at the end
+    std::shared_ptr<const mapping::MatchedMap> map = {};  // of its hall; none: it has none
 };
 
 /// One vehicle: its simulated machine and what it says. Frames come in by receive() and go out
@@ -123,6 +125,7 @@ private:
     std::optional<onboard::LightWatch> light_;                 // with receivers
     std::optional<simulation::SimulatedNavigationScanner> navigation_scanner_;  // the same
     std::optional<onboard::ReflectorWatch> reflectors_;                         // with it
+    std::optional<onboard::ContourWatch> contours_;  // with scanners and a map
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;

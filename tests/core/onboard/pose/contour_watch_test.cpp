@@ -1,0 +1,102 @@
+#include "core/onboard/pose/contour_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/core/mapping/mapped_hall.hpp"
+#include "tests/core/onboard/pose/straight_drive.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+std::shared_ptr<const mapping::MatchedMap> hall_map() {
+    static const auto kMap = mapping::prepare(mapping::testing::mapped());
+    return kMap;
+}
+
+/// A vehicle that drives along x in a hall that has been mapped.
+class Looking : public testing::StraightDrive {
+public:
+    explicit Looking(std::uint64_t seed, const geometry::Pose2& true_pose = {},
+                     plant::Plant plant = mapping::testing::hall_with_jigs())
+        : StraightDrive(pulseline::testing::mecanum(), std::move(plant), true_pose, seed),
+          scanners(world, plant::HallId("hall"), type, drive.true_pose(), seed),
+          contours(scanners, drive, estimate, watch.trail(), hall_map(), seed) {}
+
+    void look(bool located) override { contours.step(kStep_s, located); }
+
+    simulation::SimulatedScanners scanners;
+    ContourWatch contours;
+};
+
+TEST(ContourWatch, ADriveIsSteeredByWhatStandsAround) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        Looking looking(seed, {0.02, -0.02, 0.01});
+        double worst_m = 0;
+        double most_sigmas = 0;
+        looking.run(15, [&] {
+            if (looking.drive.true_pose().x_m < 3) return;
+            worst_m = std::max(worst_m, looking.off_m());
+            most_sigmas = std::max(most_sigmas, looking.off_m() / looking.estimate.sigma_xy_m());
+        });
+        EXPECT_TRUE(looking.contours.newest());
+        EXPECT_LT(worst_m, 0.05) << seed;
+        EXPECT_LT(most_sigmas, 4) << seed;
+        EXPECT_LT(std::abs(looking.drive.true_pose().y_m), 0.05) << seed;
+    }
+}
+
+TEST(ContourWatch, APersonsPlaceOf10CentimetresAnd5DegreesIsEnough) {
+    int found = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        const double angle_rad = static_cast<double>(seed);
+        Looking looking(seed, {0.1 * std::cos(angle_rad), 0.1 * std::sin(angle_rad),
+                               (seed % 2 == 0 ? 1 : -1) * radians(5.0)});
+        looking.stand(6);
+        const double turned_rad =
+            wrap(looking.estimate.pose().heading_rad - looking.drive.true_pose().heading_rad);
+        found += looking.off_m() < 0.04 && std::abs(turned_rad) < 0.01;
+        EXPECT_LT(looking.off_m(), 4 * looking.estimate.sigma_xy_m()) << seed;
+    }
+    EXPECT_EQ(found, 20);
+}
+
+TEST(ContourWatch, WhatCodesHaveToldBetterIsOnlyChecked) {
+    Looking looking(3);
+    looking.knows_exactly();
+    const auto before = looking.estimate.covariance();
+    looking.stand(5);
+    ASSERT_TRUE(looking.contours.newest());
+    EXPECT_TRUE(looking.estimate.covariance().isApprox(before));
+}
+
+TEST(ContourWatch, CarriedAwayItSaysThatNothingIsWhereTheMapHasIt) {
+    Looking looking(4, {13, -3.5, 1.2});
+    looking.stand(5);
+    EXPECT_FALSE(looking.contours.newest());
+    ASSERT_TRUE(looking.contours.why_not());
+    EXPECT_EQ(looking.contours.why_not()->reason.code, "contours_lost");
+    EXPECT_LT(distance(looking.estimate.pose().position(), {}), 0.2) << "it stays with what it knows";
+}
+
+TEST(ContourWatch, PeopleAroundItDoNotMoveIt) {
+    Looking looking(5, {0.02, -0.02, 0.01});
+    for (int i = 0; i < 6; ++i) {
+        const geometry::Pose2 beside{2.0 * i, i % 2 == 0 ? 2.0 : -2.0, 0};
+        looking.scanners.put(geometry::transformed(beside, geometry::rectangle(0.5, 0.5)));
+    }
+    looking.run(12.5, [] {});
+    EXPECT_LT(looking.off_m(), 0.05);
+}
+
+TEST(ContourWatch, WithoutAPoseItDoesNothing) {
+    Looking looking(6);
+    for (int i = 0; i < 200; ++i) looking.step(false);
+    EXPECT_FALSE(looking.contours.newest());
+    EXPECT_FALSE(looking.contours.explained());
+}
+
+}  // namespace
+}  // namespace pulseline::onboard
