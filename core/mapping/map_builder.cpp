@@ -57,7 +57,7 @@ struct MapBuilder::Slam {
 };
 
 MapBuilder::MapBuilder(const Pose2& start) : slam_(std::make_unique<Slam>()) {
-    mrpt::random::getRandomGenerator().randomize(kSeed);
+    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(kSeed);
     const mrpt::poses::CPosePDFGaussian at(in_mrpt(start));
     slam_->builder.initialize({}, &at);
 }

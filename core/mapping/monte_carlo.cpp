@@ -128,8 +128,9 @@ void MonteCarlo::begin_at(const Pose2& pose, const Eigen::Matrix3d& covariance) 
 MonteCarlo::Cloud MonteCarlo::step(const Pose2& moved, const Eigen::Matrix3d& moved_covariance,
                                    const std::vector<control::Scan>& scans) {
     // MRPT has one generator for all of a program: begun anew, each vehicle has its own numbers.
-    mrpt::random::getRandomGenerator().randomize(
-        static_cast<uint32_t>(particles_->seed * 1000003 + ++particles_->steps));
+    // A new one, for the old one keeps half of its last pair of numbers.
+    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(
+        static_cast<std::uint32_t>(particles_->seed * 1000003 + ++particles_->steps));
     const auto actions = movement(moved, moved_covariance);
     const auto seen = frame_of(scans);
     particles_->filter.executeOn(particles_->cloud, &actions, &seen);
