@@ -17,7 +17,7 @@ constexpr double kEvery_rad = 0.05;
 // Standing it looks until it has seen all that there is to see.
 constexpr double kStanding_s = 0.3;
 constexpr int kLooksStanding = 12;
-// Where it begins to look around: a person's finger on the screen, 95 % within 0.1 m and 5 deg.
+// Where it begins to look around, at least: what moved it may have moved it farther than it knows.
 constexpr double kAround_m = 0.05;
 constexpr double kAround_rad = 0.044;
 // A map is no better than the pose that it was made with, nor than its cells.
