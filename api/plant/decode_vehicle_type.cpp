@@ -95,6 +95,19 @@ SlipSensor decode_slip_sensor(ObjectReader& in) {
     return sensor;
 }
 
+LaserScanner decode_scanner(ObjectReader& in) {
+    LaserScanner scanner;
+    scanner.name = in.text("name", kId);
+    scanner.body_from_scanner = decode_pose(in.object("pose"));
+    scanner.field_rad = in.number_or("field_rad", scanner.field_rad, kQuantity);
+    scanner.step_rad = in.number_or("step_rad", scanner.step_rad, kQuantity);
+    scanner.range_m = in.number_or("range_m", scanner.range_m, kMetres);
+    scanner.least_range_m = in.number_or("least_range_m", scanner.least_range_m, kMetres);
+    scanner.sigma_m = in.number_or("sigma_m", scanner.sigma_m, kMetres);
+    scanner.most_error_m = in.number_or("most_error_m", scanner.most_error_m, kMetres);
+    return scanner;
+}
+
 NavigationScanner decode_navigation_scanner(ObjectReader& in) {
     NavigationScanner scanner;
     scanner.body_from_scanner = decode_pose(in.object("pose"));
@@ -144,6 +157,11 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     decode_all(in, "wheels", kFew, type.wheels, decode_wheel);
     decode_all(in, "cameras", kFew, type.cameras, decode_camera);
     decode_all(in, "receivers", kFew, type.receivers, decode_receiver, false);
+    if (in.has("scanners")) {
+        decode_all(in, "scanners", kFew, type.scanners, decode_scanner);
+    } else {
+        type.scanners = usual_scanners(type.footprint);
+    }
     if (auto scanner = in.object_if_any("navigation_scanner")) {
         type.navigation_scanner = decode_navigation_scanner(*scanner);
     }

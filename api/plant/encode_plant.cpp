@@ -141,6 +141,17 @@ Json encode(const Receiver& r) {
     return {{"name", r.name}, {"position", encode(r.position)}, {"z_m", r.z_m}};
 }
 
+Json encode(const LaserScanner& s) {
+    return {{"name", s.name},
+            {"pose", encode(s.body_from_scanner)},
+            {"field_rad", s.field_rad},
+            {"step_rad", s.step_rad},
+            {"range_m", s.range_m},
+            {"least_range_m", s.least_range_m},
+            {"sigma_m", s.sigma_m},
+            {"most_error_m", s.most_error_m}};
+}
+
 Json encode(const NavigationScanner& s) {
     return {{"pose", encode(s.body_from_scanner)},
             {"z_m", s.z_m},
@@ -193,6 +204,7 @@ Json encode(const VehicleType& t) {
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
+    json["scanners"] = encode_all(t.scanners);
     if (t.navigation_scanner) json["navigation_scanner"] = encode(*t.navigation_scanner);
     json["usual_code"] = {{"kind", to_string(t.usual_code.kind)}, {"size_m", t.usual_code.size_m}};
     if (t.slip_sensor) json["slip_sensor"] = {{"noise_mps", t.slip_sensor->noise_mps}};

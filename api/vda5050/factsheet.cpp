@@ -16,11 +16,16 @@ using plant::VehicleType;
 // The plant file does not say it; no message depends on it.
 constexpr double kWheelWidth_m = 0.15;
 
-/// VDA 5050 has a word for coded squares only.
-Json localization_types(const VehicleType& type) {
-    const bool squares =
-        !type.cameras.empty() && type.usual_code.kind != plant::MarkerKind::kLandmark;
-    return squares ? Json::array({"DMC"}) : Json::array();
+/// Of codes VDA 5050 has a word for squares only, and none for iGPS.
+Json localization_types(const FactsheetSource& source) {
+    const VehicleType& type = *source.type;
+    Json types = Json::array();
+    if (!type.cameras.empty() && type.usual_code.kind != plant::MarkerKind::kLandmark) {
+        types.push_back("DMC");
+    }
+    if (source.has_map) types.push_back("NATURAL");
+    if (type.navigation_scanner) types.push_back("REFLECTOR");
+    return types;
 }
 
 Json parameter(const char* key, const char* type, bool optional = false) {
@@ -132,7 +137,7 @@ std::string encode_factsheet(const FactsheetSource& source, const Header& header
         {"agvKinematic", type.kinematics == Kinematics::kDifferential ? "DIFF" : "OMNI"},
         {"agvClass", "CARRIER"},
         {"maxLoadMass", finite(type.max_load_kg)},
-        {"localizationTypes", localization_types(type)},
+        {"localizationTypes", localization_types(source)},
         {"navigationTypes", {"VIRTUAL_LINE_GUIDED"}}};
     out["physicalParameters"] = encode_physical(source);
     out["protocolLimits"] = {{"maxStringLens", Json::object()},

@@ -12,6 +12,7 @@ namespace pulseline::vda5050 {
 /// What a vehicle of ours says about itself.
 struct FactsheetSource {
     const plant::VehicleType* type = nullptr;
+    bool has_map = false;    // of its hall, for its laser scanners
     double time_factor = 1;  // speeds times it, accelerations times its square
     std::vector<std::string> node_actions;
     std::vector<std::string> edge_actions;

@@ -1,5 +1,7 @@
 #include "api/vda5050/information.hpp"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -81,6 +83,13 @@ Json encode_sight(const ReflectorSight& sight) {
                                {"sigma_m", number_text(sight.sigma_m)}});
 }
 
+Json encode_navigation(const NavigationStatus& status) {
+    References references{{"by", status.by}, {"driven_m", number_text(status.driven_m)}};
+    if (status.explained >= 0) references.emplace_back("explained", number_text(status.explained));
+    if (!status.why_not.empty()) references.emplace_back("why_not", status.why_not);
+    return entry("navigation", references);
+}
+
 /// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
 /// then left out, since vehicles may use our type names for something else. A number that cannot be
 /// true is an error of the message.
@@ -101,6 +110,7 @@ public:
         const auto found = values_.find(key);
         return found == values_.end() ? std::string{} : found->second.text;
     }
+    bool has(const char* key) const { return values_.count(key) != 0; }
     double number(const char* key, json::NumberLimits within) {
         const auto found = values_.find(key);
         if (found == values_.end()) {
@@ -158,6 +168,20 @@ ReceiverReading decode_receiver(Values& in) {
     return reading;
 }
 
+bool is_known_source(const std::string& by) {
+    constexpr std::array kSources{"person", "stop", "codes", "igps", "reflectors", "contours"};
+    return std::ranges::find(kSources, by) != kSources.end();
+}
+
+NavigationStatus decode_navigation(Values& in) {
+    NavigationStatus status;
+    status.by = in.text("by");
+    status.driven_m = in.number("driven_m", limits::kDeviation_m);
+    if (in.has("explained")) status.explained = in.number("explained", limits::kShare);
+    status.why_not = in.text_or_empty("why_not");
+    return status;
+}
+
 template <class T>
 void keep(std::vector<T>& list, T item, const Values& in) {
     if (in.usable()) list.push_back(std::move(item));
@@ -186,6 +210,9 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
             {in.number("x_m", limits::kOnVehicle_m), in.number("y_m", limits::kOnVehicle_m)},
             in.number("sigma_m", limits::kSight_m)};
         if (state.reflectors.size() < kMostReflectorSights) keep(state.reflectors, sight, in);
+    } else if (type == "navigation") {
+        auto status = decode_navigation(in);
+        if (in.usable() && is_known_source(status.by)) state.navigation = std::move(status);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
@@ -212,6 +239,7 @@ Json encode_information(const StateMessage& state) {
     for (const auto& reading : state.cameras) list.push_back(encode_camera(reading));
     for (const auto& reading : state.receivers) list.push_back(encode_receiver(reading));
     for (const auto& sight : state.reflectors) list.push_back(encode_sight(sight));
+    if (!state.navigation.by.empty()) list.push_back(encode_navigation(state.navigation));
     for (const auto& foot : state.parking_feet) {
         list.push_back(entry(
             "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));

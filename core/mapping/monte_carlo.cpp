@@ -31,12 +31,36 @@ constexpr unsigned kMost = 3000;
 constexpr double kBin_m = 0.03;
 constexpr double kBin_rad = 0.01;
 constexpr int kNear_cells = 2;
+// A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
+constexpr double kBehind_m = 0.5;
 
 }  // namespace
 
 struct MatchedMap {
     OccupancyMap map;
     mrpt::maps::COccupancyGridMap2D::Ptr grid;
+
+    bool is_occupied(Point2 place) const {
+        const Point2 in = place - map.corner;
+        const auto column = static_cast<int>(std::floor(in.x_m / map.cell_m));
+        const auto row = static_cast<int>(std::floor(in.y_m / map.cell_m));
+        return column >= 0 && column < map.columns && row >= 0 && row < map.rows &&
+               map.occupied(column, row);
+    }
+
+    /// Whether something stands on the way, but for its ends. Two cells in a row: a ray that grazes
+    /// a wall only cuts its corners.
+    bool has_something_between(Point2 from, Point2 to) const {
+        const double way_m = distance(from, to) - kBehind_m;
+        const Point2 step = (map.cell_m / distance(from, to)) * (to - from);
+        bool before = false;
+        for (int i = 1; i * map.cell_m < way_m; ++i) {
+            const bool here = is_occupied(from + static_cast<double>(i) * step);
+            if (here && before) return true;
+            before = here;
+        }
+        return false;
+    }
 
     bool has_something_near(Point2 place) const {
         const Point2 in = place - map.corner;
@@ -136,8 +160,9 @@ MonteCarlo::Cloud MonteCarlo::step(const Pose2& moved, const Eigen::Matrix3d& mo
     particles_->filter.executeOn(particles_->cloud, &actions, &seen);
 
     const auto [covariance, mean] = particles_->cloud.getCovarianceAndMean();
-    Cloud cloud{{mean.x(), mean.y(), mean.phi()}, covariance.asEigen(), 0, 0};
+    Cloud cloud{{mean.x(), mean.y(), mean.phi()}, covariance.asEigen()};
     int explained = 0;
+    int through = 0;
     for (const control::Scan& scan : scans) {
         const Pose2 sensor = cloud.pose * scan.body_from_sensor;
         for (std::size_t i = 0; i < scan.ranges_m.size(); i += kEveryRay) {
@@ -145,11 +170,16 @@ MonteCarlo::Cloud MonteCarlo::step(const Pose2& moved, const Eigen::Matrix3d& mo
             if (!std::isfinite(range_m) || range_m <= 0) continue;
             const double angle_rad = scan.first_rad + static_cast<double>(i) * scan.step_rad;
             ++cloud.returns;
-            explained += particles_->map->has_something_near(
-                sensor * (range_m * Point2{std::cos(angle_rad), std::sin(angle_rad)}));
+            const Point2 end =
+                sensor * (range_m * Point2{std::cos(angle_rad), std::sin(angle_rad)});
+            explained += particles_->map->has_something_near(end);
+            through += particles_->map->has_something_between(sensor.position(), end);
         }
     }
-    if (cloud.returns > 0) cloud.explained = static_cast<double>(explained) / cloud.returns;
+    if (cloud.returns > 0) {
+        cloud.explained = static_cast<double>(explained) / cloud.returns;
+        cloud.through = static_cast<double>(through) / cloud.returns;
+    }
     return cloud;
 }
 

@@ -33,6 +33,9 @@ public:
         int returns = 0;             // rays that met something
         /// Of them, how many ended where the map has something: the others met what is not in it.
         double explained = 0;
+        /// Of them, how many went through what the map has: none, where it is right, whoever stands
+        /// around.
+        double through = 0;
     };
     /// The vehicle has moved by `moved`, seen from where it was, with this covariance of (ahead_m,
     /// left_m, turn_rad), and its scanners see this now.

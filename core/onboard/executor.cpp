@@ -118,7 +118,7 @@ void Executor::traverse(const vda5050::OrderNode& node) {
 
 void Executor::step(double dt_s) {
     if (in_hand_) return step_in_hand(dt_s);
-    if (paused_ || !cancel_id_.empty()) {
+    if (paused_ || lost_ || !cancel_id_.empty()) {
         motion_.hold();
     } else {
         motion_.release();
@@ -237,9 +237,20 @@ void Executor::finish_stop(const StopProcedure::Outcome& outcome) {
     }
     set_action(running_stop_, outcome.succeeded ? ActionStatus::kFinished : ActionStatus::kFailed,
                outcome.why_not);
-    if (outcome.measurement) position_initialized_ = true;
+    if (outcome.measurement) know_pose();
     if (!waiting_.empty() && waiting_.front().id == running_stop_) waiting_.pop_front();
     running_stop_.clear();
+}
+
+void Executor::know_pose() {
+    position_initialized_ = true;
+    lost_.reset();
+}
+
+void Executor::lose_pose(vda5050::VehicleError why) {
+    position_initialized_ = false;
+    lost_ = std::move(why);
+    changed_ = true;
 }
 
 void Executor::finish_cancel() {
@@ -359,6 +370,7 @@ void Executor::write_state(vda5050::StateMessage& state) const {
     state.action_states.insert(state.action_states.end(), instant_actions_.begin(),
                                instant_actions_.end());
     state.errors = errors_;
+    if (lost_) state.errors.push_back(*lost_);
     if (procedure_.searching()) {
         state.errors.push_back({"codesNotInView",
                                 false,

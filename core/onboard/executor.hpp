@@ -59,6 +59,9 @@ public:
     bool take_factsheet_request();
 
     bool position_initialized() const { return position_initialized_; }
+    /// It does not know where it is any more: it brakes, stays and tells why until somebody, or a
+    /// code below it, says where it stands.
+    void lose_pose(vda5050::VehicleError why);
     /// Of iGPS, by the newest setTransmitters; they stay when the link is lost.
     const std::vector<plant::Transmitter>& transmitters() const { return transmitters_; }
     /// For its navigation scanner, by the newest setReflectors; they stay the same way.
@@ -84,6 +87,7 @@ private:
     void run_actions(double dt_s);
     void run_equipment();
     void finish_stop(const StopProcedure::Outcome& outcome);
+    void know_pose();
     void finish_cancel();
     void finish_pause();
     void note_motion();
@@ -139,6 +143,7 @@ private:
     std::vector<plant::Transmitter> transmitters_;
     std::vector<plant::Reflector> reflectors_;
     bool position_initialized_ = false;
+    std::optional<vda5050::VehicleError> lost_;  // why it does not know where it is any more
     bool driving_ = false;
     bool stopped_ = false;      // by the drive itself
     bool base_wanted_ = false;  // to go round something

@@ -151,7 +151,7 @@ void Executor::init_position(const Action& action) {
     }
     motion_.set_believed(action.init_position->pose);
     motion_.acknowledge();
-    position_initialized_ = true;
+    know_pose();
     add_action(action, ActionStatus::kFinished);
 }
 

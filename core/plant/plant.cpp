@@ -25,6 +25,12 @@ double VehicleType::length_m() const {
     return box.max.x_m - box.min.x_m;
 }
 
+std::vector<LaserScanner> usual_scanners(const Polygon& footprint) {
+    const geometry::Box box = geometry::bounding_box(footprint);
+    return {{"front left", {box.max.x_m, box.max.y_m, kPi / 4}},
+            {"back right", {box.min.x_m, box.min.y_m, -3 * kPi / 4}}};
+}
+
 const Hall* find_hall(const Plant& plant, const HallId& id) { return find_id(plant.halls, id); }
 const Station* find_station(const Plant& plant, const StationId& id) {
     return find_id(plant.stations, id);

@@ -190,6 +190,20 @@ struct Receiver {
     double z_m = 0.6;  // above the floor
 };
 
+/// A laser scanner that sees at which distance something stands around, level with it. As the
+/// UST-10LX's data sheet has it, and Li 2022 in section 5.1 (its section 5.2 prints +-4 mm for
+/// most_error_m, which is that of the scanner beside it), unless the plant says otherwise.
+struct LaserScanner {
+    std::string name;          // "front left"
+    Pose2 body_from_scanner;   // x in the middle of its field, from calibration
+    double field_rad = 270 * 3.14159265358979323846 / 180;
+    double step_rad = 0.25 * 3.14159265358979323846 / 180;
+    double range_m = 10;
+    double least_range_m = 0.06;
+    double sigma_m = 0.012;      // one sigma, of one ray
+    double most_error_m = 0.04;  // no return is farther off than that
+};
+
 /// A laser scanner that looks all round for reflectors, from above what drives about. As the
 /// NAV350's data sheet has it, unless the plant says otherwise.
 struct NavigationScanner {
@@ -248,6 +262,7 @@ struct VehicleType {
     std::vector<Wheel> wheels;
     std::vector<Camera> cameras;
     std::vector<Receiver> receivers;  // of iGPS; none: it does not navigate by it
+    std::vector<LaserScanner> scanners;  // none: it sees nothing that stands in its way
     std::optional<NavigationScanner> navigation_scanner = {};  // none: not by reflectors
     UsualCode usual_code;
     std::optional<SlipSensor> slip_sensor;  // none: nobody sees a wheel that slips alone
@@ -331,6 +346,8 @@ const Vehicle* find_vehicle(const Plant& plant, const VehicleId& id);
 const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
                             const std::string& serial_number);
 const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
+/// Where a plant says nothing: two, at opposite corners, each looking away from the body.
+std::vector<LaserScanner> usual_scanners(const Polygon& footprint);
 /// Whether the vehicle carries something that counts with its outline.
 bool is_loaded(const Vehicle& vehicle);
 /// The cameras as they hang with or without load.

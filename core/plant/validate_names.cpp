@@ -176,6 +176,8 @@ void check_type_names(const Plant& plant, Faults& faults) {
                         "Name it by its place, such as \"front\".", faults);
         check_own_names(type.receivers, at("vehicle_types", i, "/receivers"), "receiver",
                         "Name it by its place, such as \"front left\".", faults);
+        check_own_names(type.scanners, at("vehicle_types", i, "/scanners"), "scanner",
+                        "Name it by its place, such as \"front left\".", faults);
         if (type.motion_modes.empty()) {
             faults.add(at("vehicle_types", i, "/motion_modes"), "no_motion_mode",
                        "The type allows no motion mode, so it can never move.",

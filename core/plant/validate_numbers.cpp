@@ -60,6 +60,31 @@ void check_camera(const Camera& c, Numbers n) {
 constexpr double kLeastStep_rad = 0.01 * kPi / 180;
 constexpr double kMostStep_rad = 5 * kPi / 180;
 
+void check_step(double step_rad, Numbers n) {
+    if (n.finite("/step_rad", step_rad) &&
+        (step_rad < kLeastStep_rad || step_rad > kMostStep_rad)) {
+        n.fault("/step_rad", "scanner_step", "No laser scanner has such a step between its rays.",
+                "Write the step of its data sheet, between 0.01 and 5 degrees.");
+    }
+}
+
+void check_scanner(const LaserScanner& s, Numbers n) {
+    n.pose("/pose", s.body_from_scanner);
+    n.positive("/field_rad", s.field_rad);
+    if (s.field_rad >= 2 * kPi) {
+        n.fault("/field_rad", "scanner_field", "Its field of view is a full turn or more.",
+                "Write the field of its data sheet, below 2 pi.");
+    }
+    check_step(s.step_rad, n);
+    n.not_negative("/least_range_m", s.least_range_m);
+    if (n.finite("/range_m", s.range_m) && s.range_m <= s.least_range_m) {
+        n.fault("/range_m", "scanner_range", "It ends before the least range.",
+                "Make range_m greater than least_range_m.");
+    }
+    n.not_negative("/sigma_m", s.sigma_m);
+    n.not_negative("/most_error_m", s.most_error_m);
+}
+
 void check_navigation_scanner(const NavigationScanner& s, Numbers n) {
     n.pose("/pose", s.body_from_scanner);
     n.positive("/z_m", s.z_m);
@@ -68,11 +93,7 @@ void check_navigation_scanner(const NavigationScanner& s, Numbers n) {
     n.positive("/reflector_radius_m", s.reflector_radius_m);
     n.positive("/sigma_range_m", s.sigma_range_m);
     n.positive("/sigma_bearing_rad", s.sigma_bearing_rad);
-    if (n.finite("/step_rad", s.step_rad) &&
-        (s.step_rad < kLeastStep_rad || s.step_rad > kMostStep_rad)) {
-        n.fault("/step_rad", "scanner_step", "No laser scanner has such a step between its rays.",
-                "Write the step of its data sheet, between 0.01 and 5 degrees.");
-    }
+    check_step(s.step_rad, n);
 }
 
 void check_type(const VehicleType& t, const std::string& element, Faults& faults) {
@@ -114,6 +135,9 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
         Numbers receiver(element + "/receivers/" + std::to_string(i), faults);
         receiver.point("/position", t.receivers[i].position);
         receiver.positive("/z_m", t.receivers[i].z_m);
+    }
+    for (std::size_t i = 0; i < t.scanners.size(); ++i) {
+        check_scanner(t.scanners[i], {element + "/scanners/" + std::to_string(i), faults});
     }
     if (t.navigation_scanner) {
         check_navigation_scanner(*t.navigation_scanner, {element + "/navigation_scanner", faults});

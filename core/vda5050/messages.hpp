@@ -171,6 +171,15 @@ struct ReflectorSight {
 /// That a state tells of: more make no pose better, and each costs whoever has to name them.
 inline constexpr std::size_t kMostReflectorSights = 12;
 
+/// By what the vehicle knew last where it is, by its own word.
+struct NavigationStatus {
+    std::string by;     // person, stop, codes, igps, reflectors, contours; empty: it has not said
+    double driven_m = 0;  // since then, by its wheels
+    /// Of what its laser scanners meet, the share that its map of the hall has; negative: no map.
+    double explained = -1;
+    std::string why_not;  // reason code, when the scanners do not fit the map
+};
+
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
@@ -214,6 +223,7 @@ struct StateMessage {
     std::vector<CameraReading> cameras;
     std::vector<ReceiverReading> receivers;
     std::vector<ReflectorSight> reflectors;  // the nearest, kMostReflectorSights of them
+    NavigationStatus navigation;
     std::vector<ParkingFoot> parking_feet;
     double load_kg = 0;
 };

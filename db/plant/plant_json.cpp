@@ -123,6 +123,34 @@ std::vector<plant::Receiver> receivers_from_json(const std::string& text) {
     });
 }
 
+std::string scanners_to_json(const std::vector<plant::LaserScanner>& scanners) {
+    return list_to_json(scanners, [](const plant::LaserScanner& s) {
+        const plant::Pose2& at = s.body_from_scanner;
+        return Json{{"name", s.name},
+                    {"x_m", number(at.x_m)},
+                    {"y_m", number(at.y_m)},
+                    {"heading_rad", number(at.heading_rad)},
+                    {"field_rad", number(s.field_rad)},
+                    {"step_rad", number(s.step_rad)},
+                    {"range_m", number(s.range_m)},
+                    {"least_range_m", number(s.least_range_m)},
+                    {"sigma_m", number(s.sigma_m)},
+                    {"most_error_m", number(s.most_error_m)}};
+    });
+}
+std::vector<plant::LaserScanner> scanners_from_json(const std::string& text) {
+    return list_from_json<plant::LaserScanner>(text, [](const Json& j) {
+        return plant::LaserScanner{j.at("name"),
+                                   {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+                                   j.at("field_rad"),
+                                   j.at("step_rad"),
+                                   j.at("range_m"),
+                                   j.at("least_range_m"),
+                                   j.at("sigma_m"),
+                                   j.at("most_error_m")};
+    });
+}
+
 std::string scanner_to_json(const std::optional<plant::NavigationScanner>& scanner) {
     if (!scanner) return "null";
     const plant::Pose2& at = scanner->body_from_scanner;

@@ -18,6 +18,8 @@ std::string cameras_to_json(const std::vector<plant::Camera>& cameras);
 std::vector<plant::Camera> cameras_from_json(const std::string& text);
 std::string receivers_to_json(const std::vector<plant::Receiver>& receivers);
 std::vector<plant::Receiver> receivers_from_json(const std::string& text);
+std::string scanners_to_json(const std::vector<plant::LaserScanner>& scanners);
+std::vector<plant::LaserScanner> scanners_from_json(const std::string& text);
 std::string scanner_to_json(const std::optional<plant::NavigationScanner>& scanner);
 std::optional<plant::NavigationScanner> scanner_from_json(const std::string& text);
 std::string brackets_to_json(const std::vector<plant::Bracket>& brackets);

@@ -82,6 +82,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     wheels = wheels_to_json(type.wheels);
     cameras = cameras_to_json(type.cameras);
     receivers = receivers_to_json(type.receivers);
+    scanners = scanners_to_json(type.scanners);
     navigation_scanner = scanner_to_json(type.navigation_scanner);
     brackets = brackets_to_json(type.brackets);
     usual_code_kind = plant::to_string(type.usual_code.kind);
@@ -103,6 +104,9 @@ plant::VehicleType VehicleTypeRow::get() const {
     type.wheels = wheels_from_json(wheels);
     type.cameras = cameras_from_json(cameras);
     type.receivers = receivers_from_json(receivers);
+    // Of types that were stored before scanners were.
+    type.scanners = scanners == "null" ? plant::usual_scanners(type.footprint)
+                                       : scanners_from_json(scanners);
     type.navigation_scanner = scanner_from_json(navigation_scanner);
     type.brackets = brackets_from_json(brackets);
     read(usual_code_kind, type.usual_code.kind);

@@ -103,14 +103,21 @@ Status complete(const Raw& raw, Options& options) {
     return {};
 }
 
-/// "X,Y"
-bool read_place(const std::string& text, geometry::Point2& place) {
-    const char* end = text.data() + text.size();
-    const auto [comma, error] = std::from_chars(text.data(), end, place.x_m);
-    if (error != std::errc{} || comma == end || *comma != ',') return false;
-    const auto [rest, error_y] = std::from_chars(comma + 1, end, place.y_m);
-    return error_y == std::errc{} && rest == end && std::isfinite(place.x_m) &&
-           std::isfinite(place.y_m);
+/// "1,-2.5,90": as many numbers as asked for; none of them where the text is something else.
+std::vector<double> read_numbers(const std::string& text, std::size_t count) {
+    std::vector<double> numbers;
+    const char* at = text.data();
+    const char* end = at + text.size();
+    while (numbers.size() < count) {
+        double number = 0;
+        const auto [rest, error] = std::from_chars(at, end, number);
+        if (error != std::errc{} || !std::isfinite(number)) return {};
+        numbers.push_back(number);
+        const bool last = numbers.size() == count;
+        if (last ? rest != end : rest == end || *rest != ',') return {};
+        at = rest + 1;
+    }
+    return numbers;
 }
 
 }  // namespace
@@ -150,7 +157,7 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y or way-free, "
+                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, "
                 "each with @SECONDS "
                 "or without");
     };
@@ -186,7 +193,14 @@ Result<Fault> parse_fault(const std::string& text) {
         fault.kind = Fault::Kind::kTransmitterDark;
     } else if (kind == "obstacle") {
         fault.kind = Fault::Kind::kObstacle;
-        if (!read_place(std::exchange(fault.part, {}), fault.place)) return bad();
+        const auto place = read_numbers(std::exchange(fault.part, {}), 2);
+        if (place.empty()) return bad();
+        fault.place = {place[0], place[1]};
+    } else if (kind == "carried") {
+        fault.kind = Fault::Kind::kCarried;
+        const auto by = read_numbers(std::exchange(fault.part, {}), 3);
+        if (by.empty()) return bad();
+        fault.carried = {by[0], by[1], wrap(radians(by[2]))};
     } else if (kind == "slip") {
         fault.kind = Fault::Kind::kSlip;
         const auto colon = fault.part.rfind(':');
@@ -272,7 +286,7 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
                    "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
                    "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
-                   "way-free@SECONDS");
+                   "way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

@@ -130,7 +130,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
         reflectors_.emplace(*navigation_scanner_, *drive_, estimate_, watch_.trail(),
                             world.errors.reflector);
     }
-    if (settings.servo_drive) {
+    if (settings.servo_drive && !type_.scanners.empty()) {
         scanners_.emplace(world, hall_, type_, drive_->true_pose(),
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
         look_out_.emplace(*scanners_, vehicle, *drive_);
@@ -210,7 +210,13 @@ void Vehicle::know_pose(double dt_s) {
         state_due_ |= lit != light_->newest().has_value();
     }
     if (reflectors_) reflectors_->step(dt_s, executor_.reflectors(), located);
-    if (contours_) contours_->step(dt_s, located);
+    if (contours_) {
+        contours_->step(dt_s, located);
+        // At a stop its codes tell.
+        if (contours_->lost() && !executor_.acting()) {
+            executor_.lose_pose({"contoursLost", true, contours_->why_not()->what, {}});
+        }
+    }
 }
 
 void Vehicle::note_rest() {
@@ -265,6 +271,8 @@ void Vehicle::apply(const Fault& fault) {
         case Fault::Kind::kTransmitterDark:
             if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));
             return;
+        case Fault::Kind::kCarried:
+            return drive_->carry(fault.carried);
         case Fault::Kind::kScannerCovered:
             if (navigation_scanner_) navigation_scanner_->cover();
             return;

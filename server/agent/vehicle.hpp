@@ -95,6 +95,7 @@ private:
     void drive(double dt_s);
     void know_pose(double dt_s);
     double most_step_s() const;
+    void write_navigation(vda5050::NavigationStatus& status) const;
     void write_light(vda5050::StateMessage& state) const;
     void write_reflectors(vda5050::StateMessage& state) const;
     void note_rest();

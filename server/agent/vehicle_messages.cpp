@@ -39,10 +39,38 @@ vda5050::StateMessage Vehicle::state() {
     }
     if (light_) write_light(state);
     if (reflectors_) write_reflectors(state);
+    if (executor_.position_initialized()) write_navigation(state.navigation);
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();
     return state;
+}
+
+void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
+    switch (estimate_.source()) {
+        case onboard::PoseSource::kPerson:
+            status.by = "person";
+            break;
+        case onboard::PoseSource::kStop:
+            status.by = "stop";
+            break;
+        case onboard::PoseSource::kCodes:
+            status.by = "codes";
+            break;
+        case onboard::PoseSource::kLight:
+            status.by = "igps";
+            break;
+        case onboard::PoseSource::kReflectors:
+            status.by = "reflectors";
+            break;
+        case onboard::PoseSource::kContours:
+            status.by = "contours";
+            break;
+    }
+    status.driven_m = estimate_.driven_since_m();
+    if (!contours_) return;
+    if (const auto& explained = contours_->explained()) status.explained = *explained;
+    if (const auto& why_not = contours_->why_not()) status.why_not = why_not->reason.code;
 }
 
 void Vehicle::write_light(vda5050::StateMessage& state) const {
@@ -124,6 +152,7 @@ void Vehicle::send_factsheet() {
     if (!linked_) return;
     vda5050::FactsheetSource source;
     source.type = &type_;
+    source.has_map = contours_.has_value();
     source.time_factor = settings_.time_factor;
     source.node_actions = onboard::stop_action_types();
     source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),

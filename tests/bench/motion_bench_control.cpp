@@ -136,7 +136,7 @@ bool bench_window(const plant::VehicleType& type, bool narrow, nlohmann::json& o
 bool bench_scanner(const plant::VehicleType& type, nlohmann::json& out) {
     Hall hall;
     const auto box = geometry::bounding_box(type.footprint);
-    const simulation::Lidar lidar({box.max.x_m, 0, 0}, hall.fixed);
+    const simulation::Lidar lidar({"front", {box.max.x_m, 0, 0}}, hall.fixed);
     ProtectiveFields fields(type, type.footprint);
     Scan scan;
     Times scans;

@@ -163,6 +163,40 @@ TEST(PlantStore, KeepsEveryFieldOfReflectorsAndScanners) {
     }
 }
 
+TEST(PlantStore, KeepsEveryFieldOfLaserScanners) {
+    Database database(":memory:");
+    plant::Plant plant = demo("measuring-hall");
+    plant.vehicle_types[0].scanners = {
+        {"nose", {0.8, -0.1, 0.3}, 3.3, 0.006, 25, 0.1, 0.02, 0.05}};
+    PlantStore(database).import(plant);
+
+    const auto kept = PlantStore(database).load()->vehicle_types[0].scanners;
+    ASSERT_EQ(kept.size(), 1u);
+    EXPECT_EQ(kept[0].name, "nose");
+    EXPECT_EQ(kept[0].body_from_scanner, (geometry::Pose2{0.8, -0.1, 0.3}));
+    EXPECT_EQ(kept[0].field_rad, 3.3);
+    EXPECT_EQ(kept[0].step_rad, 0.006);
+    EXPECT_EQ(kept[0].range_m, 25);
+    EXPECT_EQ(kept[0].least_range_m, 0.1);
+    EXPECT_EQ(kept[0].sigma_m, 0.02);
+    EXPECT_EQ(kept[0].most_error_m, 0.05);
+
+    plant.vehicle_types[0].scanners.clear();
+    PlantStore(database).import(plant);
+    EXPECT_TRUE(PlantStore(database).load()->vehicle_types[0].scanners.empty());
+}
+
+TEST(PlantStore, TypesOfBeforeHaveTheScannersThatAreUsual) {
+    Database database(":memory:");
+    PlantStore(database).import(demo("measuring-hall"));
+    database.sql() << "UPDATE vehicle_types SET scanners = 'null'";
+    const auto kept = PlantStore(database).load()->vehicle_types[0].scanners;
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_EQ(kept[0].name, "front left");
+    database.sql() << "UPDATE vehicle_types SET scanners = '[{}]'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
 TEST(PlantStore, DamagedReceiversAreAnError) {
     Database database(":memory:");
     PlantStore store(database);

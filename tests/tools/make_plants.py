@@ -48,6 +48,13 @@ def camera(name, x, y=0.0):
             "width_px": 1280, "height_px": 1024, "cu_px": 639.5, "cv_px": 511.5, "k1": 0}
 
 
+def scanners(footprint):
+    """Two at opposite corners, each looking away from the body."""
+    xs, ys = [p["x_m"] for p in footprint], [p["y_m"] for p in footprint]
+    return [{"name": "front left", "pose": pose(max(xs), max(ys), PI / 4)},
+            {"name": "back right", "pose": pose(min(xs), min(ys), -3 * PI / 4)}]
+
+
 def wheel(name, x, y, driven, steered, diameter):
     return {"name": name, "position": point(x, y), "driven": driven, "steered": steered, "diameter_m": diameter}
 
@@ -63,7 +70,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "wheels": [wheel("FL", 4.97, 0.925, False, True, 0.3), wheel("FR", 4.97, -0.925, False, True, 0.3),
                wheel("BL", -4.97, 0.925, False, True, 0.3), wheel("BR", -4.97, -0.925, False, True, 0.3),
                wheel("front drive", 4.815, 0, True, True, 0.41), wheel("back drive", -4.815, 0, True, True, 0.41)],
-    "cameras": [camera("front", CAMERA_X), camera("back", -CAMERA_X)],
+    "cameras": [camera("front", CAMERA_X), camera("back", -CAMERA_X)], "scanners": scanners(rect(10.5, 2.5)),
     "brackets": [{"name": n, "position": point(x, y)} for n, x, y in
                  [("front left", 2.4, 0.7), ("front right", 2.4, -0.7), ("back left", -3.0, 0.7),
                   ("back right", -3.0, -0.7)]],
@@ -80,7 +87,7 @@ def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, rece
                        for n, sx, sy in [("FL", 1, 1), ("FR", 1, -1), ("BL", -1, 1), ("BR", -1, -1)]],
             "cameras": [camera("front", camera_x)], **({"receivers": list(receivers)} if receivers else {}),
             **({"navigation_scanner": scanner} if scanner else {}),
-            "brackets": [], "mass_kg": mass, "max_load_kg": load}
+            "scanners": scanners(rect(length, width)), "brackets": [], "mass_kg": mass, "max_load_kg": load}
 
 
 MEASURING = mecanum("measuring-vehicle", "Measuring vehicle", 2.4, 1.4, 0.9, 0.9, 1.2, 900, 400,
@@ -90,15 +97,16 @@ OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1
                 [("front left", 1.5, 0.95), ("front right", 1.5, -0.95), ("rear left", -1.5, 0.95),
                  ("rear right", -1.5, -0.95)]])
 IGPS_MOVER = {**OMNI, "cameras": []}  # knows its place from transmitters alone
+DELIVERY_OUTLINE = ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)])
 DELIVERY = {
     "id": "delivery-vehicle", "name": "Delivery vehicle", "kinematics": "differential",
-    "footprint": ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)]),
+    "footprint": DELIVERY_OUTLINE,
     "load_footprint": [], "max_speed_mps": 1.5, "max_accel_mps2": 0.6, "max_turn_rate_radps": 0.9,
     "max_turn_accel_radps2": 0.8, "min_turn_radius_m": 0, "max_arc_radius_m": 200, "clearance_m": 0.2, "height_m": 0.4,
     "usual_code": {"kind": "landmark", "size_m": 0.08}, "slip_sensor": {"noise_mps": 0.002},
     "motion_modes": ["auto", "self_rotation", "linear", "free"],
     "wheels": [wheel("left", 0, 0.42, True, False, 0.2), wheel("right", 0, -0.42, True, False, 0.2)],
-    "cameras": [camera("front", 0.5)], "brackets": [], "mass_kg": 180, "max_load_kg": 250}
+    "cameras": [camera("front", 0.5)], "scanners": scanners(DELIVERY_OUTLINE), "brackets": [], "mass_kg": 180, "max_load_kg": 250}
 
 
 CHINESE = {

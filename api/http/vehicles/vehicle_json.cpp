@@ -75,6 +75,13 @@ Json receiver_json(const vda5050::ReceiverReading& reading) {
     return json;
 }
 
+Json navigation_json(const vda5050::NavigationStatus& status) {
+    Json json = {{"by", status.by}, {"driven_m", status.driven_m}};
+    if (status.explained >= 0) json["explained"] = status.explained;
+    if (!status.why_not.empty()) json["why_not"] = status.why_not;
+    return json;
+}
+
 Json basis_json(const fleet::PoseBasis& basis) {
     Json json = {{"kind", fleet::to_string(basis.kind)},
                  {"at", rfc3339(basis.at)},
@@ -147,6 +154,9 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     if (!state.receivers.empty()) json["receivers"] = list_json(state.receivers, receiver_json);
     if (type != nullptr && type->navigation_scanner) {
         json["reflectors_in_view"] = state.reflectors.size();
+    }
+    if (vehicle.pose_known && !state.navigation.by.empty()) {
+        json["navigation"] = navigation_json(state.navigation);
     }
     if (const auto codes = fleet::codes_under_way(state); codes.passed > 0) {
         json["codes_under_way"] = {{"passed", codes.passed}, {"read", codes.read}};

@@ -110,6 +110,7 @@ PULSELINE_FIELDS(WheelStatus, name, steering_rad, speed_mps, temperature_c, faul
 PULSELINE_FIELDS(CameraReading, camera, found, payload, code, angle_rad, sigma_m, rms_px, why_not)
 PULSELINE_FIELDS(ReceiverReading, receiver, found, place, z_m, sigma_m, transmitters, why_not)
 PULSELINE_FIELDS(ReflectorSight, place, sigma_m)
+PULSELINE_FIELDS(NavigationStatus, by, driven_m, explained, why_not)
 PULSELINE_FIELDS(ParkingFoot, name, extension_m)
 PULSELINE_FIELDS(NodeState, node_id, sequence_id, released)
 PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, last_node_id,
@@ -117,7 +118,8 @@ PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, 
                  distance_since_last_node_m, operating_mode, pose, position_initialized,
                  localization_score, deviation_range_m, map_id, velocity_mps, turn_rate_radps,
                  battery_percent, charging, e_stop, field_violation, action_states, errors,
-                 brackets, wheels, cameras, receivers, reflectors, parking_feet, load_kg)
+                 brackets, wheels, cameras, receivers, reflectors, navigation, parking_feet,
+                 load_kg)
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
                  actions, node_actions, json)
 }  // namespace vda5050

@@ -37,6 +37,7 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
     next.turn_rate_radps = known.turn_rate_radps;
     next.localization_score = known.localization_score;
     next.deviation_range_m = known.deviation_range_m;
+    next.navigation = known.navigation;
     const bool both = known.pose && next.pose;
     if (both && (next.driving || same_pose(*known.pose, *next.pose))) {
         next.pose = known.pose;

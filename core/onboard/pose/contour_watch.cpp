@@ -14,9 +14,10 @@ using geometry::Pose2;
 
 constexpr double kEvery_m = 0.15;
 constexpr double kEvery_rad = 0.05;
-// Standing it looks until it has seen all that there is to see.
+// Standing it looks until it has seen all that there is to see, and then whether it is still there.
 constexpr double kStanding_s = 0.3;
 constexpr int kLooksStanding = 12;
+constexpr double kStillThere_s = 2;
 // Where it begins to look around, at least: what moved it may have moved it farther than it knows.
 constexpr double kAround_m = 0.05;
 constexpr double kAround_rad = 0.044;
@@ -28,7 +29,10 @@ constexpr double kLasting = 0.9;
 // Of what scanners meet, vehicles and people are not in the map.
 constexpr double kExplained = 0.5;
 constexpr int kFewestReturns = 12;
-constexpr int kLostAfter = 8;
+// That go through what the map has: some things were taken away since.
+constexpr double kThrough = 0.2;
+constexpr int kAnewAfter = 8;  // looks in a row that contradict
+constexpr int kLostAfter = 16;
 constexpr double kWidest_m = 0.25;  // one place, not several
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
@@ -69,6 +73,7 @@ void ContourWatch::step(double dt_s, bool located) {
         newest_.reset();
         explained_.reset();
         why_not_.reset();
+        lost_ = false;
         return;
     }
     if (begun_ != estimate_.begun()) begin();
@@ -82,18 +87,25 @@ bool ContourWatch::is_due(double dt_s) {
         return true;
     }
     stood_s_ = drive_.standing() ? stood_s_ + dt_s * drive_.time_factor() : 0;
-    if (stood_s_ < kStanding_s || looks_standing_ >= kLooksStanding) return false;
-    ++looks_standing_;
+    const bool has_seen_all = looks_standing_ >= kLooksStanding;
+    if (stood_s_ < (has_seen_all ? kStillThere_s : kStanding_s)) return false;
+    looks_standing_ = std::min(looks_standing_ + 1, kLooksStanding + 1);
     return true;
 }
 
-void ContourWatch::begin() {
-    begun_ = estimate_.begun();
+void ContourWatch::spread() {
     particles_.begin_at(estimate_.pose(),
                         estimate_.covariance() + diagonal(kAround_m, kAround_rad));
     looked_from_ = trail_.driven();
     looks_standing_ = 0;
-    unexplained_ = 0;
+}
+
+void ContourWatch::begin() {
+    begun_ = estimate_.begun();
+    spread();
+    contradicted_ = 0;
+    by_codes_ = estimate_.by_codes();
+    lost_ = false;
 }
 
 void ContourWatch::look() {
@@ -107,17 +119,24 @@ void ContourWatch::look() {
     explained_.reset();
     if (cloud.returns < kFewestReturns) return;  // nothing stands near
     explained_ = cloud.explained;
-    if (cloud.explained >= kExplained) {
-        unexplained_ = 0;
-        correct(cloud);
+    if (cloud.through >= kThrough) {
+        why_not_ = Error{Errc::kConflict,
+                         {"contours_lost", {{"through", cloud.through}}},
+                         "The scanners see through what the map has here. Look whether the vehicle "
+                         "stands where it believes to stand, or map the hall anew.",
+                         {}};
+        contradict();
         return;
     }
-    why_not_ = Error{Errc::kConflict,
-                     {"contours_lost", {{"explained", cloud.explained}}},
-                     "What the scanners see is not what the map has here. Look whether the vehicle "
-                     "stands where it believes to stand, or map the hall anew.",
-                     {}};
-    if (++unexplained_ >= kLostAfter) begin();
+    contradicted_ = 0;
+    by_codes_ = estimate_.by_codes();
+    if (cloud.explained >= kExplained) correct(cloud);
+}
+
+void ContourWatch::contradict() {
+    if (++contradicted_ == 1) looks_standing_ = 0;
+    lost_ |= contradicted_ >= kLostAfter && by_codes_ == estimate_.by_codes();
+    if (contradicted_ % kAnewAfter == 0) spread();
 }
 
 void ContourWatch::correct(const mapping::MonteCarlo::Cloud& cloud) {
@@ -128,7 +147,8 @@ void ContourWatch::correct(const mapping::MonteCarlo::Cloud& cloud) {
     fix.fix.method = localisation::Method::kContours;
     set_covariance(fix.fix, covariance);
     fix.lasting = localisation::rows(kLasting * covariance);
-    if (correction_.take(fix, 0) == BeaconCorrection::Taken::kBegunAnew) {
+    const bool news = looks_standing_ <= kLooksStanding;
+    if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();  // at the particles
     }
     newest_ = std::move(fix);

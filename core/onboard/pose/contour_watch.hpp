@@ -36,13 +36,18 @@ public:
     const std::optional<localisation::BeaconFix>& newest() const { return newest_; }
     /// Of the rays that met something, the share that the map explains; nothing: it has not looked.
     const std::optional<double>& explained() const { return explained_; }
-    /// Error contours_lost {explained}: what is around it is not what the map has there.
+    /// Error contours_lost {through}: it sees through what the map has there.
     const std::optional<Error>& why_not() const { return why_not_; }
+    /// It has looked around again and again, and no code has told since the map was right last: it
+    /// is not where it believes to be.
+    bool lost() const { return lost_; }
 
 private:
     bool is_due(double dt_s);
     void begin();
+    void spread();
     void look();
+    void contradict();
     void correct(const mapping::MonteCarlo::Cloud& cloud);
 
     Scanners& scanners_;
@@ -56,7 +61,9 @@ private:
     geometry::Pose2 looked_from_;  // by the trail
     double stood_s_ = 0;           // since the last look
     int looks_standing_ = 0;
-    int unexplained_ = 0;  // looks in a row
+    int contradicted_ = 0;  // looks in a row
+    int by_codes_ = 0;      // of the estimate, when the map was right last
+    bool lost_ = false;
     std::optional<localisation::BeaconFix> newest_;
     std::optional<double> explained_;
     std::optional<Error> why_not_;

@@ -32,6 +32,19 @@ localisation::Odometry odometry_of(const Pose2& way) {
     return {chord.x_m, chord.y_m, way.heading_rad};
 }
 
+PoseSource source_of(localisation::Method method) {
+    switch (method) {
+        case localisation::Method::kIgps:
+            return PoseSource::kLight;
+        case localisation::Method::kReflectors:
+            return PoseSource::kReflectors;
+        case localisation::Method::kContours:
+            return PoseSource::kContours;
+        default:
+            return PoseSource::kCodes;
+    }
+}
+
 }  // namespace
 
 PoseEstimate::PoseEstimate(const Pose2& start, const localisation::OdometryNoise& noise)
@@ -45,8 +58,20 @@ void PoseEstimate::drive_to(const Pose2& believed) {
 }
 
 void PoseEstimate::catch_up() {
-    filter_.drive(odometry_of(inverse(driven_) * now_));
+    const Pose2 way = inverse(driven_) * now_;
+    filter_.drive(odometry_of(way));
+    since_m_ += norm(way.position());
     driven_ = now_;
+}
+
+void PoseEstimate::note(PoseSource source) {
+    source_ = source;
+    since_m_ = 0;
+    by_codes_ += source == PoseSource::kStop || source == PoseSource::kCodes;
+}
+
+double PoseEstimate::driven_since_m() const {
+    return since_m_ + norm((inverse(driven_) * now_).position());
 }
 
 void PoseEstimate::rest(double speed_share) {
@@ -70,6 +95,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
         ++begun_;
     }
     driven_ = now_ = fix.pose;
+    note(PoseSource::kStop);
 }
 
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
@@ -80,6 +106,7 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
     if (!corrected) return corrected;
     filter_ = filter;
     lasting_.setZero();
+    note(PoseSource::kCodes);
     return {};
 }
 
@@ -99,6 +126,7 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     filter_ = filter;
     lasting_ = lasting;
     filter_.blur(since);
+    note(source_of(seen.fix.method));
     return {};
 }
 
@@ -113,6 +141,7 @@ void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     lasting_ = localisation::matrix(seen.lasting);
     ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
+    note(source_of(seen.fix.method));
 }
 
 void PoseEstimate::led_to(const Pose2& believed) {
@@ -125,6 +154,7 @@ void PoseEstimate::start_at(const Pose2& pose) {
     ++begun_;
     lasting_.setZero();
     driven_ = now_ = pose;
+    note(PoseSource::kPerson);
 }
 
 /// With the way that the filter has not followed yet.

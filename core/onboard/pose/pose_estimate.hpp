@@ -5,6 +5,9 @@
 
 namespace pulseline::onboard {
 
+/// What put the vehicle's pose right last.
+enum class PoseSource { kPerson, kStop, kCodes, kLight, kReflectors, kContours };
+
 /// How well the vehicle knows where it stands: its odometry and its measured stops, fused. Sigmas
 /// and score go into the state message.
 class PoseEstimate {
@@ -37,6 +40,11 @@ public:
     /// A person said where it stands.
     void start_at(const geometry::Pose2& pose);
 
+    PoseSource source() const { return source_; }
+    /// How often codes have told where it is.
+    int by_codes() const { return by_codes_; }
+    /// By the wheels, since that.
+    double driven_since_m() const;
     /// How often it has begun anew, whatever its odometry said.
     int begun() const { return begun_; }
     const localisation::OdometryNoise& noise() const { return noise_; }
@@ -51,6 +59,7 @@ public:
 
 private:
     void catch_up();
+    void note(PoseSource source);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
 
@@ -61,6 +70,9 @@ private:
     geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
     geometry::Pose2 now_;     // by the drive's belief
     int begun_ = 0;
+    PoseSource source_ = PoseSource::kPerson;
+    int by_codes_ = 0;
+    double since_m_ = 0;  // as far as the filter has followed
 };
 
 }  // namespace pulseline::onboard

@@ -53,6 +53,7 @@ public:
     const kinematics::Segment* current() const override { return reference_.current(); }
 
     const Pose2& true_pose() const override { return true_; }
+    void carry(const Pose2& by) override { true_ = true_ * by; }
     const Pose2& believed_pose() const override { return believed_; }
     void set_believed(const Pose2& pose) override;
     const plant::VehicleType& type() const override { return type_; }

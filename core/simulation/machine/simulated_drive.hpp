@@ -12,6 +12,9 @@ class SimulatedDrive : public Drive {
 public:
     /// The same object for as long as the drive lives.
     virtual const geometry::Pose2& true_pose() const = 0;
+    /// It was carried off, its wheels in the air, so that odometry knows nothing of it. `by`: where
+    /// it is now, seen from where it was.
+    virtual void carry(const geometry::Pose2& by) = 0;
 };
 
 }  // namespace pulseline::simulation

@@ -35,27 +35,26 @@ struct Rotation {
 
 }  // namespace
 
-Lidar::Lidar(const Pose2& body_from_sensor, std::span<const geometry::Polygon> fixed,
-             const LidarType& type)
-    : body_from_sensor_(body_from_sensor), type_(type) {
-    assert(type.step_rad > 0 && type.field_rad > 0 && type.field_rad < 2 * kPi);
+Lidar::Lidar(plant::LaserScanner scanner, std::span<const geometry::Polygon> fixed)
+    : scanner_(std::move(scanner)) {
+    assert(scanner_.step_rad > 0 && scanner_.field_rad > 0 && scanner_.field_rad < 2 * kPi);
     for (const auto& polygon : fixed) {
         visit_edges(polygon, [&](Point2 a, Point2 b) { fixed_.push_back({a, b}); });
     }
-    const int rays = 1 + static_cast<int>(std::lround(type.field_rad / type.step_rad));
+    const int rays = 1 + static_cast<int>(std::lround(scanner_.field_rad / scanner_.step_rad));
     for (int i = 0; i < rays; ++i) {
-        const double angle = -type.field_rad / 2 + i * type.step_rad;
+        const double angle = -scanner_.field_rad / 2 + i * scanner_.step_rad;
         rays_.push_back({std::cos(angle), std::sin(angle)});
     }
 }
 
 void Lidar::scan(const Pose2& hall_from_body, std::span<const geometry::Polygon> others,
                  std::mt19937_64& random, control::Scan& scan) const {
-    scan.body_from_sensor = body_from_sensor_;
-    scan.first_rad = -type_.field_rad / 2;
-    scan.step_rad = type_.step_rad;
+    scan.body_from_sensor = scanner_.body_from_scanner;
+    scan.first_rad = -scanner_.field_rad / 2;
+    scan.step_rad = scanner_.step_rad;
     scan.ranges_m.assign(rays_.size(), kNoReturn);
-    const Rotation sensor_from_hall(inverse(hall_from_body * body_from_sensor_));
+    const Rotation sensor_from_hall(inverse(hall_from_body * scanner_.body_from_scanner));
     const auto cover = [&](Point2 a, Point2 b) {
         cover_edge(sensor_from_hall(a), sensor_from_hall(b), scan.ranges_m);
     };
@@ -64,12 +63,12 @@ void Lidar::scan(const Pose2& hall_from_body, std::span<const geometry::Polygon>
 
     std::normal_distribution<double> normal;
     for (float& range : scan.ranges_m) {
-        if (range < type_.least_range_m || range > type_.range_m) {
+        if (range < scanner_.least_range_m || range > scanner_.range_m) {
             range = kNoReturn;
             continue;
         }
         const double error =
-            std::clamp(type_.sigma_m * normal(random), -type_.most_error_m, type_.most_error_m);
+            std::clamp(scanner_.sigma_m * normal(random), -scanner_.most_error_m, scanner_.most_error_m);
         range = static_cast<float>(range + error);
     }
 }
@@ -79,7 +78,7 @@ void Lidar::cover_edge(Point2 a, Point2 b, std::vector<float>& ranges_m) const {
     const double length2 = dot(way, way);
     const double share = length2 > 0 ? std::clamp(-dot(a, way) / length2, 0.0, 1.0) : 0.0;
     const Point2 nearest = a + share * way;
-    if (dot(nearest, nearest) > type_.range_m * type_.range_m) return;
+    if (dot(nearest, nearest) > scanner_.range_m * scanner_.range_m) return;
     const double side = cross(a, b);
     if (side == 0) return;  // seen end on
     if (side < 0) std::swap(a, b);
@@ -93,8 +92,8 @@ void Lidar::cover_edge(Point2 a, Point2 b, std::vector<float>& ranges_m) const {
 /// The rays between two bearings meet the line from `from` along `along`.
 void Lidar::cover_rays(double from_rad, double to_rad, Point2 from, Point2 along,
                        std::vector<float>& ranges_m) const {
-    const double first = (from_rad + type_.field_rad / 2) / type_.step_rad;
-    const double last = (to_rad + type_.field_rad / 2) / type_.step_rad;
+    const double first = (from_rad + scanner_.field_rad / 2) / scanner_.step_rad;
+    const double last = (to_rad + scanner_.field_rad / 2) / scanner_.step_rad;
     const auto count = static_cast<double>(ranges_m.size());
     if (last < 0 || first > count - 1) return;
     const auto begin = static_cast<std::size_t>(std::max(0.0, std::ceil(first)));

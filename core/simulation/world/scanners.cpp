@@ -16,12 +16,6 @@ std::vector<Polygon> standing_things(const World& world, const plant::HallId& id
     return things;
 }
 
-/// Front left and back right, each looking away from the body.
-std::vector<Pose2> corners(const Polygon& footprint) {
-    const auto box = geometry::bounding_box(footprint);
-    return {{box.max.x_m, box.max.y_m, kPi / 4}, {box.min.x_m, box.min.y_m, -3 * kPi / 4}};
-}
-
 }  // namespace
 
 SimulatedScanners::SimulatedScanners(const World& world, const plant::HallId& hall,
@@ -29,7 +23,7 @@ SimulatedScanners::SimulatedScanners(const World& world, const plant::HallId& ha
                                      std::uint64_t seed)
     : true_pose_(true_pose), random_(seed) {
     const auto things = standing_things(world, hall);
-    for (const Pose2& corner : corners(type.footprint)) scanners_.emplace_back(corner, things);
+    for (const auto& scanner : type.scanners) scanners_.emplace_back(scanner, things);
 }
 
 void SimulatedScanners::scan(std::vector<control::Scan>& scans) {

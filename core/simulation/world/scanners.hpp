@@ -11,7 +11,7 @@
 
 namespace pulseline::simulation {
 
-/// Two scanners at opposite corners of a vehicle that see the walls and obstacles of its hall, what
+/// The scanners of a vehicle's type, which see the walls and obstacles of its hall, what
 /// put() places and the vehicles around.
 class SimulatedScanners : public onboard::Scanners {
 public:

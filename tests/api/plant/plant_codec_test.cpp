@@ -219,6 +219,39 @@ const Json kScanner = {{"pose", {{"x_m", -0.7}, {"y_m", 0.1}, {"heading_rad", 0.
                        {"sigma_range_m", 0.007},
                        {"sigma_bearing_rad", 1.5e-4}};
 
+const Json kLaserScanner = {{"name", "nose"},
+                            {"pose", {{"x_m", 0.8}, {"y_m", -0.1}, {"heading_rad", 0.3}}},
+                            {"field_rad", 3.3},
+                            {"step_rad", 0.006},
+                            {"range_m", 25},
+                            {"least_range_m", 0.1},
+                            {"sigma_m", 0.02},
+                            {"most_error_m", 0.05}};
+
+TEST(PlantText, KeepsEveryFieldOfALaserScanner) {
+    Json file = document(kPlants + "/measuring-hall.json");
+    file["vehicle_types"][0]["scanners"] = Json::array({kLaserScanner});
+    json::FieldErrors errors;
+    const Plant plant = decode_plant(file, errors);
+    ASSERT_TRUE(errors.empty());
+    for (const PlantForm form : {PlantForm::kFile, PlantForm::kApi}) {
+        EXPECT_EQ(encode_plant(plant, form)["vehicle_types"][0]["scanners"],
+                  Json::array({kLaserScanner}));
+    }
+}
+
+TEST(PlantText, WithoutAWordOfScannersAVehicleHasTheUsualOnes) {
+    Json file = document(kPlants + "/measuring-hall.json");
+    json::FieldErrors errors;
+    file["vehicle_types"][0].erase("scanners");
+    const auto usual = decode_plant(file, errors).vehicle_types[0].scanners;
+    ASSERT_EQ(usual.size(), 2u);
+    EXPECT_EQ(usual[1].body_from_scanner, (geometry::Pose2{-1.2, -0.7, -3 * kPi / 4}));
+    file["vehicle_types"][0]["scanners"] = Json::array();
+    EXPECT_TRUE(decode_plant(file, errors).vehicle_types[0].scanners.empty());
+    EXPECT_TRUE(errors.empty());
+}
+
 TEST(PlantText, KeepsEveryFieldOfAReflectorAndAScanner) {
     Json file = document(kPlants + "/measuring-hall.json");
     file["reflectors"][1] = kReflector;
@@ -304,6 +337,7 @@ TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
     sound["transmitters"][0] = full_transmitter();
     sound["reflectors"] = Json::array({kReflector});
     sound["vehicle_types"][0]["navigation_scanner"] = kScanner;
+    sound["vehicle_types"][0]["scanners"] = Json::array({kLaserScanner});
     const Json others = document(kPlants + "/pulse-line.json");
     sound["markers"] = others["markers"];
     for (const char* parts : {"cameras", "brackets"})
@@ -317,6 +351,7 @@ TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
         {"/$defs/transmitter", "/transmitters/0"},
         {"/$defs/light_plane", "/transmitters/0/first"},
         {"/$defs/reflector", "/reflectors/0"},
+        {"/$defs/scanner", "/vehicle_types/0/scanners/0"},
         {"/$defs/navigation_scanner", "/vehicle_types/0/navigation_scanner"},
         {"/$defs/area", "/areas/0"},
         {"/$defs/vehicle_type", "/vehicle_types/0"},

@@ -130,6 +130,36 @@ TEST(ReceiverReadings, AnEntryThatLacksSomethingIsLeftOut) {
     EXPECT_TRUE(read->receivers.empty());
 }
 
+TEST(Navigation, RoundTripKeepsWhatItSteersBy) {
+    StateMessage sent = testing::state();
+    sent.navigation = {"contours", 1.25, 0.75, "contours_lost"};
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_EQ(read->navigation.by, "contours");
+    EXPECT_EQ(read->navigation.driven_m, 1.25);
+    EXPECT_EQ(read->navigation.explained, 0.75);
+    EXPECT_EQ(read->navigation.why_not, "contours_lost");
+
+    sent.navigation = {"codes", 3};
+    const auto without_map = decode_state(parsed(encode_state(sent, header())));
+    EXPECT_LT(without_map->navigation.explained, 0);
+    EXPECT_TRUE(without_map->navigation.why_not.empty());
+}
+
+TEST(Navigation, WhatIsNotOurWordIsLeftOut) {
+    StateMessage sent = testing::state();
+    sent.navigation = {"stars", 3};
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    EXPECT_TRUE(read->navigation.by.empty());
+}
+
+TEST(Navigation, AShareAboveOneIsAnErrorOfTheMessage) {
+    StateMessage sent = testing::state();
+    sent.navigation = {"contours", 1, 1.5};
+    EXPECT_FALSE(decode_state(parsed(encode_state(sent, header()))));
+}
+
 InstantActionsMessage set_reflectors(std::vector<plant::Reflector> reflectors) {
     Action action;
     action.type = kSetReflectors;

@@ -241,9 +241,11 @@ TEST(Factsheet, SaysHeightAndCodesOfItsOwnType) {
     plant::VehicleType type;
     type.footprint = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
     type.height_m = 0.42;
+    bool has_map = false;
     const auto told = [&] {
         FactsheetSource source;
         source.type = &type;
+        source.has_map = has_map;
         return parsed(encode_factsheet(source, header()));
     };
     EXPECT_EQ(told()["physicalParameters"]["heightMax"], 0.42);
@@ -253,6 +255,11 @@ TEST(Factsheet, SaysHeightAndCodesOfItsOwnType) {
     EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array());
     type.usual_code.kind = plant::MarkerKind::kQr;
     EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array({"DMC"}));
+    type.navigation_scanner = plant::NavigationScanner{};
+    EXPECT_EQ(told()["typeSpecification"]["localizationTypes"], Json::array({"DMC", "REFLECTOR"}));
+    has_map = true;
+    EXPECT_EQ(told()["typeSpecification"]["localizationTypes"],
+              Json::array({"DMC", "NATURAL", "REFLECTOR"}));
 }
 
 TEST(Others, VisualizationConnectionAndFactsheetRoundTrip) {

@@ -28,6 +28,7 @@ inline plant::VehicleType platform() {
                      {"back left", {-3.0, 0.7}},
                      {"back right", {-3.0, -0.7}}};
     type.slip_sensor = plant::SlipSensor{0.002};
+    type.scanners = plant::usual_scanners(type.footprint);
     return type;
 }
 
@@ -49,6 +50,7 @@ inline plant::VehicleType mecanum() {
                    {"BL", {-0.85, 0.55}, true, false, 0.3},
                    {"BR", {-0.85, -0.55}, true, false, 0.3}};
     type.slip_sensor = plant::SlipSensor{0.002};
+    type.scanners = plant::usual_scanners(type.footprint);
     return type;
 }
 
@@ -68,6 +70,7 @@ inline plant::VehicleType differential() {
     type.max_load_kg = 250;
     type.wheels = {{"left", {0, 0.42}, true, false, 0.2}, {"right", {0, -0.42}, true, false, 0.2}};
     type.slip_sensor = plant::SlipSensor{0.002};
+    type.scanners = plant::usual_scanners(type.footprint);
     return type;
 }
 
@@ -80,6 +83,7 @@ inline plant::VehicleType tricycle() {
                    {"left", {0, 0.5}, false, false, 0.2},
                    {"right", {0, -0.5}, false, false, 0.2}};
     type.slip_sensor = plant::SlipSensor{0.002};
+    type.scanners = plant::usual_scanners(type.footprint);
     return type;
 }
 

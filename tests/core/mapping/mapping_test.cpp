@@ -74,6 +74,7 @@ TEST(MonteCarlo, FollowsADriveAndKnowsHowWell) {
             EXPECT_LT(distance(cloud.pose.position(), truth.position()), 0.06) << seed;
             EXPECT_LT(std::abs(wrap(cloud.pose.heading_rad - truth.heading_rad)), 0.02) << seed;
             EXPECT_GT(cloud.explained, 0.9);
+            EXPECT_LT(cloud.through, 0.03);
             // The map's own error is not in it: half a cell.
             inside += std::abs(cloud.pose.x_m - truth.x_m) <=
                       1.96 * std::hypot(std::sqrt(cloud.covariance(0, 0)), 0.012);
@@ -90,6 +91,7 @@ TEST(MonteCarlo, SeesThatItStandsSomewhereElse) {
     const auto cloud = particles.step({}, sigmas(1e-3, 1e-3), scanning.from({13, -3.5, 1.2}));
     EXPECT_GT(cloud.returns, 50);
     EXPECT_LT(cloud.explained, 0.5);
+    EXPECT_GT(cloud.through, 0.2);
 }
 
 TEST(MonteCarlo, WhereNothingStandsNearItSaysSo) {

@@ -15,10 +15,11 @@ using geometry::Pose2;
 const Polygon kRoom{{0, 0}, {12, 0}, {12, 8}, {0, 8}};
 const std::vector<Polygon> kRooms{kRoom};
 
-LidarType exact() {
-    LidarType type;
-    type.sigma_m = 0;
-    return type;
+plant::LaserScanner exact(const Pose2& mount = {}) {
+    plant::LaserScanner scanner;
+    scanner.body_from_scanner = mount;
+    scanner.sigma_m = 0;
+    return scanner;
 }
 
 Point2 place_of(const control::Scan& scan, std::size_t i, const Pose2& hall_from_body) {
@@ -58,7 +59,7 @@ TEST(Lidar, SeesTheNearestEdgeAlongEveryRay) {
         }
         const Pose2 mount{0.3, -0.1, 0.7};
         const Pose2 body{1 + 10 * share(random), 1 + 6 * share(random), 6 * share(random)};
-        const Lidar lidar(mount, fixed, exact());
+        const Lidar lidar(exact(mount), fixed);
         control::Scan scan;
         lidar.scan(body, others, random, scan);
         ASSERT_EQ(scan.ranges_m.size(), 1081u);
@@ -80,7 +81,7 @@ TEST(Lidar, SeesTheNearestEdgeAlongEveryRay) {
 }
 
 TEST(Lidar, ErrsByTheStatedNoiseAndNeverMore) {
-    const Lidar lidar({}, kRooms);
+    const Lidar lidar(plant::LaserScanner{}, kRooms);
     std::mt19937_64 random(3);
     control::Scan scan;
     double sum = 0;
@@ -100,7 +101,7 @@ TEST(Lidar, ErrsByTheStatedNoiseAndNeverMore) {
         }
     }
     EXPECT_NEAR(sum / n, 0, 5e-4);
-    EXPECT_NEAR(std::sqrt(sum2 / n), LidarType{}.sigma_m, 5e-4);
+    EXPECT_NEAR(std::sqrt(sum2 / n), plant::LaserScanner{}.sigma_m, 5e-4);
 }
 
 TEST(Lidar, LooksBackNoFartherThanItsField) {
@@ -108,9 +109,9 @@ TEST(Lidar, LooksBackNoFartherThanItsField) {
     const Polygon aside = transformed({0, 2, 0}, geometry::rectangle(0.2, 0.2));
     std::mt19937_64 random(4);
     control::Scan scan;
-    Lidar({}, std::vector<Polygon>{behind}, exact()).scan({}, {}, random, scan);
+    Lidar(exact(), std::vector<Polygon>{behind}).scan({}, {}, random, scan);
     for (const float range : scan.ranges_m) EXPECT_FALSE(std::isfinite(range));
-    Lidar({}, std::vector<Polygon>{aside}, exact()).scan({}, {}, random, scan);
+    Lidar(exact(), std::vector<Polygon>{aside}).scan({}, {}, random, scan);
     int seen = 0;
     for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
         if (!std::isfinite(scan.ranges_m[i])) continue;
@@ -121,7 +122,7 @@ TEST(Lidar, LooksBackNoFartherThanItsField) {
 }
 
 TEST(Lidar, TheSameSeedSeesTheSame) {
-    const Lidar lidar({}, kRooms);
+    const Lidar lidar(plant::LaserScanner{}, kRooms);
     control::Scan first;
     control::Scan second;
     std::mt19937_64 one(9);

@@ -72,13 +72,52 @@ TEST(ContourWatch, WhatCodesHaveToldBetterIsOnlyChecked) {
     EXPECT_TRUE(looking.estimate.covariance().isApprox(before));
 }
 
-TEST(ContourWatch, CarriedAwayItSaysThatNothingIsWhereTheMapHasIt) {
+TEST(ContourWatch, WhereItIsNotAsSaidItIsLostAndStaysWithWhatItKnows) {
     Looking looking(4, {13, -3.5, 1.2});
-    looking.stand(5);
+    looking.stand(5.5);
+    EXPECT_TRUE(looking.contours.lost());
     EXPECT_FALSE(looking.contours.newest());
     ASSERT_TRUE(looking.contours.why_not());
     EXPECT_EQ(looking.contours.why_not()->reason.code, "contours_lost");
-    EXPECT_LT(distance(looking.estimate.pose().position(), {}), 0.2) << "it stays with what it knows";
+    EXPECT_LT(distance(looking.estimate.pose().position(), {}), 0.2);
+}
+
+TEST(ContourWatch, CarriedOffWhileItStandsItIsLost) {
+    Looking looking(4, {0.02, -0.02, 0.01});
+    looking.stand(20);
+    ASSERT_FALSE(looking.contours.lost());
+    ASSERT_LT(looking.off_m(), 0.05);
+    looking.drive.carry({5, 2, 0.7});
+    looking.stand(8);
+    EXPECT_TRUE(looking.contours.lost());
+}
+
+TEST(ContourWatch, CarriedOffWhileItDrivesItIsLostWithinThreeMetres) {
+    Looking looking(4, {0.02, -0.02, 0.01});
+    double carried_at_m = 0;
+    double lost_after_m = 0;
+    looking.run(15, [&] {
+        if (carried_at_m == 0 && looking.drive.believed_pose().x_m > 4) {
+            carried_at_m = looking.drive.believed_pose().x_m;
+            looking.drive.carry({4, -2, 1.0});
+        }
+        if (carried_at_m > 0 && lost_after_m == 0 && looking.contours.lost())
+            lost_after_m = looking.drive.believed_pose().x_m - carried_at_m;
+    });
+    EXPECT_GT(lost_after_m, 0);
+    EXPECT_LT(lost_after_m, 3);
+}
+
+TEST(ContourWatch, WhereCodesTellOtherwiseTheMapIsOld) {
+    auto rebuilt = mapping::testing::hall_with_jigs();
+    for (auto& corner : rebuilt.halls.front().outline) corner = 1.5 * corner;
+    rebuilt.areas.clear();
+    Looking looking(4, {}, rebuilt);
+    looking.stand(1);
+    looking.knows_exactly();
+    looking.stand(20);
+    EXPECT_TRUE(looking.contours.why_not());
+    EXPECT_FALSE(looking.contours.lost());
 }
 
 TEST(ContourWatch, PeopleAroundItDoNotMoveIt) {

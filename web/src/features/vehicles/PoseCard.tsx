@@ -3,7 +3,7 @@ import type { Vehicle } from "@/shared/api/types";
 import { Card, StatusSymbol, Value } from "@/shared/ui";
 import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { lightWords, poseWords, reflectorWords } from "@/shared/words/poseBasis";
+import { lightWords, navigationWords, poseWords, reflectorWords } from "@/shared/words/poseBasis";
 import type { Heard } from "./useHeard";
 import "./PoseCard.css";
 
@@ -17,6 +17,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const codes = vehicle.codes_under_way;
   const light = lightWords(vehicle);
   const reflectors = reflectorWords(vehicle);
+  const steers = navigationWords(vehicle);
   const basis = poseWords(vehicle, words.stationNumber, (at) => dateTime(at, now), words.actor);
   const since = basis.since === undefined ? t("pose.still") : t("pose.since", { length: basis.since });
   const measured = ["stop", "codes", "receivers", "reflectors"].includes(basis.key);
@@ -71,6 +72,18 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
           {vehicle.pose_basis && vehicle.pose_known && `${t("join")}${since}`}
         </span>
       </p>
+      {steers && (
+        <p className="basis" data-steers={steers.key}>
+          <StatusSymbol name={steers.whyNot ? "a-2" : steers.key === "person" ? "a-3" : "c-ok"} />
+          <span>
+            {t(`pose.steers.${steers.key}`)}
+            {steers.since && `${t("join")}${t("pose.steers_since", { length: steers.since })}`}
+            {steers.whyNot
+              ? `${t("join")}${words.reason({ code: steers.whyNot, params: {} })}`
+              : steers.explained && `${t("join")}${t("pose.explained", { percent: steers.explained })}`}
+          </span>
+        </p>
+      )}
       {codes && (
         <p className="basis" data-codes={codes.read}>
           <StatusSymbol name={codes.read > 0 ? "c-ok" : "a-3"} />

@@ -6,6 +6,7 @@ import { detailOf } from "./view";
 
 const kMinLengthPx = 10;
 const kManyInView = 200;
+const kLeastDeviationPx = 2;
 
 /** What lies on the floor under the vehicles: horizon, grants, preview, loads. */
 export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays: MapOverlays): void {
@@ -14,6 +15,7 @@ export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays
   for (const v of vehicles) if (!v.selected && ((few && v.moving) || v.blocker)) drawOtherRoute(pen, v);
   drawSwept(pen, overlays);
   for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
+  for (const v of vehicles) if (v.selected) drawDeviation(pen, v);
   for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
 }
 
@@ -59,6 +61,29 @@ function drawOtherRoute(pen: Pen, v: DrawnVehicle): void {
   pen.path(ahead, false);
   pen.stroke(pen.palette["ink-3"], 2);
   arrowHead(pen, ahead, 7, false, pen.palette["ink-3"]);
+}
+
+/** How far off, by its own word, the vehicle may be: three sigma, around where it holds itself to be. */
+function drawDeviation(pen: Pen, v: DrawnVehicle): void {
+  const radius = (v.vehicle.pose_deviation_m ?? 0) * pen.k;
+  if (!v.vehicle.pose_known || radius < kLeastDeviationPx) return;
+  const { x, y } = pen.at(v.pose.x_m, v.pose.y_m);
+  const box = boxOf(v.type.footprint);
+  // Around the whole body, since no point of it is better known.
+  pen.g.beginPath();
+  pen.g.save();
+  pen.g.translate(x, y);
+  pen.g.rotate(-v.pose.heading_rad);
+  pen.g.roundRect(
+    box.minX * pen.k - radius,
+    -box.maxY * pen.k - radius,
+    (box.maxX - box.minX) * pen.k + 2 * radius,
+    (box.maxY - box.minY) * pen.k + 2 * radius,
+    radius,
+  );
+  pen.g.restore();
+  pen.fill(pen.palette["grant-fill"]);
+  pen.stroke(pen.palette["accent-line"], 1, [3, 3]);
 }
 
 /** Floor that a silent vehicle keeps. */

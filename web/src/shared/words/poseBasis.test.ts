@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Vehicle } from "@/shared/api/types";
-import { lightWords, poseWords, reflectorWords } from "./poseBasis";
+import { lightWords, navigationWords, poseWords, reflectorWords } from "./poseBasis";
 
 type Basis = NonNullable<Vehicle["pose_basis"]>;
 const said = (pose_basis: Basis | undefined, pose_known = true) =>
@@ -89,4 +89,25 @@ it.each<[number | undefined, object | undefined]>([
   [7, { key: "all", values: { seen: "7" } }],
 ])("%s reflectors in view", (seen, expected) =>
   expect(reflectorWords({ reflectors_in_view: seen } as Vehicle)).toEqual(expected),
+);
+
+it.each<[string, Vehicle["navigation"], object | undefined]>([
+  ["it does not say", undefined, undefined],
+  [
+    "just corrected",
+    { by: "codes", driven_m: 0.01 },
+    { key: "codes", since: undefined, explained: undefined, whyNot: undefined },
+  ],
+  [
+    "by its map",
+    { by: "contours", driven_m: 1.5, explained: 0.917 },
+    { key: "contours", since: "1.50\u00a0m", explained: "92", whyNot: undefined },
+  ],
+  [
+    "not on its map",
+    { by: "person", driven_m: 0, explained: 0.2, why_not: "contours_lost" },
+    { key: "person", since: undefined, explained: "20", whyNot: "contours_lost" },
+  ],
+])("steers: %s", (_, navigation, expected) =>
+  expect(navigationWords({ navigation } as Vehicle)).toEqual(expected),
 );

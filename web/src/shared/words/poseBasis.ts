@@ -75,3 +75,25 @@ export function reflectorWords(v: Vehicle): LightWords | undefined {
   if (seen === undefined) return undefined;
   return { key: seen >= kReflectors ? "all" : seen > 0 ? "some" : "none", values: { seen: String(seen) } };
 }
+
+export interface NavigationWords {
+  key: NonNullable<Vehicle["navigation"]>["by"];
+  /** Driven since then by its wheels; undefined: not at all. */
+  since: string | undefined;
+  /** Of what its scanners meet, percent that its map has; undefined: no map. */
+  explained: string | undefined;
+  /** Reason code: its scanners do not fit the map. */
+  whyNot: string | undefined;
+}
+
+/** What the vehicle itself steers by; undefined: it does not say. */
+export function navigationWords(v: Vehicle): NavigationWords | undefined {
+  const said = v.navigation;
+  if (said === undefined) return undefined;
+  return {
+    key: said.by,
+    since: said.driven_m >= kMoved_m ? length(said.driven_m) : undefined,
+    explained: said.explained === undefined ? undefined : fixed(100 * said.explained, 0),
+    whyNot: said.why_not,
+  };
+}
