@@ -137,15 +137,22 @@ InitPosition read_init_position(json::ObjectReader& in) {
                  wrap(lenient_number(in, "theta", limits::kAngle_rad))};
     init.map_id = in.text("mapId", {1, 200});
     init.last_node_id = in.text_or("lastNodeId", "", {0, 200});
+    init.sigma_xy_m = in.number_or("sigma_xy_m", 0, limits::kSigma_m);
+    init.sigma_heading_rad = in.number_or("sigma_heading_rad", 0, limits::kSigma_rad);
     return init;
 }
 
 Json init_parameters(const InitPosition& init) {
-    return {{"x", finite(init.pose.x_m)},
-            {"y", finite(init.pose.y_m)},
-            {"theta", finite(init.pose.heading_rad)},
-            {"mapId", init.map_id},
-            {"lastNodeId", init.last_node_id}};
+    Json parameters = {{"x", finite(init.pose.x_m)},
+                       {"y", finite(init.pose.y_m)},
+                       {"theta", finite(init.pose.heading_rad)},
+                       {"mapId", init.map_id},
+                       {"lastNodeId", init.last_node_id}};
+    if (init.sigma_xy_m > 0) {
+        parameters["sigma_xy_m"] = finite(init.sigma_xy_m);
+        parameters["sigma_heading_rad"] = finite(init.sigma_heading_rad);
+    }
+    return parameters;
 }
 
 Params plain_parameters(json::ObjectReader& in, const Json& object) {

@@ -41,7 +41,9 @@ Json parameters_of(const std::string& action) {
     if (action == kInitPosition) {
         return Json::array({parameter("x", "NUMBER"), parameter("y", "NUMBER"),
                             parameter("theta", "NUMBER"), parameter("mapId", "STRING"),
-                            parameter("lastNodeId", "STRING", true)});
+                            parameter("lastNodeId", "STRING", true),
+                            parameter("sigma_xy_m", "NUMBER", true),
+                            parameter("sigma_heading_rad", "NUMBER", true)});
     }
     if (action == kObserveMarkers) return Json::array({parameter("markers", "ARRAY")});
     if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});

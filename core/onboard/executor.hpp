@@ -3,6 +3,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/onboard/acceptance.hpp"
@@ -59,6 +60,8 @@ public:
     bool take_factsheet_request();
 
     bool position_initialized() const { return position_initialized_; }
+    /// Where it was told to stand, once.
+    std::optional<vda5050::InitPosition> take_told() { return std::exchange(told_, std::nullopt); }
     /// It does not know where it is any more: it brakes, stays and tells why until somebody, or a
     /// code below it, says where it stands.
     void lose_pose(vda5050::VehicleError why);
@@ -143,6 +146,7 @@ private:
     std::vector<plant::Transmitter> transmitters_;
     std::vector<plant::Reflector> reflectors_;
     bool position_initialized_ = false;
+    std::optional<vda5050::InitPosition> told_;
     std::optional<vda5050::VehicleError> lost_;  // why it does not know where it is any more
     bool driving_ = false;
     bool stopped_ = false;      // by the drive itself

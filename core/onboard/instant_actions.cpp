@@ -152,6 +152,7 @@ void Executor::init_position(const Action& action) {
     motion_.set_believed(action.init_position->pose);
     motion_.acknowledge();
     know_pose();
+    told_ = action.init_position;
     add_action(action, ActionStatus::kFinished);
 }
 

@@ -41,6 +41,9 @@ struct InitPosition {
     Pose2 pose;
     std::string map_id;
     std::string last_node_id;
+    // How well it is known; 0: a person has said so.
+    double sigma_xy_m = 0;
+    double sigma_heading_rad = 0;
 };
 
 enum class BlockingType { kNone, kSoft, kHard };

@@ -243,10 +243,10 @@ void Vehicle::receive(std::string_view text) {
     if (frame->topic == Topic::kInstantActions) {
         const auto actions = vda5050::decode_instant_actions(frame->payload);
         if (!actions) return report(actions.error(), topic);
-        const geometry::Pose2 before = drive_->believed_pose();
         executor_.handle(*actions);
-        // Nothing drives in between: a person said where it stands.
-        if (drive_->believed_pose() != before) estimate_.start_at(drive_->believed_pose());
+        if (const auto told = executor_.take_told()) {
+            estimate_.start_at(told->pose, told->sigma_xy_m, told->sigma_heading_rad);
+        }
         return;
     }
     report({Errc::kInvalid,

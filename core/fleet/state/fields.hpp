@@ -83,7 +83,7 @@ namespace vda5050 {
 PULSELINE_FIELDS(SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
 PULSELINE_FIELDS(StopTarget, station_id, station_number, target, tolerance_x_m, tolerance_y_m,
                  tolerance_heading_rad, markers)
-PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id)
+PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id, sigma_xy_m, sigma_heading_rad)
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Action>
 void fields(V& visit, S& it) {

@@ -24,7 +24,11 @@ constexpr double kLeastSightSigma_m = 1e-3;
 constexpr double kTold_m = 0.1;
 constexpr double kTold_rad = 0.03;
 
-std::optional<Pose2> by_receivers(const LiveVehicle& live) {
+SeenPose seen_by(PoseBasis::Kind basis, const localisation::PoseFix& fix) {
+    return {fix.pose, basis, fix.sigma_xy_m, fix.sigma_heading_rad};
+}
+
+std::optional<SeenPose> by_receivers(const LiveVehicle& live) {
     const auto& known = live.type->receivers;
     std::vector<localisation::PlacedPoint> points;
     for (const auto& reading : live.state.receivers) {
@@ -39,10 +43,18 @@ std::optional<Pose2> by_receivers(const LiveVehicle& live) {
     const auto fit = localisation::rigid_fit(points);
     const bool finite = std::isfinite(fit.pose.x_m) && std::isfinite(fit.pose.y_m);
     if (!finite || !fit.agrees()) return std::nullopt;
-    return fit.pose;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& by = fit.by_place[i];
+        covariance += square(points[i].sigma_m) * by * by.transpose();
+    }
+    localisation::PoseFix fix;
+    fix.pose = fit.pose;
+    set_covariance(fix, covariance);
+    return seen_by(PoseBasis::Kind::kReceivers, fix);
 }
 
-std::optional<Pose2> by_codes(const FleetState& fleet, const LiveVehicle& live) {
+std::optional<SeenPose> by_codes(const FleetState& fleet, const LiveVehicle& live) {
     std::vector<localisation::CodeObservation> observations;
     std::vector<localisation::SurveyedCode> survey;
     for (const auto& reading : live.state.cameras) {
@@ -59,12 +71,13 @@ std::optional<Pose2> by_codes(const FleetState& fleet, const LiveVehicle& live) 
         return std::nullopt;
     const auto fix = localisation::locate(observations, survey);
     if (!fix) return std::nullopt;
-    return fix->pose;
+    return seen_by(PoseBasis::Kind::kCodes, *fix);
 }
 
 /// Where it says to stand is enough to tell its reflectors apart; otherwise how they stand to each
 /// other has to.
-std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& live, Reach reach) {
+std::optional<SeenPose> by_reflectors(const FleetState& fleet, const LiveVehicle& live,
+                                      Reach reach) {
     const auto& scanner = live.type->navigation_scanner;
     if (!scanner || live.state.reflectors.empty()) return std::nullopt;
     std::vector<localisation::SeenReflector> seen;
@@ -81,30 +94,24 @@ std::optional<Pose2> by_reflectors(const FleetState& fleet, const LiveVehicle& l
         const Eigen::Vector3d variance(square(kTold_m), square(kTold_m), square(kTold_rad));
         const auto near = localisation::locate_by_reflectors(
             seen, here, *scanner, {*live.state.pose, variance.asDiagonal()});
-        if (near) return near->fix.pose;
+        if (near) return seen_by(PoseBasis::Kind::kReflectors, near->fix);
     }
     if (reach == Reach::kNearIt) return std::nullopt;
     const auto found = localisation::find_by_reflectors(seen, here, *scanner);
     if (!found) return std::nullopt;
-    return found->fix.pose;
+    return seen_by(PoseBasis::Kind::kReflectors, found->fix);
 }
 
 }  // namespace
 
 std::optional<SeenPose> seen_pose(const FleetState& fleet, const LiveVehicle& live, Reach reach) {
     // A vehicle cannot stand outside the walls: then a sense or the survey is wrong.
-    const auto in_hall = [&](const std::optional<Pose2>& pose) {
-        return pose && is_in_hall(fleet, {*pose, hall_of(fleet, live)});
+    const auto in_hall = [&](const std::optional<SeenPose>& seen) {
+        return seen && is_in_hall(fleet, {seen->pose, hall_of(fleet, live)});
     };
-    if (const auto pose = by_receivers(live); in_hall(pose)) {
-        return SeenPose{*pose, PoseBasis::Kind::kReceivers};
-    }
-    if (const auto pose = by_codes(fleet, live); in_hall(pose)) {
-        return SeenPose{*pose, PoseBasis::Kind::kCodes};
-    }
-    if (const auto pose = by_reflectors(fleet, live, reach); in_hall(pose)) {
-        return SeenPose{*pose, PoseBasis::Kind::kReflectors};
-    }
+    if (const auto seen = by_receivers(live); in_hall(seen)) return seen;
+    if (const auto seen = by_codes(fleet, live); in_hall(seen)) return seen;
+    if (const auto seen = by_reflectors(fleet, live, reach); in_hall(seen)) return seen;
     return std::nullopt;
 }
 

@@ -11,6 +11,8 @@ namespace pulseline::fleet {
 struct SeenPose {
     Pose2 pose;
     PoseBasis::Kind basis = PoseBasis::Kind::kCodes;  // or kReceivers, kReflectors
+    double sigma_xy_m = 0;                            // the worse axis
+    double sigma_heading_rad = 0;
 };
 
 /// How far from where a vehicle says to stand its reflectors are looked for. Through a hall of many

@@ -14,10 +14,8 @@ using geometry::Pose2;
 
 constexpr double kEvery_m = 0.15;
 constexpr double kEvery_rad = 0.05;
-// Standing it looks until it has seen all that there is to see, and then whether it is still there.
-constexpr double kStanding_s = 0.3;
 constexpr int kLooksStanding = 12;
-constexpr double kStillThere_s = 2;
+constexpr double kStillThere_s = 2;  // then it looks whether it is still there
 // Where it begins to look around, at least: what moved it may have moved it farther than it knows.
 constexpr double kAround_m = 0.05;
 constexpr double kAround_rad = 0.044;

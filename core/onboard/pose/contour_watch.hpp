@@ -24,6 +24,9 @@ Eigen::Matrix3d way_covariance(const geometry::Pose2& way,
 /// 5 deg off it still finds the place. Thread safety: none. No clock: time passes by step().
 class ContourWatch {
 public:
+    /// Standing it looks as often until it has seen all that there is to see.
+    static constexpr double kStanding_s = 0.3;
+
     /// All must outlive it.
     ContourWatch(Scanners& scanners, const Drive& drive, PoseEstimate& estimate,
                  const OdometryTrail& trail, std::shared_ptr<const mapping::MatchedMap> map,

@@ -20,10 +20,12 @@ constexpr double kToldSigma_rad = 0.044;
 constexpr double kTolerance_m = 0.025;
 constexpr double kTolerance_rad = 0.2 * kPi / 180;
 
-Eigen::Matrix3d told() {
-    constexpr double kPlace2 = kToldSigma_m * kToldSigma_m;
-    return Eigen::Vector3d(kPlace2, kPlace2, kToldSigma_rad * kToldSigma_rad).asDiagonal();
+Eigen::Matrix3d known_to(double sigma_m, double sigma_rad) {
+    return Eigen::Vector3d(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad)
+        .asDiagonal();
 }
+
+Eigen::Matrix3d told() { return known_to(kToldSigma_m, kToldSigma_rad); }
 
 /// A way as the filter takes it: along and across the heading of half way, which is where the chord
 /// of an arc points.
@@ -149,12 +151,13 @@ void PoseEstimate::led_to(const Pose2& believed) {
     now_ = believed;
 }
 
-void PoseEstimate::start_at(const Pose2& pose) {
-    filter_.restart(pose, told());
+void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_heading_rad) {
+    const bool worked_out = sigma_xy_m > 0 && sigma_heading_rad > 0;
+    filter_.restart(pose, worked_out ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();
     driven_ = now_ = pose;
-    note(PoseSource::kPerson);
+    note(worked_out ? PoseSource::kStop : PoseSource::kPerson);
 }
 
 /// With the way that the filter has not followed yet.

@@ -37,8 +37,9 @@ public:
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
     /// seen, but as a new beginning: the vehicle was moved by hand, or its wheels slipped.
     void take(const localisation::PoseFix& fix);
-    /// A person said where it stands.
-    void start_at(const geometry::Pose2& pose);
+    /// A person said where it stands; with sigmas somebody who has worked it out from codes or
+    /// beacons.
+    void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0);
 
     PoseSource source() const { return source_; }
     /// How often codes have told where it is.

@@ -16,14 +16,37 @@ std::shared_ptr<const mapping::MatchedMap> hall_map() {
     return kMap;
 }
 
+/// A wall of 200 m beside the way, and nothing else.
+plant::Plant hall_of_one_wall() {
+    plant::Plant plant = mapping::testing::hall_with_jigs();
+    plant.areas.clear();
+    plant.halls.front().outline = {{-100, -3}, {100, -3}, {100, 100}, {-100, 100}};
+    return plant;
+}
+
+std::shared_ptr<const mapping::MatchedMap> wall_map() {
+    mapping::OccupancyMap map;
+    map.corner = {-100, -5};
+    map.columns = 4000;
+    map.rows = 200;
+    map.free.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
+                    255);
+    const int wall = static_cast<int>(std::floor((-3 - map.corner.y_m) / map.cell_m));
+    for (int column = 0; column < map.columns; ++column) {
+        map.free[static_cast<std::size_t>(wall * map.columns + column)] = 0;
+    }
+    return mapping::prepare(std::move(map));
+}
+
 /// A vehicle that drives along x in a hall that has been mapped.
 class Looking : public testing::StraightDrive {
 public:
     explicit Looking(std::uint64_t seed, const geometry::Pose2& true_pose = {},
-                     plant::Plant plant = mapping::testing::hall_with_jigs())
+                     plant::Plant plant = mapping::testing::hall_with_jigs(),
+                     std::shared_ptr<const mapping::MatchedMap> map = hall_map())
         : StraightDrive(pulseline::testing::mecanum(), std::move(plant), true_pose, seed),
           scanners(world, plant::HallId("hall"), type, drive.true_pose(), seed),
-          contours(scanners, drive, estimate, watch.trail(), hall_map(), seed) {}
+          contours(scanners, drive, estimate, watch.trail(), std::move(map), seed) {}
 
     void look(bool located) override { contours.step(kStep_s, located); }
 
@@ -128,6 +151,24 @@ TEST(ContourWatch, PeopleAroundItDoNotMoveIt) {
     }
     looking.run(12.5, [] {});
     EXPECT_LT(looking.off_m(), 0.05);
+}
+
+TEST(ContourWatch, AWallWithoutFeaturesTellsNothingAlongIt) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        Looking looking(seed, {0.02, -0.02, 0.01}, hall_of_one_wall(), wall_map());
+        double most_sigmas = 0;
+        looking.run(50, [&] {
+            const auto off =
+                looking.estimate.pose().position() - looking.drive.true_pose().position();
+            const auto covariance = looking.estimate.covariance();
+            most_sigmas = std::max({most_sigmas, std::abs(off.x_m) / std::sqrt(covariance(0, 0)),
+                                    std::abs(off.y_m) / std::sqrt(covariance(1, 1))});
+        });
+        EXPECT_LT(most_sigmas, 4) << seed;
+        EXPECT_FALSE(looking.contours.lost());
+        EXPECT_LT(std::abs(looking.estimate.pose().y_m - looking.drive.true_pose().y_m), 0.05);
+        EXPECT_GT(std::sqrt(looking.estimate.covariance()(0, 0)), 0.04) << "what a person told";
+    }
 }
 
 TEST(ContourWatch, WithoutAPoseItDoesNothing) {
