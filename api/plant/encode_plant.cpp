@@ -142,14 +142,10 @@ Json encode(const Receiver& r) {
 }
 
 Json encode(const LaserScanner& s) {
-    return {{"name", s.name},
-            {"pose", encode(s.body_from_scanner)},
-            {"field_rad", s.field_rad},
-            {"step_rad", s.step_rad},
-            {"range_m", s.range_m},
-            {"least_range_m", s.least_range_m},
-            {"sigma_m", s.sigma_m},
-            {"most_error_m", s.most_error_m}};
+    return {{"name", s.name},           {"pose", encode(s.body_from_scanner)},
+            {"field_rad", s.field_rad}, {"step_rad", s.step_rad},
+            {"range_m", s.range_m},     {"least_range_m", s.least_range_m},
+            {"sigma_m", s.sigma_m},     {"most_error_m", s.most_error_m}};
 }
 
 Json encode(const NavigationScanner& s) {

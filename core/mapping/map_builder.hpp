@@ -24,8 +24,8 @@ public:
     /// (ahead_m, left_m, turn_rad), and its scanners see this now.
     void take(const geometry::Pose2& moved, const Eigen::Matrix3d& moved_covariance,
               const std::vector<control::Scan>& scans);
-    /// A code tells where it stands now: ways that have come elsewhere count the less the more sigmas
-    /// they are off, and all go on from there, so that a map that knows codes is not bent.
+    /// A code tells where it stands now: ways that have come elsewhere count the less the more
+    /// sigmas they are off, and all go on from there, so that a map that knows codes is not bent.
     void stands_at(const geometry::Pose2& pose, const Eigen::Matrix3d& covariance);
     OccupancyMap map() const;
 

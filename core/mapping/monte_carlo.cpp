@@ -66,8 +66,8 @@ struct MatchedMap {
         const Point2 in = place - map.corner;
         const auto column = static_cast<int>(std::floor(in.x_m / map.cell_m));
         const auto row = static_cast<int>(std::floor(in.y_m / map.cell_m));
-        for (int r = std::max(0, row - kNear_cells);
-             r <= std::min(map.rows - 1, row + kNear_cells); ++r) {
+        for (int r = std::max(0, row - kNear_cells); r <= std::min(map.rows - 1, row + kNear_cells);
+             ++r) {
             for (int c = std::max(0, column - kNear_cells);
                  c <= std::min(map.columns - 1, column + kNear_cells); ++c) {
                 if (map.occupied(c, r)) return true;
@@ -79,8 +79,7 @@ struct MatchedMap {
 
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     auto matched = std::make_shared<MatchedMap>();
-    const Point2 far =
-        map.corner + Point2{map.columns * map.cell_m, map.rows * map.cell_m};
+    const Point2 far = map.corner + Point2{map.columns * map.cell_m, map.rows * map.cell_m};
     matched->grid = mrpt::maps::COccupancyGridMap2D::Create(
         static_cast<float>(map.corner.x_m), static_cast<float>(far.x_m),
         static_cast<float>(map.corner.y_m), static_cast<float>(far.y_m),

@@ -49,7 +49,11 @@ mrpt::obs::CActionCollection movement(const geometry::Pose2& moved,
         in_mrpt(moved), mrpt::math::CMatrixDouble33(covariance));
     // What maps are built with takes it from here.
     auto& model = movement.motionModelConfiguration.gaussianModel;
-    model = {0, 0, 0, 0, std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
+    model = {0,
+             0,
+             0,
+             0,
+             std::sqrt(std::max(covariance(0, 0), covariance(1, 1))),
              std::sqrt(covariance(2, 2))};
     mrpt::obs::CActionCollection actions;
     actions.insert(movement);

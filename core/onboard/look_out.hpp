@@ -27,6 +27,8 @@ public:
     void bar(bool bars) { told_to_bar_ = bars; }
     void step(double dt_s);
     bool barred() const { return barred_; }
+    /// Of the vehicle's speed, what the fields let it drive; 0: barred.
+    double speed_share() const { return barred_ ? 0 : last_.speed_share; }
     /// The last look, one scan a scanner, and how many there have been. While nothing moves nor
     /// wants to, it does not look.
     const std::vector<control::Scan>& scans() const { return scans_; }

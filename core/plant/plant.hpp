@@ -194,8 +194,8 @@ struct Receiver {
 /// UST-10LX's data sheet has it, and Li 2022 in section 5.1 (its section 5.2 prints +-4 mm for
 /// most_error_m, which is that of the scanner beside it), unless the plant says otherwise.
 struct LaserScanner {
-    std::string name;          // "front left"
-    Pose2 body_from_scanner;   // x in the middle of its field, from calibration
+    std::string name;         // "front left"
+    Pose2 body_from_scanner;  // x in the middle of its field, from calibration
     double field_rad = 270 * 3.14159265358979323846 / 180;
     double step_rad = 0.25 * 3.14159265358979323846 / 180;
     double range_m = 10;
@@ -261,7 +261,7 @@ struct VehicleType {
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;
     std::vector<Camera> cameras;
-    std::vector<Receiver> receivers;  // of iGPS; none: it does not navigate by it
+    std::vector<Receiver> receivers;     // of iGPS; none: it does not navigate by it
     std::vector<LaserScanner> scanners;  // none: it sees nothing that stands in its way
     std::optional<NavigationScanner> navigation_scanner = {};  // none: not by reflectors
     UsualCode usual_code;

@@ -40,7 +40,7 @@ struct StopTarget {
 struct InitPosition {
     Pose2 pose;
     std::string map_id;
-    std::string last_node_id;
+    std::string last_node_id = {};
     // How well it is known; 0: a person has said so.
     double sigma_xy_m = 0;
     double sigma_heading_rad = 0;
@@ -176,7 +176,7 @@ inline constexpr std::size_t kMostReflectorSights = 12;
 
 /// By what the vehicle knew last where it is, by its own word.
 struct NavigationStatus {
-    std::string by;     // person, stop, codes, igps, reflectors, contours; empty: it has not said
+    std::string by;       // person, stop, codes, igps, reflectors, contours; empty: it has not said
     double driven_m = 0;  // since then, by its wheels
     /// Of what its laser scanners meet, the share that its map of the hall has; negative: no map.
     double explained = -1;

@@ -140,14 +140,11 @@ std::string scanners_to_json(const std::vector<plant::LaserScanner>& scanners) {
 }
 std::vector<plant::LaserScanner> scanners_from_json(const std::string& text) {
     return list_from_json<plant::LaserScanner>(text, [](const Json& j) {
-        return plant::LaserScanner{j.at("name"),
-                                   {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
-                                   j.at("field_rad"),
-                                   j.at("step_rad"),
-                                   j.at("range_m"),
-                                   j.at("least_range_m"),
-                                   j.at("sigma_m"),
-                                   j.at("most_error_m")};
+        return plant::LaserScanner{
+            j.at("name"),      {j.at("x_m"), j.at("y_m"), j.at("heading_rad")},
+            j.at("field_rad"), j.at("step_rad"),
+            j.at("range_m"),   j.at("least_range_m"),
+            j.at("sigma_m"),   j.at("most_error_m")};
     });
 }
 

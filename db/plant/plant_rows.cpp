@@ -105,8 +105,8 @@ plant::VehicleType VehicleTypeRow::get() const {
     type.cameras = cameras_from_json(cameras);
     type.receivers = receivers_from_json(receivers);
     // Of types that were stored before scanners were.
-    type.scanners = scanners == "null" ? plant::usual_scanners(type.footprint)
-                                       : scanners_from_json(scanners);
+    type.scanners =
+        scanners == "null" ? plant::usual_scanners(type.footprint) : scanners_from_json(scanners);
     type.navigation_scanner = scanner_from_json(navigation_scanner);
     type.brackets = brackets_from_json(brackets);
     read(usual_code_kind, type.usual_code.kind);

@@ -93,13 +93,14 @@ struct VehicleTypeRow {
 
     auto fields() {
         auto& t = element;
-        return std::tie(
-            position, id, t.name, kinematics, footprint, load_footprint, t.max_speed_mps,
-            t.max_accel_mps2, t.max_turn_rate_radps, t.max_turn_accel_radps2, t.min_turn_radius_m,
-            t.max_arc_radius_m, t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
-            t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
-            t.battery.enough_percent, t.max_steering_rate_radps, t.height_m, usual_code_kind,
-            t.usual_code.size_m, slip_sensor_noise_mps, receivers, scanners, navigation_scanner, names);
+        return std::tie(position, id, t.name, kinematics, footprint, load_footprint,
+                        t.max_speed_mps, t.max_accel_mps2, t.max_turn_rate_radps,
+                        t.max_turn_accel_radps2, t.min_turn_radius_m, t.max_arc_radius_m,
+                        t.clearance_m, motion_modes, wheels, cameras, brackets, t.mass_kg,
+                        t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
+                        t.battery.enough_percent, t.max_steering_rate_radps, t.height_m,
+                        usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps, receivers,
+                        scanners, navigation_scanner, names);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;

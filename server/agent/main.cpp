@@ -219,7 +219,8 @@ Result<int> run(const Options& options) {
 int main(int argc, char** argv) {
     using namespace pulseline;
     cv::setNumThreads(1);  // many agents share one machine
-    if (argc > 1 && std::string_view(argv[1]) == "map") return agent::map_command(argc - 1, argv + 1);
+    if (argc > 1 && std::string_view(argv[1]) == "map")
+        return agent::map_command(argc - 1, argv + 1);
     int exit_code = 0;
     const auto options = agent::read_options(argc, argv, exit_code);
     if (!options) return exit_code;

@@ -37,13 +37,12 @@ Status make_map(const MapOptions& options) {
     const auto way = way_over_lanes(world.plant, home->hall, home->pose);
     if (!way) return fail(way.error());
     int told_percent = -1;
-    const auto map = map_hall(
-        world, *vehicle, home->hall, *way, options.seed, [&](double share) {
-            const int percent = static_cast<int>(100 * share);
-            if (percent / 10 == told_percent / 10) return;
-            told_percent = percent;
-            fmt::print(stderr, "{} % of the lanes of {} driven\n", percent, home->hall.str());
-        });
+    const auto map = map_hall(world, *vehicle, home->hall, *way, options.seed, [&](double share) {
+        const int percent = static_cast<int>(100 * share);
+        if (percent / 10 == told_percent / 10) return;
+        told_percent = percent;
+        fmt::print(stderr, "{} % of the lanes of {} driven\n", percent, home->hall.str());
+    });
     if (!map) return fail(map.error());
     const auto written = mapping::write_map(*map, options.out);
     if (!written) return written;
@@ -58,7 +57,8 @@ int map_command(int argc, char** argv) {
     app.name("pulseline-agent map");
     MapOptions options;
     app.add_option("--world", options.world_file, "plant file of the simulated world")->required();
-    app.add_option("--vehicle", options.vehicle, "id of the vehicle that drives: TP-01")->required();
+    app.add_option("--vehicle", options.vehicle, "id of the vehicle that drives: TP-01")
+        ->required();
     app.add_option("--out", options.out, "FILE.yaml; the picture FILE.png is beside it")
         ->required();
     app.add_option("--seed", options.seed, "of all simulated errors");

@@ -117,8 +117,7 @@ Result<mapping::OccupancyMap> map_hall(const simulation::World& world,
     drive.set_believed(start);
     CameraSensing cameras(world, hall, drive, false, seed, loaded);
     simulation::SimulatedScanners scanners(world, hall, type, drive.true_pose(), seed);
-    onboard::PoseEstimate estimate{start,
-                                   localisation::odometry_noise(world.errors.drive, type)};
+    onboard::PoseEstimate estimate{start, localisation::odometry_noise(world.errors.drive, type)};
     onboard::MarkerWatch watch(cameras, drive, estimate);
 
     auto ahead = edges_over(world.plant, hall, plant::cameras_of(type, loaded), way);

@@ -157,7 +157,8 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, "
+                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free or "
+                "carried=AHEAD,LEFT,DEGREES, "
                 "each with @SECONDS "
                 "or without");
     };

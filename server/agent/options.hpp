@@ -37,9 +37,9 @@ struct Fault {
         kCarried
     };
     Kind kind = Kind::kWheel;
-    std::string part;        // the wheel, or the transmitter
-    double share = 0;        // of the rim's speed that slips
-    geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
+    std::string part;         // the wheel, or the transmitter
+    double share = 0;         // of the rim's speed that slips
+    geometry::Point2 place;   // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     geometry::Pose2 carried;  // to where, seen from where it was
     double after_s = 0;
 };

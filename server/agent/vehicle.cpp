@@ -23,10 +23,8 @@ constexpr auto kSettle = 300ms;
 constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 // Pictures of standing vehicles may cost this share of the processor, all together.
 constexpr int kLookShare = 10;
-constexpr double kOwnStep_s = 0.1;
 constexpr double kRounding = 1e-9;
-constexpr double kLeastShare = 1e-6;  // of the full speed: turns on the spot
-constexpr double kSeen_m = 30;        // a scanner's range and two long bodies
+constexpr double kSeen_m = 30;  // a scanner's range and two long bodies
 
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> chargers(const plant::Plant& plant) {
@@ -116,6 +114,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
       truth_(truth),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
+    if (drives_by_wheels(type_, settings)) guard_.emplace(type_, plant::is_loaded(vehicle));
     drive_->set_believed({});  // where it stands it is told, or its codes or receivers say
     if (!type_.receivers.empty()) {
         receivers_.emplace(world, hall_, type_, drive_->true_pose(),
@@ -179,53 +178,10 @@ void Vehicle::drive(double dt_s) {
             look_out_->step(part_s);
             going_round_->step(part_s);
         }
+        guard_pose();
         executor_.step(part_s);
         know_pose(part_s);
         left_s = parts > 1 ? left_s - part_s : 0;
-    }
-}
-
-double Vehicle::most_step_s() const {
-    if (light_ && light_->steers()) return onboard::LightWatch::kFineStep_s;
-    return watch_.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kOwnStep_s;
-}
-
-void Vehicle::know_pose(double dt_s) {
-    note_rest();
-    if (const auto fix = stop_senses_.take_fix()) {
-        estimate_.take(*fix);
-    } else {
-        estimate_.drive_to(drive_->believed_pose());
-    }
-    static const std::deque<vda5050::OrderEdge> kNone;
-    const bool on_way = !executor_.acting() && !executor_.in_hand();
-    const std::string refused = watch_.refused();
-    watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
-    executor_.note_codes(watch_.take_taken());
-    state_due_ |= refused != watch_.refused();
-    const bool located = executor_.position_initialized();
-    if (light_) {
-        const bool lit = light_->newest().has_value();
-        light_->step(dt_s, executor_.transmitters(), located);
-        state_due_ |= lit != light_->newest().has_value();
-    }
-    if (reflectors_) reflectors_->step(dt_s, executor_.reflectors(), located);
-    if (contours_) {
-        contours_->step(dt_s, located);
-        // At a stop its codes tell.
-        if (contours_->lost() && !executor_.acting()) {
-            executor_.lose_pose({"contoursLost", true, contours_->why_not()->what, {}});
-        }
-    }
-}
-
-void Vehicle::note_rest() {
-    const double share =
-        std::abs(drive_->velocity_mps()) / drive_->time_factor() / type_.max_speed_mps;
-    if (!drive_->standing()) {
-        fastest_share_ = std::min(1.0, std::max({fastest_share_, share, kLeastShare}));
-    } else if (fastest_share_ > 0) {
-        estimate_.rest(std::exchange(fastest_share_, 0));
     }
 }
 

@@ -10,11 +10,12 @@
 #include "api/vda5050/header.hpp"
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
+#include "core/onboard/look_out.hpp"
 #include "core/onboard/pose/contour_watch.hpp"
 #include "core/onboard/pose/light_watch.hpp"
-#include "core/onboard/look_out.hpp"
 #include "core/onboard/pose/marker_watch.hpp"
 #include "core/onboard/pose/pose_estimate.hpp"
+#include "core/onboard/pose/pose_guard.hpp"
 #include "core/onboard/pose/reflector_watch.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
@@ -94,6 +95,7 @@ private:
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
     void know_pose(double dt_s);
+    void guard_pose();
     double most_step_s() const;
     void write_navigation(vda5050::NavigationStatus& status) const;
     void write_light(vda5050::StateMessage& state) const;
@@ -121,6 +123,7 @@ private:
     std::optional<onboard::LookOut> look_out_;        // with scanners
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
+    std::optional<onboard::PoseGuard> guard_;  // of those that drive by their wheels
     onboard::MarkerWatch watch_;
     std::optional<simulation::SimulatedReceivers> receivers_;  // of a type that has them
     std::optional<onboard::LightWatch> light_;                 // with receivers
@@ -131,6 +134,7 @@ private:
     vda5050::HeaderSource headers_;
     Outbox outbox_;
     double fastest_share_ = 0;  // of its full speed, since it stood last; 0: it stands
+    bool vague_ = false;        // it drives slowly, since it knows less where it is
     bool stopping_ = false;     // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;

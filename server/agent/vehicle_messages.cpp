@@ -40,6 +40,13 @@ vda5050::StateMessage Vehicle::state() {
     if (light_) write_light(state);
     if (reflectors_) write_reflectors(state);
     if (executor_.position_initialized()) write_navigation(state.navigation);
+    if (vague_ && !drive_->idle()) {
+        state.errors.push_back({"poseVague",
+                                false,
+                                "The vehicle knows less where it is and drives slowly until "
+                                "something tells it.",
+                                {}});
+    }
     state.cameras = sensing_.readings();
     state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
     state.localization_score = estimate_.score();

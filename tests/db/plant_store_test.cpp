@@ -166,8 +166,7 @@ TEST(PlantStore, KeepsEveryFieldOfReflectorsAndScanners) {
 TEST(PlantStore, KeepsEveryFieldOfLaserScanners) {
     Database database(":memory:");
     plant::Plant plant = demo("measuring-hall");
-    plant.vehicle_types[0].scanners = {
-        {"nose", {0.8, -0.1, 0.3}, 3.3, 0.006, 25, 0.1, 0.02, 0.05}};
+    plant.vehicle_types[0].scanners = {{"nose", {0.8, -0.1, 0.3}, 3.3, 0.006, 25, 0.1, 0.02, 0.05}};
     PlantStore(database).import(plant);
 
     const auto kept = PlantStore(database).load()->vehicle_types[0].scanners;

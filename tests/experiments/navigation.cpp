@@ -171,8 +171,8 @@ Checkpoint checkpoint(const onboard::PoseEstimate& estimate, const Pose2& truth)
 }
 
 /// `map`: of the contours; none: it does not look at them.
-Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
-                  std::uint64_t seed, const std::shared_ptr<const mapping::MatchedMap>& map) {
+Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle, std::uint64_t seed,
+                  const std::shared_ptr<const mapping::MatchedMap>& map) {
     const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
     const bool loaded = plant::is_loaded(vehicle);
     std::mt19937_64 random(seed);

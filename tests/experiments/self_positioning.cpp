@@ -11,8 +11,8 @@
 #include "api/plant/plant_file.hpp"
 #include "core/base/square.hpp"
 #include "core/localisation/reflector_pose.hpp"
-#include "core/simulation/machine/servo_drive.hpp"
 #include "core/onboard/pose/contour_watch.hpp"
+#include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/scanners.hpp"
 #include "server/agent/camera_sensing.hpp"
@@ -214,13 +214,11 @@ bool self_positioning(const Options& options) {
         for (std::size_t station = 0; station < kMarkers; ++station) {
             for (int i = 0; i < times; ++i) {
                 measure(*plant, plant->vehicles.front(), plant->stations[station],
-                        options.seed + static_cast<std::uint64_t>(i), errors, map,
-                        methods);
+                        options.seed + static_cast<std::uint64_t>(i), errors, map, methods);
             }
         }
         const bool calibrated = std::string(name) == "kind";
-        for (const Method* method :
-             {&methods.codes, &methods.reflectors, &methods.contours}) {
+        for (const Method* method : {&methods.codes, &methods.reflectors, &methods.contours}) {
             good &= method->print(name, calibrated);
         }
     }

@@ -144,7 +144,7 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                   [](const PendingAction& p) { return p.action.type == vda5050::kInitPosition; });
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
-    action.init_position = vda5050::InitPosition{pose, stated.hall};
+    action.init_position = vda5050::InitPosition{pose, stated.hall, {}};
     live->stated = LiveVehicle::Statement{stated, now, actor};
     add_event(fleet, now, event::kVehicleInitPosition, {}, {}, id, actor,
               {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});

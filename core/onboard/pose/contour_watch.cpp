@@ -127,6 +127,7 @@ void ContourWatch::look() {
         return;
     }
     contradicted_ = 0;
+    lost_ = false;
     by_codes_ = estimate_.by_codes();
     if (cloud.explained >= kExplained) correct(cloud);
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/localisation/igps_pose.hpp"
-#include "core/onboard/pose/beacon_correction.hpp"
 #include "core/onboard/drive.hpp"
+#include "core/onboard/pose/beacon_correction.hpp"
 #include "core/onboard/pose/odometry_trail.hpp"
 #include "core/onboard/pose/pose_estimate.hpp"
 #include "core/onboard/receivers.hpp"

@@ -13,7 +13,8 @@ using geometry::Pose2;
 // Shorter ways wait for the next one: most of the time nobody asks.
 constexpr double kStep_m = 0.1;
 constexpr double kStep_rad = 0.01;
-// A person looks where the vehicle stands, and points at it on the map: 95 % within 0.1 m and 5 deg.
+// A person looks where the vehicle stands, and points at it on the map: 95 % within 0.1 m and 5
+// deg.
 constexpr double kToldSigma_m = 0.05;
 constexpr double kToldSigma_rad = 0.044;
 // Tang 2020: +-25 mm and +-0.2 deg.

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "core/localisation/reflector_pose.hpp"
-#include "core/onboard/pose/beacon_correction.hpp"
 #include "core/onboard/drive.hpp"
 #include "core/onboard/navigation_scanner.hpp"
+#include "core/onboard/pose/beacon_correction.hpp"
 #include "core/onboard/pose/odometry_trail.hpp"
 #include "core/onboard/pose/pose_estimate.hpp"
 #include "core/vda5050/messages.hpp"

@@ -67,8 +67,8 @@ void Lidar::scan(const Pose2& hall_from_body, std::span<const geometry::Polygon>
             range = kNoReturn;
             continue;
         }
-        const double error =
-            std::clamp(scanner_.sigma_m * normal(random), -scanner_.most_error_m, scanner_.most_error_m);
+        const double error = std::clamp(scanner_.sigma_m * normal(random), -scanner_.most_error_m,
+                                        scanner_.most_error_m);
         range = static_cast<float>(range + error);
     }
 }

@@ -219,14 +219,11 @@ const Json kScanner = {{"pose", {{"x_m", -0.7}, {"y_m", 0.1}, {"heading_rad", 0.
                        {"sigma_range_m", 0.007},
                        {"sigma_bearing_rad", 1.5e-4}};
 
-const Json kLaserScanner = {{"name", "nose"},
-                            {"pose", {{"x_m", 0.8}, {"y_m", -0.1}, {"heading_rad", 0.3}}},
-                            {"field_rad", 3.3},
-                            {"step_rad", 0.006},
-                            {"range_m", 25},
-                            {"least_range_m", 0.1},
-                            {"sigma_m", 0.02},
-                            {"most_error_m", 0.05}};
+const Json kLaserScanner = {
+    {"name", "nose"},   {"pose", {{"x_m", 0.8}, {"y_m", -0.1}, {"heading_rad", 0.3}}},
+    {"field_rad", 3.3}, {"step_rad", 0.006},
+    {"range_m", 25},    {"least_range_m", 0.1},
+    {"sigma_m", 0.02},  {"most_error_m", 0.05}};
 
 TEST(PlantText, KeepsEveryFieldOfALaserScanner) {
     Json file = document(kPlants + "/measuring-hall.json");

@@ -20,10 +20,11 @@ inline plant::Plant hall_with_jigs() {
     hall.id = plant::HallId("hall");
     hall.outline = {{-6, -8}, {24, -8}, {24, 8}, {-6, 8}};
     plant.halls = {hall};
-    const std::vector<geometry::Polygon> jigs = {
-        {{2, 3}, {5, 3}, {5, 4.2}, {2, 4.2}},         {{9, -5.5}, {10.5, -5.5}, {10.5, -3}, {9, -3}},
-        {{14, 3.5}, {15, 3}, {17, 4.5}, {16, 5.5}},   {{-3, -4.5}, {0, -5.5}, {0.5, -4.5}},
-        {{19.5, -4}, {21, -4}, {21, -2.5}, {19.5, -2.5}}};
+    const std::vector<geometry::Polygon> jigs = {{{2, 3}, {5, 3}, {5, 4.2}, {2, 4.2}},
+                                                 {{9, -5.5}, {10.5, -5.5}, {10.5, -3}, {9, -3}},
+                                                 {{14, 3.5}, {15, 3}, {17, 4.5}, {16, 5.5}},
+                                                 {{-3, -4.5}, {0, -5.5}, {0.5, -4.5}},
+                                                 {{19.5, -4}, {21, -4}, {21, -2.5}, {19.5, -2.5}}};
     for (const auto& outline : jigs) {
         plant::Area jig;
         jig.id = plant::AreaId("jig-" + std::to_string(plant.areas.size() + 1));

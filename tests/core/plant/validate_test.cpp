@@ -190,7 +190,9 @@ const Case kCases[] = {
      },
      "/vehicle_types/0/motion_modes", "mode_not_for_wheels"},
     {"ScannerNowhere",
-     [](Plant& p) { p.vehicle_types[0].scanners = {{"nose", {0, kNan, 0}}}; },
+     [](Plant& p) {
+         p.vehicle_types[0].scanners = {{"nose", {0, kNan, 0}}};
+     },
      "/vehicle_types/0/scanners/0/pose/y_m", "not_finite"},
     {"ScannerSeesAllRound",
      [](Plant& p) {
@@ -217,7 +219,9 @@ const Case kCases[] = {
      },
      "/vehicle_types/0/scanners/0/sigma_m", "negative"},
     {"TwoScannersOfOneName",
-     [](Plant& p) { p.vehicle_types[0].scanners = {{"nose"}, {"nose"}}; },
+     [](Plant& p) {
+         p.vehicle_types[0].scanners = {{"nose"}, {"nose"}};
+     },
      "/vehicle_types/0/scanners/1/name", "duplicate_scanner"},
     {"WheelWithoutDiameter", [](Plant& p) { p.vehicle_types[0].wheels[0].diameter_m = 0; },
      "/vehicle_types/0/wheels/0/diameter_m", "not_positive"},

@@ -70,9 +70,10 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_fault("scanner-covered@5")->kind, Fault::Kind::kScannerCovered);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->kind, Fault::Kind::kTransmitterDark);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->part, "tx-1");
-    for (const char* bad : {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2",
-                            "slip=:0.2", "encoder=", "marker-lost@soon", "obstacle=1",
-                            "obstacle=1,2,3", "carried=1,2", "carried=1,2,nan", "carried=1,2,3,", "wheel=FL@-1"}) {
+    for (const char* bad :
+         {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
+          "encoder=", "marker-lost@soon", "obstacle=1", "obstacle=1,2,3", "carried=1,2",
+          "carried=1,2,nan", "carried=1,2,3,", "wheel=FL@-1"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;
     }
     const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");

@@ -1,0 +1,35 @@
+#include "core/onboard/pose/pose_guard.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pulseline::onboard {
+namespace {
+
+constexpr double kSigmas = 3;
+constexpr double kSlow = 0.75;  // of what is held
+// Codes of lanes lie 9 m apart at most.
+constexpr double kFromAPerson_m = 12;
+
+}  // namespace
+
+PoseGuard::PoseGuard(const plant::VehicleType& type, bool loaded) {
+    for (const auto& piece : plant::outline_with_load(type, loaded)) {
+        for (const auto& corner : piece) radius_m_ = std::max(radius_m_, norm(corner));
+    }
+}
+
+double PoseGuard::reach_m(const PoseEstimate& estimate) const {
+    return kSigmas * std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+}
+
+PoseGuard::Advice PoseGuard::advice(const PoseEstimate& estimate) const {
+    const double reach = reach_m(estimate);
+    if (reach <= kSlow * kHeld_m) return Advice::kDrive;
+    if (reach <= kHeld_m) return Advice::kDriveSlowly;
+    const bool said = estimate.source() == PoseSource::kPerson;
+    return said && estimate.driven_since_m() <= kFromAPerson_m ? Advice::kDriveSlowly
+                                                               : Advice::kStay;
+}
+
+}  // namespace pulseline::onboard

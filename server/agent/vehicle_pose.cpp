@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <utility>
+
+#include "server/agent/vehicle.hpp"
+
+/// How a vehicle knows where it is.
+namespace pulseline::agent {
+namespace {
+
+constexpr double kOwnStep_s = 0.1;
+constexpr double kLeastShare = 1e-6;  // of the full speed: turns on the spot
+
+}  // namespace
+
+double Vehicle::most_step_s() const {
+    if (light_ && light_->steers()) return onboard::LightWatch::kFineStep_s;
+    return watch_.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kOwnStep_s;
+}
+
+void Vehicle::know_pose(double dt_s) {
+    note_rest();
+    if (const auto fix = stop_senses_.take_fix()) {
+        estimate_.take(*fix);
+    } else {
+        estimate_.drive_to(drive_->believed_pose());
+    }
+    static const std::deque<vda5050::OrderEdge> kNone;
+    const bool on_way = !executor_.acting() && !executor_.in_hand();
+    const std::string refused = watch_.refused();
+    watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
+    executor_.note_codes(watch_.take_taken());
+    state_due_ |= refused != watch_.refused();
+    const bool located = executor_.position_initialized();
+    if (light_) {
+        const bool lit = light_->newest().has_value();
+        light_->step(dt_s, executor_.transmitters(), located);
+        state_due_ |= lit != light_->newest().has_value();
+    }
+    if (reflectors_) reflectors_->step(dt_s, executor_.reflectors(), located);
+    if (contours_) {
+        contours_->step(dt_s, located);
+        // At a stop its codes tell.
+        if (contours_->lost() && !executor_.acting()) {
+            executor_.lose_pose({"contoursLost",
+                                 true,
+                                 "The scanners see through what the map has where the vehicle "
+                                 "believes to stand. Say where it stands.",
+                                 {}});
+        }
+    }
+}
+
+/// At a stop its codes tell where it is, and who drives it by hand sees that.
+void Vehicle::guard_pose() {
+    if (!guard_ || executor_.in_hand()) return;
+    double share = look_out_ ? look_out_->speed_share() : 1;
+    const auto advice = executor_.position_initialized() && !executor_.acting()
+                            ? guard_->advice(estimate_)
+                            : onboard::PoseGuard::Advice::kDrive;
+    const bool vague = advice == onboard::PoseGuard::Advice::kDriveSlowly;
+    if (vague) share = std::min(share, onboard::PoseGuard::kSlowShare);
+    state_due_ |= vague != vague_;
+    vague_ = vague;
+    drive_->slow_to(share);
+    if (advice != onboard::PoseGuard::Advice::kStay) return;
+    executor_.lose_pose({"poseUncertain",
+                         true,
+                         "Nothing has told the vehicle for too long where it is. Say where it "
+                         "stands.",
+                         {}});
+}
+
+void Vehicle::note_rest() {
+    const double share =
+        std::abs(drive_->velocity_mps()) / drive_->time_factor() / type_.max_speed_mps;
+    if (!drive_->standing()) {
+        fastest_share_ = std::min(1.0, std::max({fastest_share_, share, kLeastShare}));
+    } else if (fastest_share_ > 0) {
+        estimate_.rest(std::exchange(fastest_share_, 0));
+    }
+}
+
+}  // namespace pulseline::agent
