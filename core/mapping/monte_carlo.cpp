@@ -6,8 +6,11 @@
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -26,10 +29,22 @@ constexpr float kByChance = 0.2F;  // of all rays, on what is not in the map
 constexpr int kEveryRay = 12;      // of a scan: neighbours tell the same
 // Rays are not independent: they share the errors of the map where they meet one wall.
 constexpr double kRaysCount = 0.1;
-constexpr unsigned kFewest = 300;
-constexpr unsigned kMost = 3000;
-constexpr double kBin_m = 0.03;
-constexpr double kBin_rad = 0.01;
+constexpr double kLeastPower = 1e-4;
+// Particles, where the place is known well and where it is not.
+constexpr unsigned kFewest = 600;
+constexpr unsigned kMost = 2000;
+constexpr double kWellKnown_m = 0.04;
+constexpr double kWellKnown_rad = 0.02;
+// That carry weight at least: with fewer, mean and covariance are chance, so that such a look
+// counts for less than it is worth and the next one begins nearer.
+constexpr double kCarry = 50;
+// Of a direction it tells something when that is worth more than what was known before, at all.
+constexpr double kWorth = 0.2;
+constexpr double kNothing = 1e4;
+// Around a ray's end, what stands there shows which way it lies.
+constexpr int kAround_cells = 3;
+// Of the lesser to the greater spread of cells: below it is a line.
+constexpr double kLine = 0.15;
 constexpr int kNear_cells = 2;
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
 constexpr double kBehind_m = 0.5;
@@ -60,6 +75,36 @@ struct MatchedMap {
             before = here;
         }
         return false;
+    }
+
+    /// How much the end of a ray there tells of x and y, in units of one ray across a wall: nothing
+    /// along a wall, and both at a corner. 0: nothing stands there.
+    Eigen::Matrix2d told_at(Point2 place) const {
+        const Point2 in = place - map.corner;
+        const auto column = static_cast<int>(std::floor(in.x_m / map.cell_m));
+        const auto row = static_cast<int>(std::floor(in.y_m / map.cell_m));
+        double count = 0;
+        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+        Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+        for (int r = std::max(0, row - kAround_cells);
+             r <= std::min(map.rows - 1, row + kAround_cells); ++r) {
+            for (int c = std::max(0, column - kAround_cells);
+                 c <= std::min(map.columns - 1, column + kAround_cells); ++c) {
+                if (!map.occupied(c, r)) continue;
+                const Eigen::Vector2d cell(c - column, r - row);
+                ++count;
+                sum += cell;
+                squares += cell * cell.transpose();
+            }
+        }
+        if (count == 0) return Eigen::Matrix2d::Zero();
+        const Eigen::Matrix2d spread = squares / count - sum * sum.transpose() / (count * count);
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(spread);
+        const double lesser = shape.eigenvalues()[0];
+        const double greater = shape.eigenvalues()[1];
+        const double along = greater > 0 ? lesser / greater : 1;
+        const Eigen::Vector2d worth(1, along < kLine ? 0 : along);
+        return shape.eigenvectors() * worth.asDiagonal() * shape.eigenvectors().transpose();
     }
 
     bool has_something_near(Point2 place) const {
@@ -107,9 +152,13 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
 struct MonteCarlo::Particles {
     std::shared_ptr<const MatchedMap> map;
     std::uint64_t seed;
-    std::uint64_t steps = 0;
+    std::uint64_t looks = 0;
     mrpt::slam::CMonteCarloLocalization2D cloud;
     mrpt::bayes::CParticleFilter filter;
+
+    void spread(const Pose2& about, const Eigen::Matrix3d& root, unsigned count);
+    void weigh(const std::vector<control::Scan>& scans);
+    Pose2 mean(const std::vector<double>& weights) const;
 };
 
 MonteCarlo::MonteCarlo(std::shared_ptr<const MatchedMap> map, std::uint64_t seed)
@@ -117,28 +166,20 @@ MonteCarlo::MonteCarlo(std::shared_ptr<const MatchedMap> map, std::uint64_t seed
     particles_->map = std::move(map);
     particles_->seed = seed;
     auto& filter = particles_->filter.m_options;
-    filter.adaptiveSampleSize = true;
-    filter.sampleSize = kFewest;
     filter.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-    filter.resamplingMethod = mrpt::bayes::CParticleFilter::prMultinomial;
-    filter.powFactor = kRaysCount;
-    auto& options = particles_->cloud.options;
-    options.metricMap = particles_->map->grid;
-    options.KLD_params.KLD_minSampleSize = kFewest;
-    options.KLD_params.KLD_maxSampleSize = kMost;
-    options.KLD_params.KLD_binSize_XY = kBin_m;
-    options.KLD_params.KLD_binSize_PHI = kBin_rad;
+    filter.adaptiveSampleSize = false;
+    filter.BETA = 0;  // their weights are read, so that none are drawn again
+    particles_->cloud.options.metricMap = particles_->map->grid;
 }
 
 MonteCarlo::~MonteCarlo() = default;
 MonteCarlo::MonteCarlo(MonteCarlo&&) noexcept = default;
 
-void MonteCarlo::begin_at(const Pose2& pose, const Eigen::Matrix3d& covariance) {
-    std::mt19937_64 random(particles_->seed ^ ++particles_->steps);
+void MonteCarlo::Particles::spread(const Pose2& about, const Eigen::Matrix3d& root,
+                                   unsigned count) {
+    std::mt19937_64 random(seed * 1000003 + ++looks);
     std::normal_distribution<double> normal;
-    const Eigen::Matrix3d root = covariance.llt().matrixL();
-    auto& cloud = particles_->cloud;
-    cloud.resetDeterministic({pose.x_m, pose.y_m, pose.heading_rad}, kMost);
+    cloud.resetDeterministic({about.x_m, about.y_m, about.heading_rad}, count);
     for (auto& particle : cloud.m_particles) {
         const Eigen::Vector3d off =
             root * Eigen::Vector3d(normal(random), normal(random), normal(random));
@@ -148,38 +189,145 @@ void MonteCarlo::begin_at(const Pose2& pose, const Eigen::Matrix3d& covariance) 
     }
 }
 
-MonteCarlo::Cloud MonteCarlo::step(const Pose2& moved, const Eigen::Matrix3d& moved_covariance,
-                                   const std::vector<control::Scan>& scans) {
+/// Their weights are the logarithms of how well they explain what is seen.
+void MonteCarlo::Particles::weigh(const std::vector<control::Scan>& scans) {
     // MRPT has one generator for all of a program: begun anew, each vehicle has its own numbers.
     // A new one, for the old one keeps half of its last pair of numbers.
-    mrpt::random::getRandomGenerator() = mrpt::random::CRandomGenerator(
-        static_cast<std::uint32_t>(particles_->seed * 1000003 + ++particles_->steps));
-    const auto actions = movement(moved, moved_covariance);
+    mrpt::random::getRandomGenerator() =
+        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(seed * 1000003 + looks));
+    const auto stays = movement({}, Eigen::Matrix3d::Zero());
     const auto seen = frame_of(scans);
-    particles_->filter.executeOn(particles_->cloud, &actions, &seen);
+    filter.executeOn(cloud, &stays, &seen);
+}
 
-    const auto [covariance, mean] = particles_->cloud.getCovarianceAndMean();
-    Cloud cloud{{mean.x(), mean.y(), mean.phi()}, covariance.asEigen()};
-    int explained = 0;
-    int through = 0;
+Pose2 MonteCarlo::Particles::mean(const std::vector<double>& weights) const {
+    const auto& first = cloud.m_particles.front().d;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto& at = cloud.m_particles[i].d;
+        mean +=
+            weights[i] * Eigen::Vector3d(at.x - first.x, at.y - first.y, wrap(at.phi - first.phi));
+    }
+    return {first.x + mean[0], first.y + mean[1], wrap(first.phi + mean[2])};
+}
+
+namespace {
+
+double carrying(const std::vector<double>& weights) {
+    double squares = 0;
+    for (const double weight : weights) squares += weight * weight;
+    return 1 / squares;
+}
+
+std::vector<double> weights_of(const mrpt::slam::CMonteCarloLocalization2D& cloud, double power) {
+    double best = -std::numeric_limits<double>::infinity();
+    for (const auto& particle : cloud.m_particles) best = std::max(best, particle.log_w);
+    std::vector<double> weights;
+    double sum = 0;
+    for (const auto& particle : cloud.m_particles) {
+        weights.push_back(std::exp(power * (particle.log_w - best)));
+        sum += weights.back();
+    }
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+struct Tempered {
+    std::vector<double> weights;
+    double power = kRaysCount;  // what one ray counts
+};
+
+/// As much of the rays' worth as leaves enough particles with weight.
+Tempered tempered(const mrpt::slam::CMonteCarloLocalization2D& cloud) {
+    Tempered found;
+    found.weights = weights_of(cloud, found.power);
+    while (carrying(found.weights) < kCarry && found.power > kLeastPower) {
+        found.power /= 2;
+        found.weights = weights_of(cloud, found.power);
+    }
+    return found;
+}
+
+/// The particles' mean is where the look puts the vehicle, in the directions of which `information`
+/// (inverse covariance) says that it tells anything: Bayes' rule, read backwards.
+void read_backwards(const Pose2& before, const Eigen::Matrix3d& root, const Pose2& after,
+                    const Eigen::Matrix3d& information, MonteCarlo::Look& look) {
+    // As if all had been known alike before: the ellipsoid before is a sphere.
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> worth(root.transpose() * information *
+                                                               root);
+    const Eigen::Vector3d moved(after.x_m - before.x_m, after.y_m - before.y_m,
+                                wrap(after.heading_rad - before.heading_rad));
+    const Eigen::Vector3d off = worth.eigenvectors().transpose() * root.inverse() * moved;
+    Eigen::Vector3d place = Eigen::Vector3d::Zero();
+    Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
+    Eigen::Vector3d told = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 3; ++i) {
+        const double gain = worth.eigenvalues()[i];
+        if (gain < kWorth) continue;
+        place[i] = off[i] * (1 + gain) / gain;
+        variance[i] = told[i] = 1 / gain;
+        look.told = true;
+    }
+    const Eigen::Matrix3d directions = root * worth.eigenvectors();
+    const Eigen::Vector3d at = directions * place;
+    look.pose = {before.x_m + at[0], before.y_m + at[1], wrap(before.heading_rad + at[2])};
+    look.covariance = directions * variance.asDiagonal() * directions.transpose();
+    look.of_told = directions * told.asDiagonal() * directions.transpose();
+}
+
+/// How a point of the hall moves with the pose of a body that it is fixed to.
+Eigen::Matrix<double, 2, 3> by_pose(const Pose2& pose, Point2 place) {
+    const Point2 arm = place - pose.position();
+    Eigen::Matrix<double, 2, 3> moves;
+    moves << 1, 0, -arm.y_m, 0, 1, arm.x_m;
+    return moves;
+}
+
+template <class Visit>
+void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visit visit) {
     for (const control::Scan& scan : scans) {
-        const Pose2 sensor = cloud.pose * scan.body_from_sensor;
+        const Pose2 sensor = pose * scan.body_from_sensor;
         for (std::size_t i = 0; i < scan.ranges_m.size(); i += kEveryRay) {
             const double range_m = scan.ranges_m[i];
             if (!std::isfinite(range_m) || range_m <= 0) continue;
             const double angle_rad = scan.first_rad + static_cast<double>(i) * scan.step_rad;
-            ++cloud.returns;
-            const Point2 end =
-                sensor * (range_m * Point2{std::cos(angle_rad), std::sin(angle_rad)});
-            explained += particles_->map->has_something_near(end);
-            through += particles_->map->has_something_between(sensor.position(), end);
+            visit(sensor.position(),
+                  sensor * (range_m * Point2{std::cos(angle_rad), std::sin(angle_rad)}));
         }
     }
-    if (cloud.returns > 0) {
-        cloud.explained = static_cast<double>(explained) / cloud.returns;
-        cloud.through = static_cast<double>(through) / cloud.returns;
+}
+
+}  // namespace
+
+MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& covariance,
+                                  const std::vector<control::Scan>& scans) {
+    const Eigen::Matrix3d root = covariance.llt().matrixL();
+    const bool well_known = covariance(0, 0) + covariance(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
+                            covariance(2, 2) < kWellKnown_rad * kWellKnown_rad;
+    particles_->spread(about, root, well_known ? kFewest : kMost);
+    particles_->weigh(scans);
+    const auto [weights, power] = tempered(particles_->cloud);
+    const Pose2 mean = particles_->mean(weights);
+    const MatchedMap& map = *particles_->map;
+    Look look;
+    int explained = 0;
+    int through = 0;
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+    visit_ends(mean, scans, [&](Point2 sensor, Point2 end) {
+        ++look.returns;
+        through += map.has_something_between(sensor, end);
+        if (!map.has_something_near(end)) return;
+        ++explained;
+        const auto moves = by_pose(mean, end);
+        information += moves.transpose() * map.told_at(end) * moves;
+    });
+    information *= power / (kRaySigma_m * kRaySigma_m);
+    read_backwards(about, root, mean, information, look);
+    if (look.returns > 0) {
+        look.explained = static_cast<double>(explained) / look.returns;
+        look.through = static_cast<double>(through) / look.returns;
     }
-    return cloud;
+    return look;
 }
 
 }  // namespace pulseline::mapping

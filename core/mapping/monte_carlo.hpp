@@ -14,9 +14,11 @@ namespace pulseline::mapping {
 struct MatchedMap;
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map);
 
-/// Where a vehicle stands by what its scanners see of a hall that was mapped before: adaptive
-/// Monte-Carlo localisation (Fox 2003; Li 2022 section 2.3), by MRPT. It follows a vehicle from a
-/// place that is roughly known; a hall looks alike in too many places to find it from nothing.
+/// Where a vehicle stands by what its scanners see of a hall that was mapped before: Monte-Carlo
+/// localisation (Fox 2003; Li 2022 section 2.3), by MRPT, as a Gaussian particle filter (Kotecha and
+/// Djuric 2003): each look draws new particles around where the vehicle holds itself to be, so that
+/// none die out along a wall that tells nothing about where along it one is. It needs a place that
+/// is roughly known; a hall looks alike in too many places to find it from nothing.
 /// Thread safety: none, and all that share a map must be of one thread.
 class MonteCarlo {
 public:
@@ -24,23 +26,25 @@ public:
     ~MonteCarlo();
     MonteCarlo(MonteCarlo&&) noexcept;
 
-    /// Covariance of (x_m, y_m, heading_rad), hall frame.
-    void begin_at(const geometry::Pose2& pose, const Eigen::Matrix3d& covariance);
-
-    struct Cloud {
+    /// What one look tells, by itself: where the vehicle was held to be is not in it. Covariances
+    /// of (x_m, y_m, heading_rad), hall frame.
+    struct Look {
+        bool told = false;  // anything at all
         geometry::Pose2 pose;
-        Eigen::Matrix3d covariance;  // of (x_m, y_m, heading_rad), hall frame
-        int returns = 0;             // rays that met something
+        /// Of directions that it tells nothing of it is huge.
+        Eigen::Matrix3d covariance;
+        /// Of those that it tells of, alone: 0 in the others.
+        Eigen::Matrix3d of_told;
+        int returns = 0;  // rays that met something
         /// Of them, how many ended where the map has something: the others met what is not in it.
         double explained = 0;
         /// Of them, how many went through what the map has: none, where it is right, whoever stands
         /// around.
         double through = 0;
     };
-    /// The vehicle has moved by `moved`, seen from where it was, with this covariance of (ahead_m,
-    /// left_m, turn_rad), and its scanners see this now.
-    Cloud step(const geometry::Pose2& moved, const Eigen::Matrix3d& moved_covariance,
-               const std::vector<control::Scan>& scans);
+    /// The vehicle is held to be about there, and its scanners see this.
+    Look look(const geometry::Pose2& about, const Eigen::Matrix3d& covariance,
+              const std::vector<control::Scan>& scans);
 
 private:
     struct Particles;

@@ -16,22 +16,20 @@ constexpr double kEvery_m = 0.15;
 constexpr double kEvery_rad = 0.05;
 constexpr int kLooksStanding = 12;
 constexpr double kStillThere_s = 2;  // then it looks whether it is still there
-// Where it begins to look around, at least: what moved it may have moved it farther than it knows.
-constexpr double kAround_m = 0.05;
-constexpr double kAround_rad = 0.044;
+// Around where it holds itself to be it looks a little wider: something may have moved it.
+constexpr double kAround_m = 0.02;
+constexpr double kAround_rad = 0.01;
 // A map is no better than the pose that it was made with, nor than its cells.
 constexpr double kMap_m = 0.012;
 constexpr double kMap_rad = 0.0012;
-// Clouds one after the other have nearly all in common.
+// Looks one after the other have nearly all in common.
 constexpr double kLasting = 0.9;
 // Of what scanners meet, vehicles and people are not in the map.
 constexpr double kExplained = 0.5;
 constexpr int kFewestReturns = 12;
-// That go through what the map has: some things were taken away since.
+// Of rays that tell anything, those through what the map has: some things were taken away since.
 constexpr double kThrough = 0.2;
-constexpr int kAnewAfter = 8;  // looks in a row that contradict
-constexpr int kLostAfter = 16;
-constexpr double kWidest_m = 0.25;  // one place, not several
+constexpr int kLostAfter = 12;  // looks in a row that contradict
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
     return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
@@ -91,35 +89,29 @@ bool ContourWatch::is_due(double dt_s) {
     return true;
 }
 
-void ContourWatch::spread() {
-    particles_.begin_at(estimate_.pose(),
-                        estimate_.covariance() + diagonal(kAround_m, kAround_rad));
-    looked_from_ = trail_.driven();
-    looks_standing_ = 0;
-}
-
 void ContourWatch::begin() {
     begun_ = estimate_.begun();
-    spread();
+    looked_from_ = trail_.driven();
+    looks_standing_ = 0;
     contradicted_ = 0;
     by_codes_ = estimate_.by_codes();
     lost_ = false;
 }
 
 void ContourWatch::look() {
-    const Pose2 way = inverse(looked_from_) * trail_.driven();
     looked_from_ = trail_.driven();
     stood_s_ = 0;
     scanners_.scan(scans_);
-    const auto cloud = particles_.step(way, way_covariance(way, estimate_.noise()), scans_);
+    const auto look = particles_.look(
+        estimate_.pose(), estimate_.covariance() + diagonal(kAround_m, kAround_rad), scans_);
     newest_.reset();
     why_not_.reset();
     explained_.reset();
-    if (cloud.returns < kFewestReturns) return;  // nothing stands near
-    explained_ = cloud.explained;
-    if (cloud.through >= kThrough) {
+    if (look.returns < kFewestReturns) return;  // nothing stands near
+    explained_ = look.explained;
+    if (look.through > kThrough * (look.through + look.explained)) {
         why_not_ = Error{Errc::kConflict,
-                         {"contours_lost", {{"through", cloud.through}}},
+                         {"contours_lost", {{"through", look.through}}},
                          "The scanners see through what the map has here. Look whether the vehicle "
                          "stands where it believes to stand, or map the hall anew.",
                          {}};
@@ -129,26 +121,24 @@ void ContourWatch::look() {
     contradicted_ = 0;
     lost_ = false;
     by_codes_ = estimate_.by_codes();
-    if (cloud.explained >= kExplained) correct(cloud);
+    if (look.told && look.explained >= kExplained) correct(look);
 }
 
 void ContourWatch::contradict() {
-    if (++contradicted_ == 1) looks_standing_ = 0;
-    lost_ |= contradicted_ >= kLostAfter && by_codes_ == estimate_.by_codes();
-    if (contradicted_ % kAnewAfter == 0) spread();
+    looks_standing_ = 0;
+    lost_ |= ++contradicted_ >= kLostAfter && by_codes_ == estimate_.by_codes();
 }
 
-void ContourWatch::correct(const mapping::MonteCarlo::Cloud& cloud) {
-    const Eigen::Matrix3d covariance = cloud.covariance + diagonal(kMap_m, kMap_rad);
-    if (localisation::worse_axis_m(covariance) > kWidest_m) return;
+void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
+    const Eigen::Matrix3d map = diagonal(kMap_m, kMap_rad);
     localisation::BeaconFix fix;
-    fix.fix.pose = cloud.pose;
+    fix.fix.pose = look.pose;
     fix.fix.method = localisation::Method::kContours;
-    set_covariance(fix.fix, covariance);
-    fix.lasting = localisation::rows(kLasting * covariance);
+    set_covariance(fix.fix, look.covariance + map);
+    fix.lasting = localisation::rows(kLasting * (look.of_told + map));
     const bool news = looks_standing_ <= kLooksStanding;
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
-        begun_ = estimate_.begun();  // at the particles
+        begun_ = estimate_.begun();
     }
     newest_ = std::move(fix);
 }

@@ -20,8 +20,7 @@ Eigen::Matrix3d way_covariance(const geometry::Pose2& way,
 
 /// What its scanners see of walls and things, against the map of the hall, corrects the pose that
 /// the vehicle steers by (natural features; Li 2022's second method), as BeaconCorrection says.
-/// Where somebody said it stands, it looks wider around than it would believe a person: 0.1 m and
-/// 5 deg off it still finds the place. Thread safety: none. No clock: time passes by step().
+/// Where a person said that it stands, 0.1 m and 5 deg off, it finds the place. Thread safety: none. No clock: time passes by step().
 class ContourWatch {
 public:
     /// Standing it looks as often until it has seen all that there is to see.
@@ -48,10 +47,9 @@ public:
 private:
     bool is_due(double dt_s);
     void begin();
-    void spread();
     void look();
     void contradict();
-    void correct(const mapping::MonteCarlo::Cloud& cloud);
+    void correct(const mapping::MonteCarlo::Look& look);
 
     Scanners& scanners_;
     const Drive& drive_;
@@ -60,7 +58,7 @@ private:
     BeaconCorrection correction_;
     mapping::MonteCarlo particles_;
     std::vector<control::Scan> scans_;
-    std::optional<int> begun_;  // of the estimate, that the particles started from; nothing: none
+    std::optional<int> begun_;  // of the estimate; nothing: it has no pose
     geometry::Pose2 looked_from_;  // by the trail
     double stood_s_ = 0;           // since the last look
     int looks_standing_ = 0;

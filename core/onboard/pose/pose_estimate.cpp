@@ -1,5 +1,6 @@
 #include "core/onboard/pose/pose_estimate.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -33,6 +34,14 @@ Eigen::Matrix3d told() { return known_to(kToldSigma_m, kToldSigma_rad); }
 localisation::Odometry odometry_of(const Pose2& way) {
     const geometry::Point2 chord = Pose2{0, 0, -way.heading_rad / 2} * way.position();
     return {chord.x_m, chord.y_m, way.heading_rad};
+}
+
+/// Of the part that fixes had in common, what the next one does not share: directions that it tells
+/// nothing of. From one fix to the next of the same kind it changes by less than half.
+Eigen::Matrix3d no_more_shared(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> rest(before / 2 - now);
+    return 2 * rest.eigenvectors() * rest.eigenvalues().cwiseMax(0).asDiagonal() *
+           rest.eigenvectors().transpose();
 }
 
 PoseSource source_of(localisation::Method method) {
@@ -124,6 +133,7 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     catch_up();
     const Eigen::Matrix3d lasting = localisation::matrix(seen.lasting);
     localisation::PoseFilter filter = filter_;
+    filter.blur(no_more_shared(lasting_, lasting));
     const Status corrected = filter.correct(seen.fix, lasting);
     if (!corrected || knows_better_than(lasting)) return corrected;
     filter_ = filter;

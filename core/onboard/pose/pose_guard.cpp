@@ -6,8 +6,8 @@
 namespace pulseline::onboard {
 namespace {
 
-constexpr double kSigmas = 3;
-constexpr double kSlow = 0.75;  // of what is held
+constexpr double kReachSigmas = 3;
+constexpr double kSlowFrom = 0.75;  // of what is held
 // Codes of lanes lie 9 m apart at most.
 constexpr double kFromAPerson_m = 12;
 
@@ -20,12 +20,13 @@ PoseGuard::PoseGuard(const plant::VehicleType& type, bool loaded) {
 }
 
 double PoseGuard::reach_m(const PoseEstimate& estimate) const {
-    return kSigmas * std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+    return kReachSigmas *
+           std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
 }
 
 PoseGuard::Advice PoseGuard::advice(const PoseEstimate& estimate) const {
     const double reach = reach_m(estimate);
-    if (reach <= kSlow * kHeld_m) return Advice::kDrive;
+    if (reach <= kSlowFrom * kHeld_m) return Advice::kDrive;
     if (reach <= kHeld_m) return Advice::kDriveSlowly;
     const bool said = estimate.source() == PoseSource::kPerson;
     return said && estimate.driven_since_m() <= kFromAPerson_m ? Advice::kDriveSlowly
