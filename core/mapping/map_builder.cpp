@@ -17,7 +17,7 @@ namespace {
 using geometry::Pose2;
 using mrpt::maps::COccupancyGridMap2D;
 
-constexpr float kCell_m = 0.05F;
+constexpr double kCell_m = 0.05;
 constexpr float kEvery_m = 0.1F;
 constexpr float kEvery_rad = 0.02F;
 constexpr unsigned kWays = 16;
@@ -35,7 +35,7 @@ mrpt::slam::CMetricMapBuilderRBPF::TConstructionOptions options() {
     options.PF_options.resamplingMethod = mrpt::bayes::CParticleFilter::prSystematic;
     options.PF_options.powFactor = kScansCount;
     COccupancyGridMap2D::TMapDefinition grid;
-    grid.resolution = kCell_m;
+    grid.resolution = static_cast<float>(kCell_m);
     grid.min_x = grid.min_y = -1;
     grid.max_x = grid.max_y = 1;
     grid.insertionOpts.maxOccupancyUpdateCertainty = 0.7F;

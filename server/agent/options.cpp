@@ -197,8 +197,8 @@ Result<Fault> parse_fault(const std::string& text) {
         const auto place = read_numbers(std::exchange(fault.part, {}), 2);
         if (place.empty()) return bad();
         fault.place = {place[0], place[1]};
-    } else if (kind == "carried") {
-        fault.kind = Fault::Kind::kCarried;
+    } else if (kind == "carried" || kind == "carried-driving") {
+        fault.kind = kind == "carried" ? Fault::Kind::kCarried : Fault::Kind::kCarriedDriving;
         const auto by = read_numbers(std::exchange(fault.part, {}), 3);
         if (by.empty()) return bad();
         fault.carried = {by[0], by[1], wrap(radians(by[2]))};

@@ -34,7 +34,8 @@ struct Fault {
         kWayFree,
         kTransmitterDark,
         kScannerCovered,
-        kCarried
+        kCarried,
+        kCarriedDriving
     };
     Kind kind = Kind::kWheel;
     std::string part;         // the wheel, or the transmitter

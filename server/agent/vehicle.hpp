@@ -95,6 +95,7 @@ private:
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
     void know_pose(double dt_s);
+    void lead_at_rest(double dt_s);
     void guard_pose();
     double most_step_s() const;
     void write_navigation(vda5050::NavigationStatus& status) const;

@@ -50,6 +50,14 @@ void Vehicle::know_pose(double dt_s) {
                                  {}});
         }
     }
+    lead_at_rest(dt_s);
+}
+
+/// At a stop the procedure leads.
+void Vehicle::lead_at_rest(double dt_s) {
+    const bool rests = drive_->idle() && drive_->standing() && !executor_.acting() &&
+                       !executor_.in_hand() && executor_.way_ahead().empty();
+    if (rests && executor_.position_initialized()) watch_.lead_at_rest(dt_s);
 }
 
 /// At a stop its codes tell where it is, and who drives it by hand sees that.

@@ -8,6 +8,8 @@
 #include "core/localisation/igps_pose.hpp"
 #include "core/localisation/pose_filter.hpp"
 #include "core/localisation/reflector_pose.hpp"
+#include "core/mapping/monte_carlo.hpp"
+#include "core/simulation/world/scanners.hpp"
 
 namespace {
 
@@ -152,6 +154,31 @@ void reflectors_alike(benchmark::State& state) {
     }
 }
 BENCHMARK(reflectors_alike);
+
+/// A look at the walls of the measuring hall in its map: 10 ms at most, where the vehicle knows its
+/// place (0) and where a person has told it (1).
+void contours_look(benchmark::State& state) {
+    const bool told = state.range(0) == 1;
+    const auto plant = api::plant_file::load_plant_file(PULSELINE_PLANTS "/measuring-hall.json");
+    auto map = mapping::read_map(PULSELINE_PLANTS "/../maps/measuring-hall/hall.yaml");
+    if (!plant || !map) throw std::runtime_error("no plant, or no map of it");
+    const auto world = simulation::make_world(*plant, 1);
+    const geometry::Pose2 pose = plant->stations[1].pose;
+    simulation::SimulatedScanners scanners(world, plant->halls.front().id,
+                                           plant->vehicle_types.front(), pose, 1);
+    std::vector<control::Scan> scans;
+    scanners.scan(scans);
+    mapping::MonteCarlo particles(mapping::prepare(std::move(*map)), 1);
+    const double sigma_m = told ? 0.05 : 0.02;
+    const double sigma_rad = told ? 0.04 : 0.01;
+    const Eigen::Vector3d variance(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
+    for (auto _ : state) {
+        auto look = particles.look(pose, variance.asDiagonal(), scans);
+        benchmark::DoNotOptimize(look);
+        state.counters["explained"] = look.explained;
+    }
+}
+BENCHMARK(contours_look)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

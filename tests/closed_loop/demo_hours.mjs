@@ -2,8 +2,10 @@
 // own senses. Every stop has to be measured and inside, nobody may lose itself or call a person.
 // node tests/closed_loop/demo_hours.mjs [--hours 10] [--time-factor 10] [--seed 1] [--plant final-assembly] [--sensing analytic]
 import { parseArgs } from "node:util";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
 import { Client } from "../harness/client.mjs";
-import { System } from "../harness/processes.mjs";
+import { ROOT, System } from "../harness/processes.mjs";
 
 const { values } = parseArgs({ options: {
   hours: { type: "string", default: "10" }, "time-factor": { type: "string", default: "10" }, seed: { type: "string", default: "1" },
@@ -31,8 +33,9 @@ const ids = vehicles.map((vehicle) => vehicle.id);
 system.prepareVehicles(ids);
 await system.startServer();
 const client = new Client(system.url, system.apiToken);
+const maps = existsSync(join(ROOT, "db/maps", values.plant)) ? ["--maps", join("db/maps", values.plant)] : [];
 ids.forEach((id, i) => system.startAgent(id, {
-  seed: 100 * SEED + i, timeFactor: FACTOR, sensing: values.sensing, extra: ["--drive", "servo", "--errors", values.errors],
+  seed: 100 * SEED + i, timeFactor: FACTOR, sensing: values.sensing, extra: ["--drive", "servo", "--errors", values.errors, ...maps],
 }));
 await Promise.all(ids.map((id) => client.untilReady(id, 120)));
 const stationsOf = new Map(vehicles.map(({ id, type }) => [id, stations.filter((s) => !s.vehicle_types?.length || s.vehicle_types.includes(type)).map((s) => s.number)]));

@@ -27,40 +27,42 @@ const wayBetween = (a, b) => Math.hypot(a.x_m - b.x_m, a.y_m - b.y_m);
 const pointAt = ({ x_m, y_m, heading_rad }) =>
   client.post(`/api/v1/vehicles/${ID}/init-position`, { x_m: x_m + 0.07, y_m: y_m - 0.07, heading_rad: heading_rad + 5 * DEG });
 
-test("between codes it steers by the walls around it, and says so", async () => {
-  startAgent();
-  await client.untilReady(ID);
-  const order = await client.order(ID, [2]);
-  const shares = [];
-  await until("its navigation by contours", async () => {
-    const { navigation } = await vehicle();
-    if (navigation?.explained !== undefined) shares.push(navigation.explained);
-    return navigation?.by === "contours";
-  }, { timeout_s: 30 });
-  const { state } = await client.untilEnded(order.id);
-  assert.equal(state, "Ended");
-  assert.ok(Math.max(...shares) > 0.8, `${shares}`);
+/** Wherever it stands, a person points there; then it knows better itself. */
+async function isFound() {
+  await client.untilVehicle(ID, (v) => v.link === "live" && !["vehicle_not_reported", "vehicle_silent"].includes(v.reason?.code), "has reported");
+  await until("its first word of the truth", truthNow);
+  if (!(await vehicle()).pose_known) await pointAt(truthNow());
+  let last;
+  await until(() => `its own place; truth ${JSON.stringify(truthNow())}, it says ${JSON.stringify(last)}`, async () => {
+    const { pose_known, pose, pose_deviation_m, navigation, errors } = await vehicle();
+    last = { pose_known, pose, pose_deviation_m, navigation, errors };
+    return pose_known && wayBetween(pose, truthNow()) < 50 * MM && Math.abs(angleBetween(pose.heading_rad, truthNow().heading_rad)) < 1 * DEG;
+  });
+}
+
+test("with its camera blind from the start it asks, and from where a person points to it finds itself by the walls", async () => {
+  startAgent("camera-dark");
+  await client.untilVehicle(ID, (v) => v.reason?.code === "pose_unknown", "asks for its pose");
+  await isFound();
+  const { navigation, pose_deviation_m } = await vehicle();
+  assert.equal(navigation.by, "contours");
+  assert.ok(navigation.explained > 0.8, JSON.stringify(navigation));
+  assert.ok(pose_deviation_m < 0.1, `within ${pose_deviation_m} m by its own word`);
 });
 
 test("carried off while it stands, it knows that it is lost before anybody sends it", async () => {
   await system.kill(system.agents.get(ID));
-  startAgent("carried=3,1.5,40@8");
-  await client.untilReady(ID);
-  await client.untilVehicle(ID, (v) => !v.pose_known, "has lost its pose", 40);
-  const { errors, reason } = await vehicle();
-  assert.ok(errors.some(({ type }) => type === "contoursLost"), JSON.stringify(errors));
-  assert.equal(reason?.code, "pose_unknown");
+  startAgent("carried=3,1.5,40@10");
+  await client.untilVehicle(ID, (v) => v.pose_known && v.navigation?.explained > 0.8, "looks at its map again", 20);
+  const lost = await client.untilVehicle(ID, (v) => v.errors.some(({ type }) => type === "contoursLost"), "is lost", 40);
+  assert.equal(lost.pose_known, false);
+  assert.equal(lost.reason?.code, "pose_unknown");
   const stands = truthNow();
 
-  await pointAt(stands);
-  await client.untilVehicle(ID, (v) => v.pose_known, "knows its pose");
-  await until(() => `its own place, ${JSON.stringify(truthNow())}`, async () => {
-    const { pose } = await vehicle();
-    return wayBetween(pose, truthNow()) < 50 * MM && Math.abs(angleBetween(pose.heading_rad, truthNow().heading_rad)) < 1 * DEG;
-  });
+  await isFound();
   assert.ok(wayBetween(stands, truthNow()) < 0.05, "it has not moved by itself");
   const order = await client.order(ID, [3]);
-  const ended = await client.untilEnded(order.id);
+  const ended = await client.untilEnded(order.id, 40).catch(async (error) => { throw new Error(`${error.message}: ${JSON.stringify(await vehicle())}`); });
   assert.equal(ended.state, "Ended", JSON.stringify(ended.reason));
   assert.deepEqual((await client.stops(order.id)).map((stop) => [stop.number, stop.inside]), [[3, true]]);
 });
@@ -68,9 +70,9 @@ test("carried off while it stands, it knows that it is lost before anybody sends
 test("carried off while it drives, it stops within three metres and asks", async () => {
   await system.kill(system.agents.get(ID));
   startAgent("carried=0.5,2.5,-60@10");
-  await client.untilReady(ID);
+  await isFound();
   const orders = [];
-  await until("it to be lost on a drive", async () => {
+  await until(async () => `it to be lost on a drive; ${JSON.stringify([await vehicle(), truthNow()])}`, async () => {
     const { pose_known } = await vehicle();
     if (!pose_known) return true;
     const last = orders.at(-1) && (await client.get(`/api/v1/job-orders/${orders.at(-1).id}`));

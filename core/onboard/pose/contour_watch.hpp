@@ -20,7 +20,8 @@ Eigen::Matrix3d way_covariance(const geometry::Pose2& way,
 
 /// What its scanners see of walls and things, against the map of the hall, corrects the pose that
 /// the vehicle steers by (natural features; Li 2022's second method), as BeaconCorrection says.
-/// Where a person said that it stands, 0.1 m and 5 deg off, it finds the place. Thread safety: none. No clock: time passes by step().
+/// Where a person said that it stands, 0.1 m and 5 deg off, it finds the place. Thread safety:
+/// none. No clock: time passes by step().
 class ContourWatch {
 public:
     /// Standing it looks as often until it has seen all that there is to see.
@@ -58,7 +59,7 @@ private:
     BeaconCorrection correction_;
     mapping::MonteCarlo particles_;
     std::vector<control::Scan> scans_;
-    std::optional<int> begun_;  // of the estimate; nothing: it has no pose
+    std::optional<int> begun_;     // of the estimate; nothing: it has no pose
     geometry::Pose2 looked_from_;  // by the trail
     double stood_s_ = 0;           // since the last look
     int looks_standing_ = 0;

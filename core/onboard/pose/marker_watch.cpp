@@ -11,6 +11,9 @@ constexpr double kSoon_m = 0.4;
 // What the pose that the drive steers by is moved by at most: less than what its tracker takes for
 // a path error of its own, so that it neither jerks nor stops for it.
 constexpr double kLead_mps = 0.05;
+// At rest noise is not worth a report.
+constexpr double kRest_m = 0.005;
+constexpr double kRest_rad = 0.002;
 constexpr double kLead_radps = 0.02;
 
 }  // namespace
@@ -74,6 +77,12 @@ void MarkerWatch::take(const WayReading& reading) {
     } else {
         refused_ = reading.marker.payload;
     }
+}
+
+void MarkerWatch::lead_at_rest(double dt_s) {
+    const Pose2 off = inverse(trail_.believed()) * estimate_.pose();
+    if (norm(off.position()) < kRest_m && std::abs(off.heading_rad) < kRest_rad) return;
+    lead_drive(dt_s * drive_.time_factor());
 }
 
 void MarkerWatch::lead_drive(double own_s) {

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kReachSigmas = 3;
 constexpr double kSlowFrom = 0.75;  // of what is held
-// Codes of lanes lie 9 m apart at most.
-constexpr double kFromAPerson_m = 12;
+// To the second code at least: those of lanes lie 9 m apart at most, and one can be missed.
+constexpr double kFromAPerson_m = 25;
 
 }  // namespace
 
@@ -28,9 +28,8 @@ PoseGuard::Advice PoseGuard::advice(const PoseEstimate& estimate) const {
     const double reach = reach_m(estimate);
     if (reach <= kSlowFrom * kHeld_m) return Advice::kDrive;
     if (reach <= kHeld_m) return Advice::kDriveSlowly;
-    const bool said = estimate.source() == PoseSource::kPerson;
-    return said && estimate.driven_since_m() <= kFromAPerson_m ? Advice::kDriveSlowly
-                                                               : Advice::kStay;
+    const auto said = estimate.driven_since_said_m();
+    return said && *said <= kFromAPerson_m ? Advice::kDriveSlowly : Advice::kStay;
 }
 
 }  // namespace pulseline::onboard
