@@ -157,8 +157,8 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free or "
-                "carried=AHEAD,LEFT,DEGREES, "
+                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free, "
+                "carried=AHEAD,LEFT,DEGREES or carried-driving=AHEAD,LEFT,DEGREES, "
                 "each with @SECONDS "
                 "or without");
     };
@@ -287,7 +287,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
                    "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
                    "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
-                   "way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS");
+                   "way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS, "
+                   "carried-driving=AHEAD,LEFT,DEGREES@SECONDS (the next time it drives fast)");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

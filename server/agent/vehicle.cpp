@@ -200,10 +200,15 @@ void Vehicle::show_body(const plant::HallId& hall, geometry::Point2 from,
     }
 }
 
+bool Vehicle::drives_fast() const {
+    return std::abs(drive_->velocity_mps()) > type_.max_speed_mps * drive_->time_factor() / 2;
+}
+
 void Vehicle::apply_faults(double dt_s) {
     age_s_ += dt_s;
     std::erase_if(settings_.faults, [&](const Fault& fault) {
-        if (age_s_ < fault.after_s) return false;
+        const bool waits = fault.kind == Fault::Kind::kCarriedDriving && !drives_fast();
+        if (age_s_ < fault.after_s || waits) return false;
         apply(fault);
         state_due_ = true;
         return true;
@@ -228,6 +233,7 @@ void Vehicle::apply(const Fault& fault) {
             if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));
             return;
         case Fault::Kind::kCarried:
+        case Fault::Kind::kCarriedDriving:
             return drive_->carry(fault.carried);
         case Fault::Kind::kScannerCovered:
             if (navigation_scanner_) navigation_scanner_->cover();

@@ -103,6 +103,7 @@ private:
     void write_reflectors(vda5050::StateMessage& state) const;
     void note_rest();
     void look_while_standing(Steady::time_point now);
+    bool drives_fast() const;
     void apply_faults(double dt_s);
     void apply(const Fault& fault);
     void write_truth(Steady::time_point now);

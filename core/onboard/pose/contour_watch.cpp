@@ -29,6 +29,8 @@ constexpr double kExplained = 0.5;
 constexpr int kFewestReturns = 12;
 // Of rays that tell anything, those through what the map has: some things were taken away since.
 constexpr double kThrough = 0.2;
+// Where codes have told since the map was right last, the map is old; but not for longer than that.
+constexpr double kWithoutCodes_m = 5;
 constexpr int kLostAfter = 12;  // looks in a row that contradict
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
@@ -126,7 +128,9 @@ void ContourWatch::look() {
 
 void ContourWatch::contradict() {
     looks_standing_ = 0;
-    lost_ |= ++contradicted_ >= kLostAfter && by_codes_ == estimate_.by_codes();
+    const bool codes_tell =
+        by_codes_ != estimate_.by_codes() && estimate_.driven_since_m() < kWithoutCodes_m;
+    lost_ |= ++contradicted_ >= kLostAfter && !codes_tell;
 }
 
 void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {

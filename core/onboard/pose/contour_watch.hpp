@@ -41,8 +41,8 @@ public:
     const std::optional<double>& explained() const { return explained_; }
     /// Error contours_lost {through}: it sees through what the map has there.
     const std::optional<Error>& why_not() const { return why_not_; }
-    /// It has looked around again and again, and no code has told since the map was right last: it
-    /// is not where it believes to be.
+    /// It has looked around again and again, and no code has told since the map was right last, or
+    /// some metres back: it is not where it believes to be.
     bool lost() const { return lost_; }
 
 private:

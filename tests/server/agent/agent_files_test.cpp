@@ -65,6 +65,7 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
     EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
     EXPECT_EQ(parse_fault("obstacle=1,-2.5@3")->place, (geometry::Point2{1, -2.5}));
+    EXPECT_EQ(parse_fault("carried-driving=1,2,3")->kind, Fault::Kind::kCarriedDriving);
     EXPECT_EQ(parse_fault("carried=1,-2.5,90@3")->carried,
               (geometry::Pose2{1, -2.5, radians(90.0)}));
     EXPECT_EQ(parse_fault("scanner-covered@5")->kind, Fault::Kind::kScannerCovered);
