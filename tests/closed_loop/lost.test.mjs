@@ -69,7 +69,7 @@ test("carried off while it stands, it knows that it is lost before anybody sends
 
 test("carried off while it drives, it stops within three metres and asks", async () => {
   await system.kill(system.agents.get(ID));
-  startAgent("carried-driving=0.5,2.5,-60@5");
+  startAgent("carried-driving=1,1.5,-60@5");
   await isFound();
   const orders = [];
   await until(async () => `it to be lost on a drive; ${JSON.stringify([await vehicle(), truthNow()])}`, async () => {
@@ -80,7 +80,7 @@ test("carried off while it drives, it stops within three metres and asks", async
     return false;
   }, { timeout_s: 60 });
   const line = system.truth(ID);
-  const jump = line.findIndex((at, i) => i > 0 && wayBetween(at, line[i - 1]) > 1);
+  const jump = line.findLastIndex((at, i) => i > 0 && wayBetween(at, line[i - 1]) > 1);
   assert.ok(jump > 0, "it was carried off");
   assert.ok(line[jump].moving, "while it drove");
   await client.untilVehicle(ID, (v) => v.speed_mps === 0, "stands");
