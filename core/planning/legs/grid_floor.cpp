@@ -1,0 +1,143 @@
+#include "core/planning/legs/grid_floor.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pulseline::planning {
+namespace {
+
+using geometry::Point2;
+using geometry::Polygon;
+using geometry::Pose2;
+
+constexpr double kCell_m = 0.25;
+constexpr double kMostCells = 300'000;
+// Between two tested places a body may come nearer by (step / 2)^2 / (2 clearance).
+constexpr double kBetween_m = 0.012;
+constexpr double kLeastStep_m = 0.08;
+
+double cell_size_m(const geometry::Box& box) {
+    const double area_m2 = (box.max.x_m - box.min.x_m) * (box.max.y_m - box.min.y_m);
+    return std::max(kCell_m, std::sqrt(area_m2 / kMostCells));
+}
+
+int cells_along(double way_m, double cell_m) {
+    return std::max(1, static_cast<int>(std::ceil(way_m / cell_m - 1e-9)));
+}
+
+Polygon circle_of(double radius_m) {
+    constexpr int kCorners = 24;
+    const double r = radius_m / std::cos(kPi / kCorners);
+    Polygon circle;
+    for (int i = 0; i < kCorners; ++i) {
+        const double angle = 2 * kPi * i / kCorners;
+        circle.push_back({r * std::cos(angle), r * std::sin(angle)});
+    }
+    return circle;
+}
+
+}  // namespace
+
+GridFloor::GridFloor(const FloorField& field, const Body& body)
+    : field_(field),
+      body_(body.pieces, body.clearance_m + kBetween_m, field),
+      turning_({circle_of(body_.reach_m())}, body.clearance_m + kBetween_m, field),
+      cell_m_(cell_size_m(field.box())),
+      width_(cells_along(field.box().max.x_m - field.box().min.x_m, cell_m_)),
+      height_(cells_along(field.box().max.y_m - field.box().min.y_m, cell_m_)),
+      map_(all_layers()) {}
+
+GridFloor GridFloor::with(std::vector<ClosedFloor> closed) const {
+    GridFloor floor = *this;
+    for (const ClosedFloor& closure : closed) floor.field_.add(closure.pieces);
+    GridLayers layers = map_.layers();
+    for (const ClosedFloor& closure : closed) {
+        for (const Polygon& piece : closure.pieces) {
+            if (!piece.empty()) floor.close(piece, layers);
+        }
+    }
+    floor.closed_ = std::move(closed);
+    return floor;
+}
+
+/// Looks again at all cells where the body could come near to the piece, which is in the field.
+void GridFloor::close(const Polygon& piece, GridLayers& layers) {
+    const double near_m = reach_m() + body_.clearance_m() + 2 * cell_m_;
+    const auto box = geometry::bounding_box(piece);
+    const Cell low = cell_at(box.min - Point2{near_m, near_m});
+    const Cell high = cell_at(box.max + Point2{near_m, near_m});
+    const CellBox changed{{std::max(low.col, 0), std::max(low.row, 0)},
+                          {std::min(high.col, width_ - 1), std::min(high.row, height_ - 1)}};
+    if (changed.empty()) return;
+    for (int row = changed.first.row; row <= changed.last.row; ++row) {
+        for (int col = changed.first.col; col <= changed.last.col; ++col) {
+            look_at({col, row}, layers);
+        }
+    }
+    map_.update(layers, changed);
+}
+
+Cell GridFloor::cell_at(Point2 at) const {
+    const Point2 off = at - field_.box().min;
+    // Far outside would not fit into an int.
+    const auto number = [&](double way_m, int count) {
+        return static_cast<int>(std::clamp(std::floor(way_m / cell_m_), -1.0, double(count)));
+    };
+    return {number(off.x_m, width_), number(off.y_m, height_)};
+}
+
+Point2 GridFloor::centre_of(Cell cell) const {
+    return field_.box().min + Point2{(cell.col + 0.5) * cell_m_, (cell.row + 0.5) * cell_m_};
+}
+
+bool GridFloor::is_free(const Pose2& from, Point2 to) const {
+    const Point2 way = to - from.position();
+    const double length_m = norm(way);
+    const auto at = [&](double done_m) {
+        const Point2 place = from.position() + (length_m > 0 ? done_m / length_m : 0) * way;
+        return Pose2{place.x_m, place.y_m, from.heading_rad};
+    };
+    // Most ways that are not free show it at their end or in their middle.
+    if (!is_free(at(length_m)) || !is_free(at(length_m / 2))) return false;
+    for (double done_m = 0; done_m < length_m;) {
+        const double slack_m = body_.slack_m(field_, at(done_m));
+        if (slack_m < 0) return false;
+        done_m += std::max(slack_m, kLeastStep_m);
+    }
+    return true;
+}
+
+GridLayers GridFloor::all_layers() const {
+    GridLayers layers;
+    layers.width = width_;
+    layers.height = height_;
+    layers.blocked.fill(BitGrid(width_, height_));
+    layers.no_turn = BitGrid(width_, height_);
+    for (int row = 0; row < height_; ++row) {
+        for (int col = 0; col < width_; ++col) look_at({col, row}, layers);
+    }
+    return layers;
+}
+
+void GridFloor::look_at(Cell cell, GridLayers& layers) const {
+    const Point2 at = centre_of(cell);
+    const bool turns = turning_.slack_m(field_, {at.x_m, at.y_m, 0}, cell_m_ / 2) >= cell_m_ / 2;
+    layers.no_turn.set(cell, !turns);
+    for (int d = 0; d < kDirections; ++d) {
+        layers.blocked[static_cast<std::size_t>(d)].set(cell, !turns && !fits_along(at, d));
+    }
+}
+
+bool GridFloor::fits_along(Point2 at, int heading) const {
+    const double heading_rad = heading * kPi / 2;
+    const double half_m = cell_m_ / 2;
+    const double slack_m = body_.slack_m(field_, {at.x_m, at.y_m, heading_rad}, half_m);
+    if (slack_m < 0 || slack_m >= half_m) return slack_m >= 0;
+    const Point2 ahead{half_m * std::cos(heading_rad), half_m * std::sin(heading_rad)};
+    const Point2 before = at - ahead;
+    const Point2 behind = at + ahead;
+    return is_free({before.x_m, before.y_m, heading_rad}) &&
+           is_free({behind.x_m, behind.y_m, heading_rad});
+}
+
+}  // namespace pulseline::planning
