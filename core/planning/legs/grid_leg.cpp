@@ -122,36 +122,25 @@ bool may_drive_on_free_floor(const plant::VehicleType& type) {
     return lists(plant::MotionMode::kFree) && lists(plant::MotionMode::kLinear);
 }
 
-std::shared_ptr<const GridFloor> GridLegs::find(const plant::HallId& hall, const Body& body,
-                                                const std::string& closed) {
-    const auto found = std::ranges::find_if(known_, [&](const Known& known) {
-        return known.hall == hall && known.closed == closed && known.body == body;
-    });
+std::shared_ptr<const GridFloor> GridFloors::find(const Of& of) {
+    const std::lock_guard lock(mutex_);
+    const auto found = std::ranges::find(known_, of, &Known::of);
     if (found == known_.end()) return nullptr;
     std::rotate(known_.begin(), found, found + 1);
     return known_.front().floor;
 }
 
-void GridLegs::keep(Known known) {
-    known_.push_front(std::move(known));
+void GridFloors::keep(Of of, std::shared_ptr<const GridFloor> floor) {
+    const std::lock_guard lock(mutex_);
+    known_.push_front({std::move(of), std::move(floor)});
     if (known_.size() > kFloorsKept) known_.pop_back();
 }
 
 std::shared_ptr<const GridFloor> GridLegs::open_floor(const FreeFloor& hall, const Body& body) {
-    if (auto known = find(hall.hall, body, {})) return known;
+    GridFloors::Of of{hall.hall, body, {}};
+    if (auto known = floors_->find(of)) return known;
     auto floor = std::make_shared<const GridFloor>(hall.field, body);
-    keep({hall.hall, body, {}, floor});
-    return floor;
-}
-
-std::shared_ptr<const GridFloor> GridLegs::floor_with(const std::shared_ptr<const GridFloor>& open,
-                                                      const FreeFloor& hall, const Body& body,
-                                                      std::vector<ClosedFloor> closed) {
-    std::string words;
-    for (const ClosedFloor& closure : closed) words += key_of(closure);
-    if (auto known = find(hall.hall, body, words)) return known;
-    auto floor = std::make_shared<const GridFloor>(open->with(std::move(closed)));
-    keep({hall.hall, body, std::move(words), floor});
+    floors_->keep(std::move(of), floor);
     return floor;
 }
 
@@ -161,13 +150,21 @@ Result<LegDraft> GridLegs::draft(const LegTask& task) {
         return fail(Errc::kNotFound, "unknown_hall",
                     "There is no hall " + task.request.hall.str() + " in the plant.");
     }
-    const Body& body = task.passage.body;
-    const auto open = open_floor(*hall, body);
+    const auto open = open_floor(*hall, task.passage.body);
+    GridFloors::Of of{hall->hall, task.passage.body, {}};
     std::vector<ClosedFloor> closed;
-    std::ranges::copy_if(task.closures, std::back_inserter(closed),
-                         [&](const ClosedFloor& one) { return one.hall == task.request.hall; });
+    for (const ClosedFloor& one : task.closures) {
+        if (one.hall != hall->hall) continue;
+        of.closed += key_of(one);
+        closed.push_back(one);
+    }
     if (closed.empty()) return draft_on(task, *open);
-    auto round = draft_on(task, *floor_with(open, *hall, body, std::move(closed)));
+    auto around = floors_->find(of);
+    if (!around) {
+        around = std::make_shared<const GridFloor>(open->with(std::move(closed)));
+        floors_->keep(std::move(of), around);
+    }
+    auto round = draft_on(task, *around);
     return round ? std::move(round) : draft_on(task, *open);
 }
 

@@ -95,11 +95,7 @@ struct LegPlanner::Tables {
     };
 
     explicit Tables(const plant::Plant& p)
-        : plant(p),
-          shared(std::make_shared<const RoadmapIndex>(p)),
-          roads(*shared),
-          free(p),
-          grid(free) {
+        : plant(p), shared(std::make_shared<const RoadmapIndex>(p)), roads(*shared), free(p) {
         for (const plant::VehicleType& type : plant.vehicle_types) {
             prepare(type, false);
             if (!type.load_footprint.empty()) prepare(type, true);
@@ -111,7 +107,7 @@ struct LegPlanner::Tables {
           shared(other.shared),
           roads(*shared),
           free(other.plant),
-          grid(other.grid, free),
+          grid(free, other.grid),
           memo(other.memo) {
         for (const auto& [key, known] : other.prepared) {
             prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared, known->reach));
@@ -225,7 +221,7 @@ struct LegPlanner::Tables {
     LegMemo::Closures closed = std::make_shared<const std::string>();  // names them
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
-    GridLegs grid;
+    GridLegs grid{free};
     std::shared_ptr<LegMemo> memo = std::make_shared<LegMemo>();  // of all planners of the plant
 };
 

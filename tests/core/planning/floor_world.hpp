@@ -26,8 +26,12 @@ public:
 
     plant::Plant& plant() { return plant_; }
     void area(const std::string& id, geometry::Polygon outline) {
-        plant_.areas.push_back({plant::AreaId(id), plant::AreaKind::kObstacle, id,
-                                plant::HallId("hall"), std::move(outline), {}});
+        plant_.areas.push_back({plant::AreaId(id),
+                                plant::AreaKind::kObstacle,
+                                id,
+                                plant::HallId("hall"),
+                                std::move(outline),
+                                {}});
     }
     void box(const std::string& id, double x0, double y0, double x1, double y1) {
         area(id, {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
