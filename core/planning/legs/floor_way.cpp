@@ -26,15 +26,26 @@ constexpr int kHeldWays = 4;
 /// that turns count exactly. Whether a way is free is asked when it comes up, not before.
 class ChainSearch {
 public:
-    ChainSearch(const LegTask& task, const GridFloor& floor, const std::vector<Point2>& points)
+    ChainSearch(const LegTask& task, const GridFloor& floor, const std::vector<Point2>& points,
+                double most_cost)
         : task_(task),
           floor_(floor),
           points_(points),
+          most_cost_(most_cost),
           count_(static_cast<int>(points.size())),
           any_direction_(Steering(*task.request.type).any_direction()),
           tight_start_(!floor.is_free(task.request.start)),
           tight_goal_(!floor.is_free(task.station.pose)),
-          links_(points.size() * points.size() * kHeldWays) {}
+          pairs_(points.size() * points.size()),
+          links_(pairs_.size() * kHeldWays) {
+        for (int from = 0; from < count_; ++from) {
+            for (int to = from + 1; to < count_; ++to) {
+                const Point2 way = point(to) - point(from);
+                pairs_[static_cast<std::size_t>(from * count_ + to)] = {
+                    norm(way), std::atan2(way.y_m, way.x_m)};
+            }
+        }
+    }
 
     std::optional<LegDraft> run() {
         expand(kStart, 0);
@@ -54,6 +65,10 @@ public:
 private:
     static constexpr int kStart = -1;
     enum class Room : std::uint8_t { kUnknown, kFree, kBlocked };
+    struct Pair {
+        double length_m = 0;
+        double travel_rad = 0;
+    };
     struct Link {
         Room room = Room::kUnknown;
         bool closed = false;
@@ -75,9 +90,11 @@ private:
     int from_of(int link) const { return link / kHeldWays / count_; }
     int to_of(int link) const { return link == kStart ? 0 : link / kHeldWays % count_; }
     Point2 point(int i) const { return points_[static_cast<std::size_t>(i)]; }
+    double length_m(int from, int to) const {
+        return pairs_[static_cast<std::size_t>(from * count_ + to)].length_m;
+    }
     double travel_rad(int link) const {
-        const Point2 way = point(to_of(link)) - point(from_of(link));
-        return std::atan2(way.y_m, way.x_m);
+        return pairs_[static_cast<std::size_t>(link / kHeldWays)].travel_rad;
     }
     /// Of the body on a link.
     double heading_rad(int link) const {
@@ -107,19 +124,26 @@ private:
     void expand(int before, double cost) {
         const int from = to_of(before);
         for (int to = from + 1; to < count_; ++to) {
-            const double length_m = geometry::distance(point(from), point(to));
-            if (length_m < kinematics::kNothing) continue;
-            const double rest =
-                task_.cost.k_same * geometry::distance(point(to), point(count_ - 1));
-            for (int held = 0; held < (any_direction_ ? kHeldWays : 2); ++held) {
+            const double way_m = length_m(from, to);
+            if (way_m < kinematics::kNothing) continue;
+            const double rest = task_.cost.k_same * length_m(to, count_ - 1);
+            for (int held = 0; held < kHeldWays; ++held) {
+                if (!may_hold(from, to, static_cast<Held>(held))) continue;
                 const int link = number_of(from, to, static_cast<Held>(held));
-                if (links_[static_cast<std::size_t>(link)].closed) continue;
+                const Link& known = links_[static_cast<std::size_t>(link)];
+                if (known.closed || known.room == Room::kBlocked) continue;
                 const double sum = cost +
-                                   edge_cost(task_.cost, length_m, is_turn_between(before, link)) +
+                                   edge_cost(task_.cost, way_m, is_turn_between(before, link)) +
                                    kTie * (1 + turned_rad(before, link) + last_turn_rad(link));
-                open_.push({sum + rest, sum, link, before});
+                if (sum + rest < most_cost_) open_.push({sum + rest, sum, link, before});
             }
         }
+    }
+    /// A body that moves in any direction leaves a tight place, and comes to one, without a turn.
+    bool may_hold(int from, int to, Held held) const {
+        if (!any_direction_) return held == Held::kAhead || held == Held::kBack;
+        if (tight_start_ && from == 0) return held == Held::kAsAtStart;
+        return !(tight_goal_ && to == count_ - 1) || held == Held::kAsAtGoal;
     }
     double last_turn_rad(int link) const {
         if (to_of(link) != count_ - 1) return 0;
@@ -135,23 +159,48 @@ private:
     bool is_free_link(int link) const {
         const int from = from_of(link);
         const int to = to_of(link);
-        const Pose2 pose{point(from).x_m, point(from).y_m, heading_rad(link)};
-        if (!floor_.is_free(pose, point(to))) {
-            // The fast test asks for more than the clearance: too much for a tight end.
-            if (!(tight_start_ && from == 0) && !(tight_goal_ && to == count_ - 1)) return false;
-            std::vector<kinematics::Segment> way;
-            kinematics::append_straight(way, pose, point(to));
-            if (!keeps_clear(task_, floor_, way)) return false;
-        }
-        return to != count_ - 1 ||
-               is_free_turn(to, heading_rad(link), task_.station.pose.heading_rad);
+        const double way_m = length_m(from, to);
+        const Point2 ahead = (1 / way_m) * (point(to) - point(from));
+        // The fast test asks for more than the clearance: too much for a tight end.
+        const double near_m = 2 * floor_.reach_m();
+        const double begin_m = tight_start_ && from == 0 ? std::min(near_m, way_m) : 0;
+        const double end_m =
+            tight_goal_ && to == count_ - 1 ? std::max(begin_m, way_m - near_m) : way_m;
+        const auto pose = [&](double done_m) {
+            const Point2 at = point(from) + done_m * ahead;
+            return Pose2{at.x_m, at.y_m, heading_rad(link)};
+        };
+        return (begin_m >= end_m || floor_.is_free(pose(begin_m), pose(end_m).position())) &&
+               is_free_end(pose(0), pose(begin_m).position()) &&
+               is_free_end(pose(end_m), pose(way_m).position()) &&
+               (to != count_ - 1 ||
+                is_free_turn(to, heading_rad(link), task_.station.pose.heading_rad));
+    }
+    bool is_free_end(const Pose2& from, Point2 to) const {
+        std::vector<kinematics::Segment> way;
+        kinematics::append_straight(way, from, to);
+        return way.empty() || floor_.is_free(from, to) || keeps_clear(task_, floor_, way);
     }
     bool is_free_turn(int at, double from_rad, double to_rad) const {
         const double turn_rad = shortest_turn_rad(from_rad, to_rad);
         if (std::abs(turn_rad) < kinematics::kNothing || floor_.may_turn_at(point(at))) return true;
+        // Most turns that are not free show it at one of a few places.
+        for (const double share : {1.0, 0.5, 0.25, 0.75}) {
+            if (!stands_clear({point(at).x_m, point(at).y_m, from_rad + share * turn_rad})) {
+                return false;
+            }
+        }
         std::vector<kinematics::Segment> turn;
         kinematics::append_turn(turn, {point(at).x_m, point(at).y_m, from_rad}, turn_rad);
         return keeps_clear(task_, floor_, turn);
+    }
+    bool stands_clear(const Pose2& pose) const {
+        if (floor_.is_free(pose)) return true;
+        std::vector<geometry::Polygon> body;
+        for (const auto& piece : task_.passage.body.pieces) {
+            body.push_back(geometry::transformed(pose, piece));
+        }
+        return task_.obstacles.keeps(body, task_.limits);
     }
 
     LegDraft draft(int last) const {
@@ -185,10 +234,12 @@ private:
     const LegTask& task_;
     const GridFloor& floor_;
     const std::vector<Point2>& points_;
+    double most_cost_;
     int count_;
     bool any_direction_;
     bool tight_start_;
     bool tight_goal_;
+    std::vector<Pair> pairs_;
     std::vector<Link> links_;
     std::priority_queue<Entry> open_;
 };
@@ -196,8 +247,8 @@ private:
 }  // namespace
 
 std::optional<LegDraft> draft_along(const LegTask& task, const GridFloor& floor,
-                                    const std::vector<Point2>& points) {
-    return ChainSearch(task, floor, points).run();
+                                    const std::vector<Point2>& points, double most_cost) {
+    return ChainSearch(task, floor, points, most_cost).run();
 }
 
 std::vector<Point2> corners_of(const LegDraft& draft) {

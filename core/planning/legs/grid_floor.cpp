@@ -10,11 +10,10 @@ using geometry::Point2;
 using geometry::Polygon;
 using geometry::Pose2;
 
-constexpr double kCell_m = 0.25;
+constexpr double kCell_m = 0.3;
 constexpr double kMostCells = 300'000;
-// Between two tested places a body may come nearer by (step / 2)^2 / (2 clearance).
-constexpr double kBetween_m = 0.012;
-constexpr double kLeastStep_m = 0.08;
+constexpr double kLook_m = 1.5;
+constexpr double kBetween_m = 0.012;  // that a body may come nearer between two tested places
 
 double cell_size_m(const geometry::Box& box) {
     const double area_m2 = (box.max.x_m - box.min.x_m) * (box.max.y_m - box.min.y_m);
@@ -36,16 +35,23 @@ Polygon circle_of(double radius_m) {
     return circle;
 }
 
+/// Between two places a step apart a convex body comes nearer by (step / 2)^2 / (2 clearance).
+double step_m(double clearance_m) { return 2 * std::sqrt(2 * clearance_m * kBetween_m); }
+
 }  // namespace
 
 GridFloor::GridFloor(const FloorField& field, const Body& body)
     : field_(field),
+      pieces_(body.pieces),
       body_(body.pieces, body.clearance_m + kBetween_m, field),
       turning_({circle_of(body_.reach_m())}, body.clearance_m + kBetween_m, field),
+      turning_needed_m_(field.needed_m(body_.reach_m() + body_.clearance_m())),
       cell_m_(cell_size_m(field.box())),
       width_(cells_along(field.box().max.x_m - field.box().min.x_m, cell_m_)),
       height_(cells_along(field.box().max.y_m - field.box().min.y_m, cell_m_)),
-      map_(all_layers()) {}
+      map_(all_layers()) {
+    find_parts();
+}
 
 GridFloor GridFloor::with(std::vector<ClosedFloor> closed) const {
     GridFloor floor = *this;
@@ -57,6 +63,7 @@ GridFloor GridFloor::with(std::vector<ClosedFloor> closed) const {
         }
     }
     floor.closed_ = std::move(closed);
+    floor.find_parts();
     return floor;
 }
 
@@ -97,12 +104,43 @@ bool GridFloor::is_free(const Pose2& from, Point2 to) const {
         const Point2 place = from.position() + (length_m > 0 ? done_m / length_m : 0) * way;
         return Pose2{place.x_m, place.y_m, from.heading_rad};
     };
-    // Most ways that are not free show it at their end or in their middle.
-    if (!is_free(at(length_m)) || !is_free(at(length_m / 2))) return false;
+    if (!is_free(at(0)) || !is_free(at(length_m))) return false;
+    if (length_m == 0 || is_band_free(from, to)) return true;
+    // Ways that are not free mostly show it over a body's length: found soonest by halving.
+    for (int parts = 2; length_m > kLook_m * parts / 2; parts *= 2) {
+        for (int k = 1; k < parts; k += 2) {
+            if (!is_free(at(length_m * k / parts))) return false;
+        }
+    }
+    const double step = step_m(body_.clearance_m());
     for (double done_m = 0; done_m < length_m;) {
         const double slack_m = body_.slack_m(field_, at(done_m));
         if (slack_m < 0) return false;
-        done_m += std::max(slack_m, kLeastStep_m);
+        done_m += slack_m + step;  // as far as the slack is known to be free
+    }
+    return true;
+}
+
+/// Whether the floor between the two places is free as wide as the body is across the way: discs
+/// one after the other on the line cover it, a read each.
+bool GridFloor::is_band_free(const Pose2& from, Point2 to) const {
+    const Point2 way = to - from.position();
+    const double length_m = norm(way);
+    const Point2 ahead = (1 / length_m) * way;
+    double half_m = 0;
+    for (const Polygon& piece : pieces_) {
+        for (const Point2& corner : piece) {
+            const Point2 off = Pose2{0, 0, from.heading_rad} * corner;
+            half_m = std::max(half_m, std::abs(cross(ahead, off)));
+        }
+    }
+    const double kept_m = half_m + body_.clearance_m();
+    const double excess_m = field_.needed_m(kept_m) - kept_m;
+    const double step = step_m(kept_m);
+    for (double done_m = 0; done_m < length_m;) {
+        const double radius_m = field_.distance_m(from.position() + done_m * ahead) - excess_m;
+        if (radius_m < kept_m) return false;
+        done_m += std::max(step, std::sqrt(radius_m * radius_m - kept_m * kept_m));
     }
     return true;
 }
@@ -121,10 +159,38 @@ GridLayers GridFloor::all_layers() const {
 
 void GridFloor::look_at(Cell cell, GridLayers& layers) const {
     const Point2 at = centre_of(cell);
-    const bool turns = turning_.slack_m(field_, {at.x_m, at.y_m, 0}, cell_m_ / 2) >= cell_m_ / 2;
+    const double half_m = cell_m_ / 2;
+    const bool turns = turning_slack_m(at) >= half_m ||
+                       turning_.slack_m(field_, {at.x_m, at.y_m, 0}, half_m) >= half_m;
     layers.no_turn.set(cell, !turns);
     for (int d = 0; d < kDirections; ++d) {
         layers.blocked[static_cast<std::size_t>(d)].set(cell, !turns && !fits_along(at, d));
+    }
+}
+
+void GridFloor::find_parts() {
+    parts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0);
+    int number = 0;
+    for (int row = 0; row < height_; ++row) {
+        for (int col = 0; col < width_; ++col) {
+            const Cell cell{col, row};
+            if (part_of(cell) == 0 && !map_.nowhere(cell)) fill_part(cell, ++number);
+        }
+    }
+}
+
+void GridFloor::fill_part(Cell first, int number) {
+    std::vector<Cell> open{first};
+    part_of(first) = number;
+    while (!open.empty()) {
+        const Cell cell = open.back();
+        open.pop_back();
+        for (int d = 0; d < kDirections; ++d) {
+            const Cell next = next_to(cell, d);
+            if (!map_.inside(next) || part_of(next) != 0 || map_.nowhere(next)) continue;
+            part_of(next) = number;
+            open.push_back(next);
+        }
     }
 }
 

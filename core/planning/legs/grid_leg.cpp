@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/kinematics/primitives.hpp"
 #include "core/planning/legs/floor_way.hpp"
@@ -19,10 +20,11 @@ constexpr std::size_t kFloorsKept = 12;
 // How far a vehicle goes straight to or from a place where it may not turn.
 constexpr double kTightEnd_m = 30.0;
 // Places at which a straight may end, besides the corners of the way over cells.
-constexpr int kPlaces = 14;
+constexpr int kPlaces = 8;
 constexpr double kLeastApart_m = 0.5;
 // A second look at the corners brings them closer in; a third would gain less than a cell.
 constexpr int kLooks = 2;
+constexpr double kAnyCost = std::numeric_limits<double>::infinity();
 
 tl::unexpected<Error> no_way(const LegTask& task, const char* blocked_by, const char* why) {
     return fail(Errc::kUnreachable, "no_floor_way",
@@ -104,7 +106,7 @@ std::optional<LegDraft> smoothed(const LegTask& task, const GridFloor& floor,
     for (int look = 0; look < kLooks; ++look) {
         auto places = with_places_between(line, kPlaces);
         thin_out(places);
-        auto draft = draft_along(task, floor, places);
+        auto draft = draft_along(task, floor, places, best ? best->cost : kAnyCost);
         if (!draft || (best && draft->cost >= best->cost)) break;
         line = corners_of(*draft);
         best = std::move(draft);
@@ -177,7 +179,8 @@ Result<LegDraft> GridLegs::draft_on(const LegTask& task, const GridFloor& floor)
     const auto arrive = roomy_place(task, floor, goal, false);
     if (!arrive) return no_way(task, "goal", "the station has too little room around it.");
     const GridRequest request{floor.cell_at(*leave), floor.cell_at(*arrive), std::nullopt, *cost};
-    if (search_.run(floor.map(), request, Algorithm::kTurnJump, route_) != SearchEnd::kFound) {
+    if (!floor.may_join(request.start, request.goal) ||
+        search_.run(floor.map(), request, Algorithm::kTurnJump, route_) != SearchEnd::kFound) {
         return no_way(task, "obstacles", "walls, obstacles or closed floor shut it off.");
     }
     std::vector<Point2> line{task.request.start.position(), *leave};
