@@ -182,16 +182,16 @@ private:
         return way.empty() || floor_.is_free(from, to) || keeps_clear(task_, floor_, way);
     }
     bool is_free_turn(int at, double from_rad, double to_rad) const {
+        const Pose2 from{point(at).x_m, point(at).y_m, from_rad};
         const double turn_rad = shortest_turn_rad(from_rad, to_rad);
-        if (std::abs(turn_rad) < kinematics::kNothing || floor_.may_turn_at(point(at))) return true;
+        if (std::abs(turn_rad) < kinematics::kNothing) return true;
+        if (floor_.may_turn_by(from, turn_rad)) return true;
         // Most turns that are not free show it at one of a few places.
         for (const double share : {1.0, 0.5, 0.25, 0.75}) {
-            if (!stands_clear({point(at).x_m, point(at).y_m, from_rad + share * turn_rad})) {
-                return false;
-            }
+            if (!stands_clear({from.x_m, from.y_m, from_rad + share * turn_rad})) return false;
         }
         std::vector<kinematics::Segment> turn;
-        kinematics::append_turn(turn, {point(at).x_m, point(at).y_m, from_rad}, turn_rad);
+        kinematics::append_turn(turn, from, turn_rad);
         return keeps_clear(task_, floor_, turn);
     }
     bool stands_clear(const Pose2& pose) const {

@@ -12,6 +12,8 @@ using geometry::Pose2;
 
 constexpr double kCell_m = 0.3;
 constexpr double kMostCells = 300'000;
+// The hull of a step of 3 deg stands out by half of it times half the body's length.
+constexpr double kStandOut = 0.027;
 constexpr double kLook_m = 1.5;
 constexpr double kBetween_m = 0.012;  // that a body may come nearer between two tested places
 
@@ -45,6 +47,7 @@ GridFloor::GridFloor(const FloorField& field, const Body& body)
       pieces_(body.pieces),
       body_(body.pieces, body.clearance_m + kBetween_m, field),
       turning_({circle_of(body_.reach_m())}, body.clearance_m + kBetween_m, field),
+      swinging_(body.pieces, body.clearance_m + kBetween_m + kStandOut * body_.reach_m(), field),
       turning_needed_m_(field.needed_m(body_.reach_m() + body_.clearance_m())),
       cell_m_(cell_size_m(field.box())),
       width_(cells_along(field.box().max.x_m - field.box().min.x_m, cell_m_)),
@@ -119,6 +122,22 @@ bool GridFloor::is_free(const Pose2& from, Point2 to) const {
         done_m += slack_m + step;  // as far as the slack is known to be free
     }
     return true;
+}
+
+bool GridFloor::may_turn_by(const Pose2& from, double turn_rad) const {
+    if (may_turn_at(from.position())) return true;
+    const double sign = turn_rad < 0 ? -1 : 1;
+    const auto slack_at = [&](double done_rad) {
+        return swinging_.slack_m(field_, {from.x_m, from.y_m, from.heading_rad + sign * done_rad});
+    };
+    const double whole_rad = std::abs(turn_rad);
+    const double step = step_m(body_.clearance_m());
+    for (double done_rad = 0; done_rad < whole_rad;) {
+        const double slack_m = slack_at(done_rad);
+        if (slack_m < 0) return false;
+        done_rad += (slack_m + step) / reach_m();
+    }
+    return slack_at(whole_rad) >= 0;
 }
 
 /// Whether the floor between the two places is free as wide as the body is across the way: discs
