@@ -96,6 +96,24 @@ TEST(GridLegs, HoldTheirFloorAgainstOthers) {
     EXPECT_FALSE(world.fleet->traffic(world.now).stopped);
 }
 
+TEST(GridLegs, AreBegunAnewFromWhereTheVehicleStandsAfterARestart) {
+    World world(hall_without_lanes());
+    confirm_poses(world);
+    ASSERT_TRUE(world.order("V1", {2}));
+    FakeVehicle& first = world.vehicle("V1");
+    for (int i = 0; i < 2000 && first.state.pose->y_m < 30; ++i) world.run(0.1);
+
+    world.crash_server();
+    world.run(15);
+    if (world.fleet->vehicle(kV1, world.now)->needs_resume) {
+        ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    }
+    world.run(300);
+
+    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+    EXPECT_FALSE(world.fleet->traffic(world.now).stopped);
+}
+
 TEST(GridLegs, WaitForClosedFloorThatHasNoWayRound) {
     World world(hall_without_lanes());
     confirm_poses(world);

@@ -1,4 +1,3 @@
-// Legs over free floor, found by the grid search and made drivable.
 #include "core/planning/legs/grid_leg.hpp"
 
 #include <gtest/gtest.h>
