@@ -23,6 +23,9 @@ public:
     /// as of plan_free_manoeuvre.
     Result<LegDraft> draft(const LegTask& task, const std::vector<StandingBody>& standing);
 
+    /// What is known of a hall's floor, worked out when it is first asked for; null: no such hall.
+    const FreeFloor* floor(const plant::HallId& hall);
+
 private:
     struct Known {
         plant::VehicleType type;
@@ -30,7 +33,6 @@ private:
         plant::HallId hall;
         Result<kinematics::MotionPlan> motion;
     };
-    const FreeFloor* floor(const plant::HallId& hall);
     Result<kinematics::MotionPlan> plan(const FreeFloor& floor,
                                         const FreeManoeuvreRequest& request);
 

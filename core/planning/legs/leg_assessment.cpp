@@ -171,6 +171,11 @@ void describe(const plant::VehicleType& type, const Body& body, const Obstacles&
     for (const Polygon& ring : plan.swept) plan.swept_area_m2 += geometry::area_m2(ring);
 }
 
+Result<LegPlan> assess_grid(const LegTask& task, GridLegs& grid) {
+    return grid.draft(task).and_then(
+        [&](LegDraft draft) { return finish(task, MotionMode::kLinear, std::move(draft)); });
+}
+
 Result<LegPlan> assess_free(const LegTask& task, FreeLegs& free,
                             const std::vector<StandingBody>& standing) {
     return free.draft(task, standing).map([&](LegDraft draft) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/planning/legs/free_leg.hpp"
+#include "core/planning/legs/grid_leg.hpp"
 #include "core/planning/legs/road_leg.hpp"
 
 /// From a leg's task to its plan: the ways of one motion mode, and whether they keep clear.
@@ -8,6 +9,8 @@ namespace pulseline::planning {
 
 /// The plan of the best way of a mode (neither kAuto nor kFree), or the reason against it.
 Result<LegPlan> assess_mode(const LegTask& task, plant::MotionMode mode);
+/// The plan of a leg over free floor, of mode kLinear.
+Result<LegPlan> assess_grid(const LegTask& task, GridLegs& grid);
 /// The plan of a free manoeuvre past bodies that stay where they are.
 Result<LegPlan> assess_free(const LegTask& task, FreeLegs& free,
                             const std::vector<StandingBody>& standing);

@@ -7,6 +7,7 @@
 
 #include "core/kinematics/primitives.hpp"
 #include "core/planning/legs/blind_way.hpp"
+#include "core/planning/legs/grid_leg.hpp"
 #include "core/planning/legs/leg_assessment.hpp"
 #include "core/planning/legs/leg_memo.hpp"
 #include "core/planning/legs/mode_choice.hpp"
@@ -106,6 +107,7 @@ struct LegPlanner::Tables {
           shared(other.shared),
           roads(*shared),
           free(other.plant),
+          grid(free, other.grid),
           memo(other.memo) {
         for (const auto& [key, known] : other.prepared) {
             prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared, known->reach));
@@ -174,7 +176,10 @@ struct LegPlanner::Tables {
                 {mode, task.and_then([&](const LegTask& t) { return assess_mode(t, mode); }),
                  false});
         }
-        if (task) suggest(*task, options);
+        if (task) {
+            suggest(*task, options);
+            add_way_over_floor(*task, grid, wants_free, options);
+        }
         const bool none = std::ranges::none_of(options, &ModeOption::suggested);
         if (may_be_free && (wants_free || none)) {
             auto plan =
@@ -216,6 +221,7 @@ struct LegPlanner::Tables {
     LegMemo::Closures closed = std::make_shared<const std::string>();  // names them
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
+    GridLegs grid{free};
     std::shared_ptr<LegMemo> memo = std::make_shared<LegMemo>();  // of all planners of the plant
 };
 
@@ -233,7 +239,8 @@ public:
                const std::vector<StandingBody>& standing)
         : tables_(tables), by_(by), closed_(tables.closures.size()) {
         for (const StandingBody& body : standing) {
-            tables.closures.push_back({id_of(body), body.vehicle.str(), hall, body.outline, 0});
+            tables.closures.push_back(
+                {id_of(body), body.vehicle.str(), hall, body.outline, 0, true});
         }
         changed_ = !standing.empty();
         if (changed_) by.lanes.set_closures(tables.closures);

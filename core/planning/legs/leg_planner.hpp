@@ -111,7 +111,8 @@ public:
     /// Every motion mode of the vehicle type with its plan or the reason against it, in the order
     /// of plant::kMotionModes. A mode other than kAuto that is refused stays refused; `linear`
     /// drives straight when that is free and it does not lose itself, else along the roadmap
-    /// route (turning at its nodes, forwards or backwards) found by the direction-penalised A*.
+    /// route (turning at its nodes, forwards or backwards) found by the direction-penalised A*; for
+    /// types with free manoeuvres, where there is neither, over free floor (grid_leg.hpp).
     /// Standing bodies are gone round where a mode has a way, as the order will go; else they lower
     /// `clearance_m` and set `nearest` and make nothing infeasible, since they may have left by the
     /// time the leg starts (traffic sends idle ones away and waits for the others). Reason codes

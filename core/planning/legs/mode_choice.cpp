@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/planning/legs/leg_assessment.hpp"
+
 namespace pulseline::planning {
 namespace {
 
@@ -23,6 +25,15 @@ double caution_s(const LegTask& task, const LegPlan& plan) {
     const double spare_m =
         task.obstacles.nearest(pieces).distance_m - task.passage.body.clearance_m;
     return kCaution_s * std::clamp(1 - spare_m / kCaution_m, 0.0, 1.0);
+}
+
+/// Whether closed floor bars a way that follows no lanes. Who stands there bars nothing: they may
+/// have left by then.
+bool is_barred_without_lanes(const LegTask& task, const LegPlan& plan) {
+    return plan.route.empty() && std::ranges::any_of(task.closures, [&](const ClosedFloor& one) {
+               return !one.stands_only &&
+                      std::ranges::find(plan.closures, one.id) != plan.closures.end();
+           });
 }
 
 }  // namespace
@@ -49,6 +60,26 @@ void suggest(const LegTask& task, std::vector<ModeOption>& options) {
         });
     }
     best->suggested = true;
+}
+
+void add_way_over_floor(const LegTask& task, GridLegs& grid, bool for_people,
+                        std::vector<ModeOption>& options) {
+    const auto linear = std::ranges::find(options, plant::MotionMode::kLinear, &ModeOption::mode);
+    if (linear == options.end() || !may_drive_on_free_floor(*task.request.type)) return;
+    const auto suggested = std::ranges::find_if(options, &ModeOption::suggested);
+    const bool none = suggested == options.end();
+    const bool barred = !none && is_barred_without_lanes(task, *suggested->plan);
+    if (!none && !barred && (!for_people || linear->plan)) return;
+    auto plan = assess_grid(task, grid);
+    if (!plan) {
+        // Where lanes lead there, why they do not serve says more.
+        if (none && task.roads.node(task.station.node) < 0) linear->plan = std::move(plan);
+        return;
+    }
+    if (barred && plan->drawback() >= suggested->plan->drawback()) return;
+    if (barred) suggested->suggested = false;
+    linear->plan = std::move(plan);
+    linear->suggested = none || barred;
 }
 
 }  // namespace pulseline::planning

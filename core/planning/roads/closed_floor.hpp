@@ -16,6 +16,7 @@ struct ClosedFloor {
     plant::HallId hall;
     std::vector<geometry::Polygon> pieces;  // convex, hall frame
     double margin_m = 0;                    // bodies keep this far away
+    bool stands_only = false;               // a vehicle that may have left by the time one comes
 };
 
 /// Text that no other closed floor has.
