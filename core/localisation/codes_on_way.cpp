@@ -75,17 +75,35 @@ bool is_passed(const plant::Marker& marker, std::span<const plant::Camera> camer
     return false;
 }
 
+double across_sigma_m(const KnownPose& known, double way_m, double arm_m,
+                      const OdometryNoise& noise) {
+    const double reach_m = way_m + arm_m;
+    const double wander2 =
+        square(noise.heading_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
+    const double bent_m = noise.bend_rad_per_m * way_m * (way_m / 2 + arm_m);
+    return std::sqrt(square(known.place_m) + square(noise.left_m_per_sqrt_m) * way_m +
+                     square(known.heading_rad * reach_m) + wander2 +
+                     square(noise.crab_rad * way_m) + square(bent_m));
+}
+
+double motion_sigma_m(double heading_rad, double way_m, const OdometryNoise& noise) {
+    const double along2 = square(noise.forward_m_per_sqrt_m) * way_m + square(noise.scale * way_m);
+    return std::sqrt(square(across_sigma_m({0, heading_rad}, way_m, 0, noise)) + along2);
+}
+
+KnownPose known_by_code(const plant::Camera& camera, const plant::Marker& marker,
+                        const ErrorBudget& budget) {
+    const double radius_m = std::max(0.0, view_radius_m(camera, marker.size_m));
+    KnownPose known;
+    known.heading_rad = std::hypot(code_sigma_rad(budget, 0), marker.sigma_heading_rad);
+    known.place_m = std::hypot(code_sigma_m(budget, camera, radius_m, 0), marker.sigma_xy_m,
+                               known.heading_rad * norm(camera.body_from_camera.position()));
+    return known;
+}
+
 double sure_way_m(const KnownPose& known, double arm_m, double within_m,
                   const OdometryNoise& noise) {
-    const auto across_m = [&](double way_m) {
-        const double reach_m = way_m + arm_m;
-        const double wander2 =
-            square(noise.heading_rad_per_sqrt_m) * (std::pow(reach_m, 3) - std::pow(arm_m, 3)) / 3;
-        const double bent_m = noise.bend_rad_per_m * way_m * (way_m / 2 + arm_m);
-        return std::sqrt(square(known.place_m) + square(noise.left_m_per_sqrt_m) * way_m +
-                         square(known.heading_rad * reach_m) + wander2 +
-                         square(noise.crab_rad * way_m) + square(bent_m));
-    };
+    const auto across_m = [&](double way_m) { return across_sigma_m(known, way_m, arm_m, noise); };
     if (kSigmas * across_m(0) > within_m) return 0;
     double sure_m = 0;
     double unsure_m = kFarthest_m;

@@ -28,6 +28,20 @@ struct KnownPose {
     double heading_rad = 0;
 };
 
+/// One sigma [m] across a way by odometry alone, of a point `arm_m` ahead in the body.
+double across_sigma_m(const KnownPose& known, double way_m, double arm_m,
+                      const OdometryNoise& noise);
+
+/// s_m of Li 2022 eq. 4 [m]: what a way by odometry alone adds to the place of the body's middle,
+/// both axes together, with a heading that was known by `heading_rad` where it began.
+double motion_sigma_m(double heading_rad, double way_m, const OdometryNoise& noise);
+
+/// One sigma of a pose by one code at the border of the picture: what the survey, the camera and
+/// the code's own direction leave, the last one by the camera's arm; the root of Li 2022 eq. 4.
+/// His s_T is 0 here: codes are surveyed in the hall's own frame.
+KnownPose known_by_code(const plant::Camera& camera, const plant::Marker& marker,
+                        const ErrorBudget& budget = {});
+
 /// The longest way [m] by odometry alone after which three sigma across it, of a point `arm_m`
 /// ahead in the body, stay within `within_m`. 0: they never do.
 double sure_way_m(const KnownPose& known, double arm_m, double within_m,

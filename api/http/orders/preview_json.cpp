@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "api/http/wire/chain_json.hpp"
+
 namespace pulseline::api {
 namespace {
 
@@ -104,6 +106,7 @@ Json mode_option_json(const planning::ModeOption& option, const Arrivals& arriva
         json["codes_on_way"] = {{"widest_gap_m", plan.blind.way_m},
                                 {"at_most_m", plan.blind.at_most_m}};
     }
+    if (plan.chain) json["marker_chain"] = chain_json(*plan.chain);
     json["clearance_m"] = plan.clearance_m;
     json["nearest"] = plan.nearest;
     json["swept_area_m2"] = plan.swept_area_m2;

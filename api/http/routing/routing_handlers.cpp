@@ -1,9 +1,11 @@
 #include "api/http/routing/routing_handlers.hpp"
 
 #include "api/http/routing/routing_requests.hpp"
+#include "api/http/wire/chain_json.hpp"
 #include "api/http/wire/common_json.hpp"
 #include "api/http/wire/problem.hpp"
 #include "core/planning/grid/grid_cost.hpp"
+#include "core/planning/legs/route_chain.hpp"
 #include "core/planning/roads/what_if.hpp"
 
 namespace pulseline::api {
@@ -20,7 +22,8 @@ template <class Parts>
 Json parts_json(const Parts& parts) {
     Json json = {
         {"length", in_k(parts.length)}, {"turns", in_k(parts.turns)}, {"speed", in_k(parts.speed)}};
-    // No plant says yet where a position is uncertain: a cost that is always 0 would promise it.
+    // No plant says yet what an uncertain position costs: one that is always 0 would promise it.
+    // How uncertain it is on a route, its marker_chain says.
     if (parts.accuracy != 0) json["accuracy"] = in_k(parts.accuracy);
     return json;
 }
@@ -34,11 +37,16 @@ Json leg_json(const planning::WhatIfLeg& leg) {
     return json;
 }
 
-Json route_json(const planning::WhatIfRoute& route) {
-    return {{"cost", in_k(route.cost)},
-            {"length_m", route.length_m},
-            {"turns", route.turns},
-            {"legs", list_json(route.legs, leg_json)}};
+Json route_json(const plant::Plant& plant, const planning::WhatIf& question,
+                const planning::WhatIfRoute& route) {
+    Json json = {{"cost", in_k(route.cost)},
+                 {"length_m", route.length_m},
+                 {"turns", route.turns},
+                 {"legs", list_json(route.legs, leg_json)}};
+    if (const auto chain = planning::route_chain(plant, question, route)) {
+        json["marker_chain"] = chain_json(*chain);
+    }
+    return json;
 }
 
 const char* text(Difference::Reason reason) {
@@ -78,7 +86,8 @@ Json bar_json(const planning::WhatIf& question, const planning::WhatIfBar& bar) 
     return json;
 }
 
-Json answer_json(const planning::WhatIf& question, const planning::WhatIfAnswer& answer) {
+Json answer_json(const plant::Plant& plant, const planning::WhatIf& question,
+                 const planning::WhatIfAnswer& answer) {
     Json json = {{"alternatives", Json::array()}};
     const auto bars = [&](const std::vector<planning::WhatIfBar>& all) {
         return list_json(all, [&](const auto& bar) { return bar_json(question, bar); });
@@ -90,9 +99,9 @@ Json answer_json(const planning::WhatIf& question, const planning::WhatIfAnswer&
         json["blocking"] = bars(answer.blocking);
         return json;
     }
-    json["route"] = route_json(answer.routes.front());
+    json["route"] = route_json(plant, question, answer.routes.front());
     for (std::size_t i = 1; i < answer.routes.size(); ++i) {
-        Json other = route_json(answer.routes[i]);
+        Json other = route_json(plant, question, answer.routes[i]);
         other["more"] = parts_json(answer.differences[i - 1]);
         other["main_reason"] = text(answer.differences[i - 1].main_reason());
         json["alternatives"].push_back(std::move(other));
@@ -117,7 +126,7 @@ FleetAnswer find_routes(FleetContext& context, const Request& request) {
                 const auto answer = planning::what_if(plant, question);
                 // The request is well formed; what it names is not there: 422, never 404.
                 if (!answer) return {problem(422, answer.error(), request)};
-                return {json_response(200, answer_json(question, *answer))};
+                return {json_response(200, answer_json(plant, question, *answer))};
             }};
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "api/http/wire/chain_json.hpp"
+
 namespace pulseline::api {
 namespace {
 
@@ -17,6 +19,7 @@ Json leg_json(const fleet::LegView& leg) {
                  {"progress", std::clamp(leg.progress, 0.0, 1.0)}};
     if (leg.started) json["started_at"] = rfc3339(*leg.started);
     if (leg.expected) json["expected_at"] = rfc3339(*leg.expected);
+    if (leg.chain) json["marker_chain"] = chain_json(*leg.chain);
     return json;
 }
 

@@ -166,6 +166,7 @@ bool take_horizon(FleetState& fleet, LiveVehicle& live) {
     leg.nodes.resize(node);
     leg.edges.resize(node - 1);
     live.areas = {};  // they are of the old horizon
+    live.leg_markers.reset();
     // What was the stop may only be passed now, and is stopped at later.
     for (std::size_t i = leg.released_nodes; i < node; ++i) {
         if (leg.nodes[i].actions.empty()) continue;

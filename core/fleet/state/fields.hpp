@@ -64,7 +64,7 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, LegPlan>
 void fields(V& visit, S& it) {
     auto& [mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
-           closures, blind, clearance_m, nearest, wheels, swept_area_m2, swept] = it;
+           closures, blind, clearance_m, nearest, wheels, swept_area_m2, swept, chain] = it;
     visit(mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
           closures);
 }
@@ -174,8 +174,15 @@ PULSELINE_FIELDS(ControlRequest, method, update, if_revision, actor, idempotency
 // --- views.hpp, ports.hpp: what a step puts out
 PULSELINE_FIELDS(StoreFault, cause, since)
 PULSELINE_FIELDS(ClockDifference, ahead, since)
-PULSELINE_FIELDS(LegView, id, station, mode, path, granted_points, granted_area, horizon_area,
-                 duration_s, progress, started, expected)
+// The chain follows from the leg and the plant.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, LegView>
+void fields(V& visit, S& it) {
+    auto& [id, station, mode, path, granted_points, granted_area, horizon_area, duration_s,
+           progress, started, expected, chain] = it;
+    visit(id, station, mode, path, granted_points, granted_area, horizon_area, duration_s, progress,
+          started, expected);
+}
 PULSELINE_FIELDS(BracketShare, bracket, share)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,

@@ -102,6 +102,12 @@ struct LiveVehicle {
         std::vector<geometry::Polygon> horizon;
     };
     mutable Areas areas;
+    /// By which codes it finds its way on the leg, worked out again when it is not there.
+    struct LegMarkers {
+        LegId leg;
+        std::optional<Result<planning::LegChain>> chain;
+    };
+    mutable std::optional<LegMarkers> leg_markers;
     std::optional<AwaitedPlan> awaited_plan;  // of its next leg
     // Worked out again when they are not there.
     std::optional<PlannedLeg> newest_plan;

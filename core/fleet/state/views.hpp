@@ -51,6 +51,8 @@ struct LegView {
     double progress = 0;
     std::optional<Time> started;
     std::optional<Time> expected;
+    /// By which codes it finds its way, or why not; none when there is nothing to say.
+    std::optional<Result<planning::LegChain>> chain;
 };
 
 const char* to_string(PoseBasis::Kind kind);  // "stop"

@@ -12,6 +12,7 @@
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
+#include "core/fleet/vehicle/leg_markers.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/motion.hpp"
@@ -46,7 +47,7 @@ void update_areas(const LiveVehicle& live) {
     areas.released = leg.released_nodes;
 }
 
-LegView leg_view(const LiveVehicle& live, Time now) {
+LegView leg_view(const FleetState& fleet, const LiveVehicle& live, Time now) {
     const Leg& leg = live.leg();
     update_areas(live);
     LegView view;
@@ -77,6 +78,7 @@ LegView leg_view(const LiveVehicle& live, Time now) {
     }
     if (leg.released_nodes >= leg.nodes.size()) view.granted_points = view.path.size();
     view.progress = total_s > 0 ? passed_s / total_s : 1.0;
+    view.chain = leg_markers(fleet, live);
     view.started = live.delivery.started();
     if (view.started) {
         const Time left = now + from_seconds((total_s - passed_s) / speed_share(live));
@@ -194,7 +196,7 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
     if (const auto* order = fleet.orders.of(live.record.id)) {
         view.order = order->id;
     }
-    if (with_leg && live.has_leg()) view.leg = leg_view(live, now);
+    if (with_leg && live.has_leg()) view.leg = leg_view(fleet, live, now);
     view.worst_bracket = worst_bracket(live);
     view.paused = live.record.paused;
     view.stands_paused = stands_paused(live);

@@ -18,6 +18,7 @@ public:
     const std::vector<plant::Camera>& cameras() const { return cameras_; }
     /// Of iGPS or reflectors.
     bool has_beacons() const { return receiver_m_ > 0 || scanner_.has_value(); }
+    const localisation::OdometryNoise& noise() const { return noise_; }
     /// By localisation::blind_way_m, of its best camera.
     double at_most_m(double size_m) const;
     /// Until beacons are seen again: as long as it stays on the floor that traffic keeps beside it.

@@ -9,6 +9,7 @@
 #include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/grid_leg.hpp"
 #include "core/planning/legs/leg_assessment.hpp"
+#include "core/planning/legs/leg_chain.hpp"
 #include "core/planning/legs/leg_memo.hpp"
 #include "core/planning/legs/mode_choice.hpp"
 #include "core/planning/legs/road_leg.hpp"
@@ -287,6 +288,9 @@ std::vector<ModeOption> LegPlanner::assess_modes(const LegRequest& request,
             }
             describe(*request.type, by.passage.body, *tables_->roads.obstacles(request.hall),
                      standing, *option.plan);
+            option.plan->chain = leg_chain(tables_->plant, request.hall, by.reach,
+                                           plant::find_station(tables_->plant, request.target),
+                                           option.plan->segments);
         }
     }
     return options;

@@ -11,6 +11,7 @@
 #include "core/kinematics/dead_reckoning.hpp"
 #include "core/kinematics/motion.hpp"
 #include "core/kinematics/trajectory.hpp"
+#include "core/planning/legs/leg_chain.hpp"
 #include "core/planning/roads/leg_roads.hpp"
 #include "core/planning/roads/motion_graph.hpp"
 #include "core/planning/room/standing_body.hpp"
@@ -62,7 +63,8 @@ struct LegPlan {
     std::string nearest;     // what that least distance is to: "wall", area or vehicle id
     std::optional<kinematics::WheelPeaks> wheels;  // absent when the type states no wheels
     double swept_area_m2 = 0;
-    std::vector<geometry::Polygon> swept;  // outline rings of the swept area, hall frame
+    std::vector<geometry::Polygon> swept;   // outline rings of the swept area, hall frame
+    std::optional<Result<LegChain>> chain;  // by which codes it finds its way, or why it has none
 
     Drawback drawback() const {
         if (!closures.empty()) return Drawback::kClosedFloor;

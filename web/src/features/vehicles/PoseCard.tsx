@@ -15,6 +15,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   const words = useWords();
   const codes = vehicle.codes_under_way;
+  const chain = vehicle.leg?.marker_chain;
   const light = lightWords(vehicle);
   const reflectors = reflectorWords(vehicle);
   const steers = navigationWords(vehicle);
@@ -88,6 +89,20 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
         <p className="basis" data-codes={codes.read}>
           <StatusSymbol name={codes.read > 0 ? "c-ok" : "a-3"} />
           <span>{t(codes.read > 0 ? "pose.codes" : "pose.no_codes", { ...codes })}</span>
+        </p>
+      )}
+      {chain && (
+        <p className="basis" data-chain={chain.reason ? "none" : chain.markers.length}>
+          <StatusSymbol name={chain.reason ? "a-3" : "c-ok"} />
+          <span>
+            {chain.reason
+              ? words.reason(chain.reason)
+              : t(chain.markers.length > 0 ? "pose.chain" : "pose.chain_direct", {
+                  count: chain.markers.length,
+                  last: chain.markers.at(-1)?.payload,
+                  length: length(chain.arrival_sigma_m),
+                })}
+          </span>
         </p>
       )}
       {light && (

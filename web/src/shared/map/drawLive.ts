@@ -1,4 +1,5 @@
 import { boxOf, splitPath } from "@/shared/math/geometry";
+import { drawChain } from "./drawChain";
 import { arrowHead, drawMove, drawSwept } from "./drawMove";
 import type { Pen } from "./pen";
 import type { DrawnVehicle, HallModel, MapOverlays } from "./scene";
@@ -15,6 +16,7 @@ export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays
   for (const v of vehicles) if (!v.selected && ((few && v.moving) || v.blocker)) drawOtherRoute(pen, v);
   drawSwept(pen, overlays);
   for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
+  for (const v of vehicles) if (v.selected) drawChain(pen, v);
   for (const v of vehicles) if (v.selected) drawDeviation(pen, v);
   for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
 }
