@@ -140,7 +140,7 @@ TEST(Navigation, RoundTripKeepsWhatItSteersBy) {
     EXPECT_EQ(read->navigation.explained, 0.75);
     EXPECT_EQ(read->navigation.why_not, "contours_lost");
 
-    sent.navigation = {"codes", 3};
+    sent.navigation = {"codes", 3, -1, {}};
     const auto without_map = decode_state(parsed(encode_state(sent, header())));
     EXPECT_LT(without_map->navigation.explained, 0);
     EXPECT_TRUE(without_map->navigation.why_not.empty());
@@ -148,7 +148,7 @@ TEST(Navigation, RoundTripKeepsWhatItSteersBy) {
 
 TEST(Navigation, WhatIsNotOurWordIsLeftOut) {
     StateMessage sent = testing::state();
-    sent.navigation = {"stars", 3};
+    sent.navigation = {"stars", 3, -1, {}};
     const auto read = decode_state(parsed(encode_state(sent, header())));
     ASSERT_TRUE(read) << read.error().what;
     EXPECT_TRUE(read->navigation.by.empty());
@@ -156,7 +156,7 @@ TEST(Navigation, WhatIsNotOurWordIsLeftOut) {
 
 TEST(Navigation, AShareAboveOneIsAnErrorOfTheMessage) {
     StateMessage sent = testing::state();
-    sent.navigation = {"contours", 1, 1.5};
+    sent.navigation = {"contours", 1, 1.5, {}};
     EXPECT_FALSE(decode_state(parsed(encode_state(sent, header()))));
 }
 

@@ -196,31 +196,31 @@ const Case kCases[] = {
      "/vehicle_types/0/scanners/0/pose/y_m", "not_finite"},
     {"ScannerSeesAllRound",
      [](Plant& p) {
-         p.vehicle_types[0].scanners = {{"nose"}};
+         p.vehicle_types[0].scanners = {{"nose", {}}};
          p.vehicle_types[0].scanners[0].field_rad = 6.3;
      },
      "/vehicle_types/0/scanners/0/field_rad", "scanner_field"},
     {"ScannerOfTooManyRays",
      [](Plant& p) {
-         p.vehicle_types[0].scanners = {{"nose"}};
+         p.vehicle_types[0].scanners = {{"nose", {}}};
          p.vehicle_types[0].scanners[0].step_rad = 1e-6;
      },
      "/vehicle_types/0/scanners/0/step_rad", "scanner_step"},
     {"ScannerEndsBeforeItBegins",
      [](Plant& p) {
-         p.vehicle_types[0].scanners = {{"nose"}};
+         p.vehicle_types[0].scanners = {{"nose", {}}};
          p.vehicle_types[0].scanners[0].range_m = 0.05;
      },
      "/vehicle_types/0/scanners/0/range_m", "scanner_range"},
     {"ScannerBetterThanExact",
      [](Plant& p) {
-         p.vehicle_types[0].scanners = {{"nose"}};
+         p.vehicle_types[0].scanners = {{"nose", {}}};
          p.vehicle_types[0].scanners[0].sigma_m = -0.01;
      },
      "/vehicle_types/0/scanners/0/sigma_m", "negative"},
     {"TwoScannersOfOneName",
      [](Plant& p) {
-         p.vehicle_types[0].scanners = {{"nose"}, {"nose"}};
+         p.vehicle_types[0].scanners = {{"nose", {}}, {"nose", {}}};
      },
      "/vehicle_types/0/scanners/1/name", "duplicate_scanner"},
     {"WheelWithoutDiameter", [](Plant& p) { p.vehicle_types[0].wheels[0].diameter_m = 0; },
