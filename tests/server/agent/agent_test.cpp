@@ -175,7 +175,7 @@ protected:
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
                       nullptr);
         servo->link_up();
-        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
+        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.002, 0.001});
         auto order = straight_order({20, 10, 0}, 12);
         order.nodes[1].actions = std::move(actions);
         servo->receive(vda5050::encode_frame(
@@ -299,7 +299,7 @@ TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20.04, 9.985, 0.003},
                       settings, nullptr);
         servo->link_up();
-        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
+        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.002, 0.001});
         vda5050::Action adjust;
         adjust.type = "adjustToMarker";
         adjust.id = "adjust";
