@@ -38,8 +38,6 @@ constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
 // counts for less than it is worth and the next one begins nearer.
 constexpr double kCarry = 50;
-// Of a direction it tells something when that is worth more than what was known before, at all.
-constexpr double kWorth = 0.2;
 constexpr double kNothing = 1e4;
 // Around a ray's end, what stands there shows which way it lies.
 constexpr int kAround_cells = 3;
@@ -251,21 +249,25 @@ Tempered tempered(const mrpt::slam::CMonteCarloLocalization2D& cloud) {
 /// The particles' mean is where the look puts the vehicle, in the directions of which `information`
 /// (inverse covariance) says that it tells anything: Bayes' rule, read backwards.
 void read_backwards(const Pose2& before, const Eigen::Matrix3d& root, const Pose2& after,
-                    const Eigen::Matrix3d& information, MonteCarlo::Look& look) {
+                    const Eigen::Matrix3d& information, const Eigen::Matrix3d& of_map,
+                    MonteCarlo::Look& look) {
     // As if all had been known alike before: the ellipsoid before is a sphere.
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> worth(root.transpose() * information *
                                                                root);
     const Eigen::Vector3d moved(after.x_m - before.x_m, after.y_m - before.y_m,
                                 wrap(after.heading_rad - before.heading_rad));
-    const Eigen::Vector3d off = worth.eigenvectors().transpose() * root.inverse() * moved;
+    const Eigen::Matrix3d to_sphere = worth.eigenvectors().transpose() * root.inverse();
+    const Eigen::Vector3d off = to_sphere * moved;
+    const Eigen::Matrix3d map = to_sphere * of_map * to_sphere.transpose();
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
     Eigen::Vector3d told = Eigen::Vector3d::Zero();
     for (int i = 0; i < 3; ++i) {
         const double gain = worth.eigenvalues()[i];
-        if (gain < kWorth) continue;
+        // What is known worse than before is not worth being told.
+        if (gain <= 0 || 1 / gain + map(i, i) > 1) continue;
         place[i] = off[i] * (1 + gain) / gain;
-        variance[i] = told[i] = 1 / gain;
+        variance[i] = told[i] = 1 / gain + map(i, i);
         look.told = true;
     }
     const Eigen::Matrix3d directions = root * worth.eigenvectors();
@@ -300,6 +302,7 @@ void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visi
 }  // namespace
 
 MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& covariance,
+                                  const Eigen::Matrix3d& of_map,
                                   const std::vector<control::Scan>& scans) {
     const Eigen::Matrix3d root = covariance.llt().matrixL();
     const bool well_known = covariance(0, 0) + covariance(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
@@ -322,7 +325,7 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
         information += moves.transpose() * map.told_at(end) * moves;
     });
     information *= power / (kRaySigma_m * kRaySigma_m);
-    read_backwards(about, root, mean, information, look);
+    read_backwards(about, root, mean, information, of_map, look);
     if (look.returns > 0) {
         look.explained = static_cast<double>(explained) / look.returns;
         look.through = static_cast<double>(through) / look.returns;

@@ -15,11 +15,11 @@ struct MatchedMap;
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map);
 
 /// Where a vehicle stands by what its scanners see of a hall that was mapped before: Monte-Carlo
-/// localisation (Fox 2003; Li 2022 section 2.3), by MRPT, as a Gaussian particle filter (Kotecha and
-/// Djuric 2003): each look draws new particles around where the vehicle holds itself to be, so that
-/// none die out along a wall that tells nothing about where along it one is. It needs a place that
-/// is roughly known; a hall looks alike in too many places to find it from nothing.
-/// Thread safety: none, and all that share a map must be of one thread.
+/// localisation (Fox 2003; Li 2022 section 2.3), by MRPT, as a Gaussian particle filter (Kotecha
+/// and Djuric 2003): each look draws new particles around where the vehicle holds itself to be, so
+/// that none die out along a wall that tells nothing about where along it one is. It needs a place
+/// that is roughly known; a hall looks alike in too many places to find it from nothing. Thread
+/// safety: none, and all that share a map must be of one thread.
 class MonteCarlo {
 public:
     MonteCarlo(std::shared_ptr<const MatchedMap> map, std::uint64_t seed);
@@ -33,7 +33,7 @@ public:
         geometry::Pose2 pose;
         /// Of directions that it tells nothing of it is huge.
         Eigen::Matrix3d covariance;
-        /// Of those that it tells of, alone: 0 in the others.
+        /// Of those that it tells of, alone: 0 in the others. The map's own error is in both.
         Eigen::Matrix3d of_told;
         int returns = 0;  // rays that met something
         /// Of them, how many ended where the map has something: the others met what is not in it.
@@ -43,8 +43,9 @@ public:
         double through = 0;
     };
     /// The vehicle is held to be about there, and its scanners see this.
+    /// `of_map`: the map's own error, as a covariance of the same three.
     Look look(const geometry::Pose2& about, const Eigen::Matrix3d& covariance,
-              const std::vector<control::Scan>& scans);
+              const Eigen::Matrix3d& of_map, const std::vector<control::Scan>& scans);
 
 private:
     struct Particles;

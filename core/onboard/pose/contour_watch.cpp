@@ -104,8 +104,9 @@ void ContourWatch::look() {
     looked_from_ = trail_.driven();
     stood_s_ = 0;
     scanners_.scan(scans_);
-    const auto look = particles_.look(
-        estimate_.pose(), estimate_.covariance() + diagonal(kAround_m, kAround_rad), scans_);
+    const auto look =
+        particles_.look(estimate_.pose(), estimate_.covariance() + diagonal(kAround_m, kAround_rad),
+                        diagonal(kMap_m, kMap_rad), scans_);
     newest_.reset();
     why_not_.reset();
     explained_.reset();
@@ -134,12 +135,11 @@ void ContourWatch::contradict() {
 }
 
 void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
-    const Eigen::Matrix3d map = diagonal(kMap_m, kMap_rad);
     localisation::BeaconFix fix;
     fix.fix.pose = look.pose;
     fix.fix.method = localisation::Method::kContours;
-    set_covariance(fix.fix, look.covariance + map);
-    fix.lasting = localisation::rows(kLasting * (look.of_told + map));
+    set_covariance(fix.fix, look.covariance);
+    fix.lasting = localisation::rows(kLasting * look.of_told);
     const bool news = looks_standing_ <= kLooksStanding;
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();

@@ -54,6 +54,8 @@ TEST(MapBuilder, WhatItMapsIsWhereTheDrawingHasIt) {
     EXPECT_LT(offs[offs.size() * 95 / 100], 0.08);
 }
 
+const Eigen::Matrix3d kExact = Eigen::Matrix3d::Zero();  // the map, as if it were
+
 /// Where it was held to be, and what a look says of that, fused as a filter does.
 struct Held {
     Pose2 pose;
@@ -85,7 +87,8 @@ TEST(MonteCarlo, FromADecimetreAndFiveDegreesOffLooksTellWhereItIsAndHowWell) {
                          wrap(truth.heading_rad + 0.087 * off(random))};
         Held held{told, sigmas(0.05, 0.04)};
         for (int i = 0; i < 12; ++i) {
-            const auto look = particles.look(held.pose, held.covariance, scanning.from(truth));
+            const auto look =
+                particles.look(held.pose, held.covariance, kExact, scanning.from(truth));
             EXPECT_GT(look.explained, i == 0 ? 0.3 : 0.85) << seed;
             EXPECT_LT(look.through, 0.05) << seed;
             held.fuse(look);
@@ -106,7 +109,8 @@ TEST(MonteCarlo, FromADecimetreAndFiveDegreesOffLooksTellWhereItIsAndHowWell) {
 TEST(MonteCarlo, SeesThatItStandsSomewhereElse) {
     MonteCarlo particles(prepare(hall_map()), 1);
     Scanning scanning(1);
-    const auto look = particles.look({}, sigmas(0.05, 0.03), scanning.from({13, -3.5, 1.2}));
+    const auto look =
+        particles.look({}, sigmas(0.05, 0.03), kExact, scanning.from({13, -3.5, 1.2}));
     EXPECT_GT(look.returns, 50);
     EXPECT_LT(look.explained, 0.5);
     EXPECT_GT(look.through, 0.1);
@@ -118,7 +122,7 @@ TEST(MonteCarlo, WhereNothingStandsNearItTellsNothing) {
     empty.halls.front().outline = {{-100, -100}, {100, -100}, {100, 100}, {-100, 100}};
     Scanning scanning(1, empty);
     MonteCarlo particles(prepare(hall_map()), 1);
-    const auto look = particles.look({}, sigmas(0.05, 0.03), scanning.from({}));
+    const auto look = particles.look({}, sigmas(0.05, 0.03), kExact, scanning.from({}));
     EXPECT_EQ(look.returns, 0);
     EXPECT_FALSE(look.told);
     EXPECT_GT(std::sqrt(look.covariance(0, 0)), 1) << "it has learned nothing";
@@ -133,8 +137,8 @@ TEST(MonteCarlo, TheSameSeedGivesTheSamePoses) {
         for (int i = 0; i < 5; ++i) {
             const Pose2 at{0.15 * i, 0, 0};
             const auto& scans = scanning.from(at);
-            run.push_back(particles.look(at, sigmas(0.05, 0.03), scans).pose);
-            if (&run == &poses[1]) other.look(at, sigmas(0.05, 0.03), scans);
+            run.push_back(particles.look(at, sigmas(0.05, 0.03), kExact, scans).pose);
+            if (&run == &poses[1]) other.look(at, sigmas(0.05, 0.03), kExact, scans);
         }
     }
     EXPECT_EQ(poses[0], poses[1]);
