@@ -246,35 +246,45 @@ Tempered tempered(const mrpt::slam::CMonteCarloLocalization2D& cloud) {
     return found;
 }
 
-/// The particles' mean is where the look puts the vehicle, in the directions of which `information`
-/// (inverse covariance) says that it tells anything: Bayes' rule, read backwards.
-void read_backwards(const Pose2& before, const Eigen::Matrix3d& root, const Pose2& after,
-                    const Eigen::Matrix3d& information, const Eigen::Matrix3d& of_map,
-                    MonteCarlo::Look& look) {
-    // As if all had been known alike before: the ellipsoid before is a sphere.
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> worth(root.transpose() * information *
+/// What one look has made of its particles.
+struct Outcome {
+    geometry::Pose2 about;
+    Eigen::Matrix3d looked_around;  // covariance that they were drawn with
+    geometry::Pose2 mean;
+    Eigen::Matrix3d information;  // inverse covariance of what the rays tell
+    Eigen::Matrix3d of_map;
+};
+
+/// Bayes' rule, read backwards: what took the place from where the particles were drawn to their
+/// mean. Only in directions that are known better by it than with covariance `known`.
+MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known) {
+    const Eigen::Matrix3d root = known.llt().matrixL();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> worth(root.transpose() * by.information *
                                                                root);
-    const Eigen::Vector3d moved(after.x_m - before.x_m, after.y_m - before.y_m,
-                                wrap(after.heading_rad - before.heading_rad));
-    const Eigen::Matrix3d to_sphere = worth.eigenvectors().transpose() * root.inverse();
-    const Eigen::Vector3d off = to_sphere * moved;
-    const Eigen::Matrix3d map = to_sphere * of_map * to_sphere.transpose();
+    // In directions of the hall along which the rays' worth is independent, `known` a unit sphere.
+    const Eigen::Matrix3d directions = root * worth.eigenvectors();
+    const Eigen::Matrix3d to_sphere = directions.inverse();
+    const Eigen::Vector3d moved(by.mean.x_m - by.about.x_m, by.mean.y_m - by.about.y_m,
+                                wrap(by.mean.heading_rad - by.about.heading_rad));
+    const Eigen::Matrix3d drawn = directions.transpose() * by.looked_around.inverse() * directions;
+    const Eigen::Matrix3d map = to_sphere * by.of_map * to_sphere.transpose();
+    const Eigen::Vector3d gain = worth.eigenvalues();
+    const Eigen::Vector3d off = (drawn + Eigen::Matrix3d(gain.asDiagonal())) * to_sphere * moved;
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
-    Eigen::Vector3d told = Eigen::Vector3d::Zero();
+    Eigen::Vector3d of_told = Eigen::Vector3d::Zero();
+    MonteCarlo::Told told;
     for (int i = 0; i < 3; ++i) {
-        const double gain = worth.eigenvalues()[i];
-        // What is known worse than before is not worth being told.
-        if (gain <= 0 || 1 / gain + map(i, i) > 1) continue;
-        place[i] = off[i] * (1 + gain) / gain;
-        variance[i] = told[i] = 1 / gain + map(i, i);
-        look.told = true;
+        if (gain[i] <= 0 || 1 / gain[i] + map(i, i) > 1) continue;
+        place[i] = off[i] / gain[i];
+        variance[i] = of_told[i] = 1 / gain[i] + map(i, i);
+        told.anything = true;
     }
-    const Eigen::Matrix3d directions = root * worth.eigenvectors();
     const Eigen::Vector3d at = directions * place;
-    look.pose = {before.x_m + at[0], before.y_m + at[1], wrap(before.heading_rad + at[2])};
-    look.covariance = directions * variance.asDiagonal() * directions.transpose();
-    look.of_told = directions * told.asDiagonal() * directions.transpose();
+    told.pose = {by.about.x_m + at[0], by.about.y_m + at[1], wrap(by.about.heading_rad + at[2])};
+    told.covariance = directions * variance.asDiagonal() * directions.transpose();
+    told.of_told = directions * of_told.asDiagonal() * directions.transpose();
+    return told;
 }
 
 /// How a point of the hall moves with the pose of a body that it is fixed to.
@@ -302,12 +312,12 @@ void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visi
 }  // namespace
 
 MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& covariance,
-                                  const Eigen::Matrix3d& of_map,
+                                  const Eigen::Matrix3d& around, const Eigen::Matrix3d& of_map,
                                   const std::vector<control::Scan>& scans) {
-    const Eigen::Matrix3d root = covariance.llt().matrixL();
-    const bool well_known = covariance(0, 0) + covariance(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
-                            covariance(2, 2) < kWellKnown_rad * kWellKnown_rad;
-    particles_->spread(about, root, well_known ? kFewest : kMost);
+    const Eigen::Matrix3d drawn = covariance + around;
+    const bool well_known = drawn(0, 0) + drawn(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
+                            drawn(2, 2) < kWellKnown_rad * kWellKnown_rad;
+    particles_->spread(about, drawn.llt().matrixL(), well_known ? kFewest : kMost);
     particles_->weigh(scans);
     const auto [weights, power] = tempered(particles_->cloud);
     const Pose2 mean = particles_->mean(weights);
@@ -325,7 +335,9 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
         information += moves.transpose() * map.told_at(end) * moves;
     });
     information *= power / (kRaySigma_m * kRaySigma_m);
-    read_backwards(about, root, mean, information, of_map, look);
+    const Outcome outcome{about, drawn, mean, information, of_map};
+    look.news = read_backwards(outcome, covariance);
+    look.check = read_backwards(outcome, drawn);
     if (look.returns > 0) {
         look.explained = static_cast<double>(explained) / look.returns;
         look.through = static_cast<double>(through) / look.returns;

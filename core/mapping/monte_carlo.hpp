@@ -26,15 +26,17 @@ public:
     ~MonteCarlo();
     MonteCarlo(MonteCarlo&&) noexcept;
 
-    /// What one look tells, by itself: where the vehicle was held to be is not in it. Covariances
-    /// of (x_m, y_m, heading_rad), hall frame.
-    struct Look {
-        bool told = false;  // anything at all
+    /// What a look tells by itself: where the vehicle was held to be is not in it. Covariances of
+    /// (x_m, y_m, heading_rad), hall frame, with the map's own error.
+    struct Told {
+        bool anything = false;
         geometry::Pose2 pose;
-        /// Of directions that it tells nothing of it is huge.
-        Eigen::Matrix3d covariance;
-        /// Of those that it tells of, alone: 0 in the others. The map's own error is in both.
-        Eigen::Matrix3d of_told;
+        Eigen::Matrix3d covariance;  // huge in directions of which it tells nothing
+        Eigen::Matrix3d of_told;     // of the others alone: 0 in these
+    };
+    struct Look {
+        Told news;        // in directions that it knows better than they were known before
+        Told check;       // in all that it knows better than it had to look around
         int returns = 0;  // rays that met something
         /// Of them, how many ended where the map has something: the others met what is not in it.
         double explained = 0;
@@ -42,10 +44,12 @@ public:
         /// around.
         double through = 0;
     };
-    /// The vehicle is held to be about there, and its scanners see this.
-    /// `of_map`: the map's own error, as a covariance of the same three.
+    /// The vehicle is held to be about there, with this covariance; it looks around as far as
+    /// `covariance + around` says, in case that something has moved it. `of_map`: the map's own
+    /// error, as a covariance of the same three.
     Look look(const geometry::Pose2& about, const Eigen::Matrix3d& covariance,
-              const Eigen::Matrix3d& of_map, const std::vector<control::Scan>& scans);
+              const Eigen::Matrix3d& around, const Eigen::Matrix3d& of_map,
+              const std::vector<control::Scan>& scans);
 
 private:
     struct Particles;

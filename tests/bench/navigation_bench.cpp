@@ -173,7 +173,8 @@ void contours_look(benchmark::State& state) {
     const double sigma_rad = told ? 0.04 : 0.01;
     const Eigen::Vector3d variance(sigma_m * sigma_m, sigma_m * sigma_m, sigma_rad * sigma_rad);
     for (auto _ : state) {
-        auto look = particles.look(pose, variance.asDiagonal(), Eigen::Matrix3d::Zero(), scans);
+        auto look = particles.look(pose, variance.asDiagonal(), Eigen::Matrix3d::Zero(),
+                                   Eigen::Matrix3d::Zero(), scans);
         benchmark::DoNotOptimize(look);
         state.counters["explained"] = look.explained;
     }

@@ -105,7 +105,7 @@ void ContourWatch::look() {
     stood_s_ = 0;
     scanners_.scan(scans_);
     const auto look =
-        particles_.look(estimate_.pose(), estimate_.covariance() + diagonal(kAround_m, kAround_rad),
+        particles_.look(estimate_.pose(), estimate_.covariance(), diagonal(kAround_m, kAround_rad),
                         diagonal(kMap_m, kMap_rad), scans_);
     newest_.reset();
     why_not_.reset();
@@ -124,7 +124,7 @@ void ContourWatch::look() {
     contradicted_ = 0;
     lost_ = false;
     by_codes_ = estimate_.by_codes();
-    if (look.told && look.explained >= kExplained) correct(look);
+    if (look.explained >= kExplained) correct(look);
 }
 
 void ContourWatch::contradict() {
@@ -135,12 +135,14 @@ void ContourWatch::contradict() {
 }
 
 void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
+    const bool news = look.news.anything && looks_standing_ <= kLooksStanding;
+    const auto& told = news ? look.news : look.check;
+    if (!told.anything) return;
     localisation::BeaconFix fix;
-    fix.fix.pose = look.pose;
+    fix.fix.pose = told.pose;
     fix.fix.method = localisation::Method::kContours;
-    set_covariance(fix.fix, look.covariance);
-    fix.lasting = localisation::rows(kLasting * look.of_told);
-    const bool news = looks_standing_ <= kLooksStanding;
+    set_covariance(fix.fix, told.covariance);
+    fix.lasting = localisation::rows(kLasting * told.of_told);
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();
     }

@@ -1,7 +1,6 @@
 #include "core/onboard/pose/pose_estimate.hpp"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -146,11 +145,6 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     filter.blur(no_more_shared(lasting_, lasting));
     const Status corrected = filter.correct(seen.fix, lasting);
     if (!corrected || knows_better_than(lasting)) return corrected;
-    // Of contours the next fix tells other directions, and may know them worse than this one did.
-    const bool partial = seen.fix.method == localisation::Method::kContours;
-    if (partial && (covariance().inverse() * (filter.covariance() + lasting)).trace() >= 3) {
-        return corrected;
-    }
     filter_ = filter;
     lasting_ = lasting;
     filter_.blur(since);

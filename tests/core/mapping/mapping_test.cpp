@@ -54,14 +54,14 @@ TEST(MapBuilder, WhatItMapsIsWhereTheDrawingHasIt) {
     EXPECT_LT(offs[offs.size() * 95 / 100], 0.08);
 }
 
-const Eigen::Matrix3d kExact = Eigen::Matrix3d::Zero();  // the map, as if it were
+const Eigen::Matrix3d kNone = Eigen::Matrix3d::Zero();
 
 /// Where it was held to be, and what a look says of that, fused as a filter does.
 struct Held {
     Pose2 pose;
     Eigen::Matrix3d covariance;
 
-    void fuse(const MonteCarlo::Look& look) {
+    void fuse(const MonteCarlo::Told& look) {
         const Eigen::Matrix3d gain = covariance * (covariance + look.covariance).inverse();
         const Eigen::Vector3d off(look.pose.x_m - pose.x_m, look.pose.y_m - pose.y_m,
                                   wrap(look.pose.heading_rad - pose.heading_rad));
@@ -88,10 +88,10 @@ TEST(MonteCarlo, FromADecimetreAndFiveDegreesOffLooksTellWhereItIsAndHowWell) {
         Held held{told, sigmas(0.05, 0.04)};
         for (int i = 0; i < 12; ++i) {
             const auto look =
-                particles.look(held.pose, held.covariance, kExact, scanning.from(truth));
+                particles.look(held.pose, held.covariance, kNone, kNone, scanning.from(truth));
             EXPECT_GT(look.explained, i == 0 ? 0.3 : 0.85) << seed;
             EXPECT_LT(look.through, 0.05) << seed;
-            held.fuse(look);
+            held.fuse(look.news);
         }
         EXPECT_LT(distance(held.pose.position(), truth.position()), 0.05) << seed;
         EXPECT_LT(std::abs(wrap(held.pose.heading_rad - truth.heading_rad)), 0.01) << seed;
@@ -110,7 +110,7 @@ TEST(MonteCarlo, SeesThatItStandsSomewhereElse) {
     MonteCarlo particles(prepare(hall_map()), 1);
     Scanning scanning(1);
     const auto look =
-        particles.look({}, sigmas(0.05, 0.03), kExact, scanning.from({13, -3.5, 1.2}));
+        particles.look({}, sigmas(0.05, 0.03), kNone, kNone, scanning.from({13, -3.5, 1.2}));
     EXPECT_GT(look.returns, 50);
     EXPECT_LT(look.explained, 0.5);
     EXPECT_GT(look.through, 0.1);
@@ -122,10 +122,10 @@ TEST(MonteCarlo, WhereNothingStandsNearItTellsNothing) {
     empty.halls.front().outline = {{-100, -100}, {100, -100}, {100, 100}, {-100, 100}};
     Scanning scanning(1, empty);
     MonteCarlo particles(prepare(hall_map()), 1);
-    const auto look = particles.look({}, sigmas(0.05, 0.03), kExact, scanning.from({}));
+    const auto look = particles.look({}, sigmas(0.05, 0.03), kNone, kNone, scanning.from({}));
     EXPECT_EQ(look.returns, 0);
-    EXPECT_FALSE(look.told);
-    EXPECT_GT(std::sqrt(look.covariance(0, 0)), 1) << "it has learned nothing";
+    EXPECT_FALSE(look.news.anything);
+    EXPECT_GT(std::sqrt(look.news.covariance(0, 0)), 1) << "it has learned nothing";
 }
 
 TEST(MonteCarlo, TheSameSeedGivesTheSamePoses) {
@@ -137,8 +137,8 @@ TEST(MonteCarlo, TheSameSeedGivesTheSamePoses) {
         for (int i = 0; i < 5; ++i) {
             const Pose2 at{0.15 * i, 0, 0};
             const auto& scans = scanning.from(at);
-            run.push_back(particles.look(at, sigmas(0.05, 0.03), kExact, scans).pose);
-            if (&run == &poses[1]) other.look(at, sigmas(0.05, 0.03), kExact, scans);
+            run.push_back(particles.look(at, sigmas(0.05, 0.03), kNone, kNone, scans).check.pose);
+            if (&run == &poses[1]) other.look(at, sigmas(0.05, 0.03), kNone, kNone, scans);
         }
     }
     EXPECT_EQ(poses[0], poses[1]);

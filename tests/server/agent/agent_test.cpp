@@ -175,7 +175,7 @@ protected:
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
                       nullptr);
         servo->link_up();
-        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.002, 0.001});
+        tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.0005, 0.0001});
         auto order = straight_order({20, 10, 0}, 12);
         order.nodes[1].actions = std::move(actions);
         servo->receive(vda5050::encode_frame(

@@ -26,7 +26,7 @@ plant::Plant hall_of_one_wall() {
 
 std::shared_ptr<const mapping::MatchedMap> wall_map() {
     mapping::OccupancyMap map;
-    map.corner = {-100, -5};
+    map.corner = {-100, -5.025};  // so that a row of cells lies on the wall
     map.columns = 4000;
     map.rows = 200;
     map.free.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
