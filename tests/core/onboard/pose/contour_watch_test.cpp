@@ -16,22 +16,24 @@ std::shared_ptr<const mapping::MatchedMap> hall_map() {
     return kMap;
 }
 
+constexpr double kWall_m = -3.025;  // in the middle of a cell
+
 /// A wall of 200 m beside the way, and nothing else.
 plant::Plant hall_of_one_wall() {
     plant::Plant plant = mapping::testing::hall_with_jigs();
     plant.areas.clear();
-    plant.halls.front().outline = {{-100, -3}, {100, -3}, {100, 100}, {-100, 100}};
+    plant.halls.front().outline = {{-100, kWall_m}, {100, kWall_m}, {100, 100}, {-100, 100}};
     return plant;
 }
 
 std::shared_ptr<const mapping::MatchedMap> wall_map() {
     mapping::OccupancyMap map;
-    map.corner = {-100, -5.025};  // so that a row of cells lies on the wall
+    map.corner = {-100, -5};
     map.columns = 4000;
     map.rows = 200;
     map.free.assign(static_cast<std::size_t>(map.columns) * static_cast<std::size_t>(map.rows),
                     255);
-    const int wall = static_cast<int>(std::floor((-3 - map.corner.y_m) / map.cell_m));
+    const int wall = static_cast<int>(std::floor((kWall_m - map.corner.y_m) / map.cell_m));
     for (int column = 0; column < map.columns; ++column) {
         map.free[static_cast<std::size_t>(wall * map.columns + column)] = 0;
     }
