@@ -14,6 +14,9 @@ constexpr double kLead_mps = 0.05;
 // At rest noise is not worth a report.
 constexpr double kRest_m = 0.005;
 constexpr double kRest_rad = 0.002;
+// What a person errs by; where senses contradict by more, somebody has to look.
+constexpr double kErrs_m = 0.15;
+constexpr double kErrs_rad = 0.12;
 constexpr double kLead_radps = 0.02;
 
 }  // namespace
@@ -81,7 +84,10 @@ void MarkerWatch::take(const WayReading& reading) {
 
 void MarkerWatch::lead_at_rest(double dt_s) {
     const Pose2 off = inverse(trail_.believed()) * estimate_.pose();
-    if (norm(off.position()) < kRest_m && std::abs(off.heading_rad) < kRest_rad) return;
+    const double off_m = norm(off.position());
+    const double turned_rad = std::abs(off.heading_rad);
+    if (off_m < kRest_m && turned_rad < kRest_rad) return;
+    if (off_m > kErrs_m || turned_rad > kErrs_rad) return;
     lead_drive(dt_s * drive_.time_factor());
 }
 

@@ -27,7 +27,7 @@ public:
     void step(double dt_s, const std::deque<vda5050::OrderEdge>& ahead);
 
     /// Where it stands with nothing to do, what is known better by now is taken on, too, so that it
-    /// tells the pose that it knows. After each such step.
+    /// tells the pose that it knows; no more than a person errs by. After each such step.
     void lead_at_rest(double dt_s);
 
     /// A code comes into view soon, so that longer steps would pass it unseen: of the vehicle's own
