@@ -43,7 +43,11 @@ Json parameters_of(const std::string& action) {
                             parameter("theta", "NUMBER"), parameter("mapId", "STRING"),
                             parameter("lastNodeId", "STRING", true)});
     }
-    if (action == kObserveMarkers) return Json::array({parameter("markers", "ARRAY")});
+    if (action == kObserveMarkers) {
+        return Json::array({parameter("markers", "ARRAY"),
+                            parameter("segmentMarkers", "ARRAY", true),
+                            parameter("boundaryMarker", "STRING", true)});
+    }
     if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});
     if (action == kSetTransmitters) return Json::array({parameter("transmitters", "ARRAY")});
     if (action == kSetBracketHeight) {

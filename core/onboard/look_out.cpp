@@ -110,7 +110,7 @@ void LookOut::step(double dt_s) {
     const bool barred = stop || (barred_ && free_for_s_ < kFreeFor_s);
     changed_ |= barred != barred_;
     barred_ = barred;
-    drive_.slow_to(barred ? 0 : last_.speed_share);
+    drive_.slow_to(barred ? 0 : std::min(most_share_, last_.speed_share));
 }
 
 bool LookOut::take_changed() { return std::exchange(changed_, false); }

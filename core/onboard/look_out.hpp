@@ -25,6 +25,8 @@ public:
     void keep_room(bool keeps) { keeps_room_ = keeps; }
     /// Bars the way as the fields do, while somebody knows of something that they do not see.
     void bar(bool bars) { told_to_bar_ = bars; }
+    /// Whatever it sees, of every speed at most; 1: as it sees fit.
+    void keep_below(double share) { most_share_ = share; }
     void step(double dt_s);
     bool barred() const { return barred_; }
     /// The last look, one scan a scanner, and how many there have been. While nothing moves nor
@@ -51,6 +53,7 @@ private:
     std::size_t looks_ = 0;
     double until_scan_s_ = 0;
     double free_for_s_ = 0;
+    double most_share_ = 1;
     bool keeps_room_ = false;
     bool told_to_bar_ = false;
     bool barred_ = false;

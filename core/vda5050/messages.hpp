@@ -56,6 +56,10 @@ struct Action {
     std::vector<SurveyedMarker> markers = {};   // observeMarkers: codes that the cameras pass over
     std::vector<plant::Transmitter> transmitters = {};  // setTransmitters: all of its hall
     std::vector<plant::Reflector> reflectors = {};      // setReflectors: the same
+    // observeMarkers: those of `markers`, by payload, that its way relies on, the boundary marker
+    // among them, which is named again.
+    std::vector<std::string> segment_markers = {};
+    std::string boundary_marker = {};
 };
 
 struct OrderNode {
@@ -173,7 +177,7 @@ inline constexpr std::size_t kMostReflectorSights = 12;
 
 /// By what the vehicle knew last where it is, by its own word.
 struct NavigationStatus {
-    std::string by;     // person, stop, codes, igps, reflectors, contours; empty: it has not said
+    std::string by;       // person, stop, codes, igps, reflectors, contours; empty: it has not said
     double driven_m = 0;  // since then, by its wheels
     /// Of what its laser scanners meet, the share that its map of the hall has; negative: no map.
     double explained = -1;

@@ -176,6 +176,7 @@ void Vehicle::drive(double dt_s) {
         const double part_s = parts > 1 ? left_s / parts : left_s;
         // Whoever drives it by hand looks out.
         if (look_out_ && !executor_.in_hand()) {
+            look_out_->keep_below(watch_.segments().speed_share());
             look_out_->step(part_s);
             going_round_->step(part_s);
         }
@@ -200,9 +201,11 @@ void Vehicle::know_pose(double dt_s) {
     static const std::deque<vda5050::OrderEdge> kNone;
     const bool on_way = !executor_.acting() && !executor_.in_hand();
     const std::string refused = watch_.refused();
+    const std::size_t missed = watch_.segments().missed().size();
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
-    state_due_ |= refused != watch_.refused();
+    state_due_ |= refused != watch_.refused() || missed != watch_.segments().missed().size();
+    if (!look_out_ && !executor_.in_hand()) drive_->slow_to(watch_.segments().speed_share());
     const bool located = executor_.position_initialized();
     if (light_) {
         const bool lit = light_->newest().has_value();

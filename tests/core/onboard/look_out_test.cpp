@@ -52,5 +52,34 @@ TEST(LookOut, StopsBeforeAnotherVehicleAndGoesOnWhenThatHasLeft) {
     EXPECT_GT(asked, 20);
 }
 
+/// Told to go slowly it does, however free the floor is; then it drives as fast as before.
+TEST(LookOut, GoesNoFasterThanItIsTold) {
+    const auto type = differential();
+    const auto world = testing::world_of(type);
+    plant::Vehicle vehicle;
+    vehicle.type = type.id;
+    simulation::ServoDrive drive(type, {20, 30, 0}, 3);
+    simulation::SimulatedScanners scanners(world, plant::HallId("hall"), type, drive.true_pose(),
+                                           5);
+    LookOut look_out(scanners, vehicle, drive);
+    double fastest_mps = 0;
+    const auto run = [&](double seconds) {
+        fastest_mps = 0;
+        for (double t = 0; t < seconds; t += testing::kStep_s) {
+            look_out.step(testing::kStep_s);
+            drive.step(testing::kStep_s);
+            if (t > 4) fastest_mps = std::max(fastest_mps, drive.velocity_mps());
+        }
+    };
+    drive.append(simulation::testing::straight({20, 30, 0}, 25));
+    look_out.keep_below(0.3 / type.max_speed_mps);
+    run(10);
+    EXPECT_NEAR(fastest_mps, 0.3, 0.05);
+    look_out.keep_below(1);
+    run(8);
+    EXPECT_GT(fastest_mps, 0.6);
+    EXPECT_FALSE(look_out.barred());
+}
+
 }  // namespace
 }  // namespace pulseline::onboard
