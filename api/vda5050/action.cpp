@@ -99,6 +99,14 @@ std::vector<SurveyedMarker> read_markers(json::ObjectReader& in, json::CountLimi
     return markers;
 }
 
+void read_observed(json::ObjectReader& in, Action& action) {
+    action.markers = read_markers(in, {1, 64});
+    in.items_if_any("segmentMarkers", {0, 64}, [&](const Json& item, const std::string& pointer) {
+        action.segment_markers.push_back(json::read_text(item, pointer, in.errors(), {1, 200}));
+    });
+    action.boundary_marker = in.text_or("boundaryMarker", "", {0, 200});
+}
+
 StopTarget read_stop(json::ObjectReader& in) {
     StopTarget target;
     target.station_id = in.text("stationId", {0, 200});
@@ -182,6 +190,8 @@ Json encode_action(const Action& action) {
     if (action.stop_target) object.update(stop_parameters(*action.stop_target));
     if (action.init_position) object.update(init_parameters(*action.init_position));
     if (!action.markers.empty()) object["markers"] = markers_json(action.markers);
+    if (!action.segment_markers.empty()) object["segmentMarkers"] = action.segment_markers;
+    if (!action.boundary_marker.empty()) object["boundaryMarker"] = action.boundary_marker;
     if (action.type == kSetTransmitters) {
         object["transmitters"] = transmitters_json(action.transmitters);
     }
@@ -210,7 +220,7 @@ Action decode_action(const Json& value, const std::string& pointer, json::FieldE
     } else if (action.type == kInitPosition) {
         action.init_position = read_init_position(read);
     } else if (action.type == kObserveMarkers) {
-        action.markers = read_markers(read, {1, 64});
+        read_observed(read, action);
     } else if (action.type == kSetTransmitters) {
         action.transmitters = read_transmitters(read);
     } else if (action.type == kSetReflectors) {

@@ -45,7 +45,11 @@ Json parameters_of(const std::string& action) {
                             parameter("sigma_xy_m", "NUMBER", true),
                             parameter("sigma_heading_rad", "NUMBER", true)});
     }
-    if (action == kObserveMarkers) return Json::array({parameter("markers", "ARRAY")});
+    if (action == kObserveMarkers) {
+        return Json::array({parameter("markers", "ARRAY"),
+                            parameter("segmentMarkers", "ARRAY", true),
+                            parameter("boundaryMarker", "STRING", true)});
+    }
     if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});
     if (action == kSetTransmitters) return Json::array({parameter("transmitters", "ARRAY")});
     if (action == kSetBracketHeight) {

@@ -115,12 +115,12 @@ double sure_way_m(const KnownPose& known, double arm_m, double within_m,
 }
 
 double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget,
-                   const OdometryNoise& noise) {
+                   const OdometryNoise& noise, double off_m) {
     const double radius_m = view_radius_m(camera, size_m);
-    if (radius_m <= 0) return 0;
+    if (radius_m <= off_m) return 0;
     const KnownPose known{std::hypot(code_sigma_m(budget, camera, radius_m, 0), kSurvey_m),
                           std::hypot(code_sigma_rad(budget, 0), budget.marker.survey_rad)};
-    return sure_way_m(known, norm(camera.body_from_camera.position()), radius_m, noise);
+    return sure_way_m(known, norm(camera.body_from_camera.position()), radius_m - off_m, noise);
 }
 
 }  // namespace pulseline::localisation

@@ -52,8 +52,9 @@ double sure_way_m(const KnownPose& known, double arm_m, double within_m,
 /// eq. 5 as corrected (second line), with errors that grow as OdometryNoise says instead of as
 /// shares of the way alone, and with the error of the heading, which it leaves out and which is
 /// most of it. What codes have shown of the machine is not counted: the first two codes of a way
-/// lie as far apart as the last two.
+/// lie as far apart as the last two. `off_m`: what the code lies beside the line of the camera's
+/// foot.
 double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget = {},
-                   const OdometryNoise& noise = {});
+                   const OdometryNoise& noise = {}, double off_m = 0);
 
 }  // namespace pulseline::localisation

@@ -59,6 +59,10 @@ struct Action {
     std::vector<SurveyedMarker> markers = {};   // observeMarkers: codes that the cameras pass over
     std::vector<plant::Transmitter> transmitters = {};  // setTransmitters: all of its hall
     std::vector<plant::Reflector> reflectors = {};      // setReflectors: the same
+    // observeMarkers: those of `markers`, by payload, that its way relies on, the boundary marker
+    // among them, which is named again.
+    std::vector<std::string> segment_markers = {};
+    std::string boundary_marker = {};
 };
 
 struct OrderNode {

@@ -178,7 +178,7 @@ void Vehicle::drive(double dt_s) {
             look_out_->step(part_s);
             going_round_->step(part_s);
         }
-        guard_pose();
+        limit_speed();
         executor_.step(part_s);
         know_pose(part_s);
         left_s = parts > 1 ? left_s - part_s : 0;

@@ -96,7 +96,8 @@ private:
     void drive(double dt_s);
     void know_pose(double dt_s);
     void lead_at_rest(double dt_s);
-    void guard_pose();
+    double guard_pose();
+    void limit_speed();
     double most_step_s() const;
     void write_navigation(vda5050::NavigationStatus& status) const;
     void write_light(vda5050::StateMessage& state) const;

@@ -37,6 +37,7 @@ vda5050::StateMessage Vehicle::state() {
                                 "Code " + code + " does not lie where the survey says.",
                                 {{"marker", code}}});
     }
+    watch_.segments().write_state(state);
     if (light_) write_light(state);
     if (reflectors_) write_reflectors(state);
     if (executor_.position_initialized()) write_navigation(state.navigation);

@@ -29,9 +29,10 @@ void Vehicle::know_pose(double dt_s) {
     static const std::deque<vda5050::OrderEdge> kNone;
     const bool on_way = !executor_.acting() && !executor_.in_hand();
     const std::string refused = watch_.refused();
+    const std::size_t missed = watch_.segments().missed().size();
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
-    state_due_ |= refused != watch_.refused();
+    state_due_ |= refused != watch_.refused() || missed != watch_.segments().missed().size();
     const bool located = executor_.position_initialized();
     if (light_) {
         const bool lit = light_->newest().has_value();
@@ -60,24 +61,33 @@ void Vehicle::lead_at_rest(double dt_s) {
     if (rests && executor_.position_initialized()) watch_.lead_at_rest(dt_s);
 }
 
-/// At a stop its codes tell where it is, and who drives it by hand sees that.
-void Vehicle::guard_pose() {
-    if (!guard_ || executor_.in_hand()) return;
+/// By what the scanners see, the codes that it missed and how well it knows where it is; who drives
+/// it by hand sees that.
+void Vehicle::limit_speed() {
+    if (executor_.in_hand()) return;
     double share = look_out_ ? look_out_->speed_share() : 1;
+    share = std::min({share, watch_.segments().speed_share(), guard_pose()});
+    drive_->slow_to(share);
+}
+
+/// Of the speed, what is left to a vehicle that knows its place as badly as this one. At a stop its
+/// codes tell where it is.
+double Vehicle::guard_pose() {
+    if (!guard_) return 1;
     const auto advice = executor_.position_initialized() && !executor_.acting()
                             ? guard_->advice(estimate_)
                             : onboard::PoseGuard::Advice::kDrive;
     const bool vague = advice == onboard::PoseGuard::Advice::kDriveSlowly;
-    if (vague) share = std::min(share, onboard::PoseGuard::kSlowShare);
     state_due_ |= vague != vague_;
     vague_ = vague;
-    drive_->slow_to(share);
-    if (advice != onboard::PoseGuard::Advice::kStay) return;
-    executor_.lose_pose({"poseUncertain",
-                         true,
-                         "Nothing has told the vehicle for too long where it is. Say where it "
-                         "stands.",
-                         {}});
+    if (advice == onboard::PoseGuard::Advice::kStay) {
+        executor_.lose_pose({"poseUncertain",
+                             true,
+                             "Nothing has told the vehicle for too long where it is. Say where it "
+                             "stands.",
+                             {}});
+    }
+    return vague ? onboard::PoseGuard::kSlowShare : 1;
 }
 
 void Vehicle::note_rest() {

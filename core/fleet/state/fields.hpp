@@ -88,7 +88,7 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Action>
 void fields(V& visit, S& it) {
     auto& [type, id, blocking, stop_target, init_position, params, markers, transmitters,
-           reflectors] = it;
+           reflectors, segment_markers, boundary_marker] = it;
     visit(type, id, blocking, stop_target, init_position, params, transmitters, reflectors);
 }
 PULSELINE_FIELDS(OrderNode, node_id, sequence_id, released, pose, has_heading,

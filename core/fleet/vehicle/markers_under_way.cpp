@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/fleet/vehicle/body.hpp"
+#include "core/fleet/vehicle/leg_markers.hpp"
 #include "core/localisation/codes_on_way.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -50,17 +51,22 @@ std::vector<const plant::Marker*> codes_near(const plant::Plant& plant, const st
     return near;
 }
 
-bool announces_it(const LiveVehicle& live) {
-    if (!live.factsheet) return false;
-    const auto& actions = live.factsheet->actions;
-    return std::find(actions.begin(), actions.end(), vda5050::kObserveMarkers) != actions.end();
+/// Which of the edge's codes its way relies on.
+void name_chain(const planning::LegChain& chain, vda5050::Action& action) {
+    for (const auto& on_edge : action.markers) {
+        const auto is_it = [&](const auto& one) { return one.payload == on_edge.payload; };
+        if (std::ranges::none_of(chain.markers, is_it)) continue;
+        action.segment_markers.push_back(on_edge.payload);
+        if (is_it(chain.markers.back())) action.boundary_marker = on_edge.payload;
+    }
 }
 
 }  // namespace
 
 void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std::string& hall,
                      vda5050::OrderMessage& order) {
-    if (order.edges.empty() || !announces_it(live)) return;
+    if (order.edges.empty() || !reads_under_way(live)) return;
+    const auto& chain = leg_markers(fleet, live);
     const auto cameras = plant::cameras_of(*live.type, is_loaded(live));
     const auto around = codes_near(fleet.plant, hall, order.edges, farthest_foot_m(cameras));
     for (vda5050::OrderEdge& edge : order.edges) {
@@ -79,6 +85,7 @@ void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std
                                       marker->size_m, marker->pose, marker->sigma_xy_m,
                                       marker->sigma_heading_rad});
         }
+        if (chain && *chain) name_chain(**chain, action);
         edge.actions.push_back(std::move(action));
     }
 }

@@ -8,7 +8,7 @@
 namespace pulseline::fleet {
 
 /// Puts observeMarkers on the edges of an order that pass over codes, for a vehicle that announces
-/// it.
+/// it, and says which of them its leg relies on (leg_markers). REQUIRES: the order is of its leg.
 void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std::string& hall,
                      vda5050::OrderMessage& order);
 

@@ -22,15 +22,22 @@ constexpr double kLead_radps = 0.02;
 }  // namespace
 
 MarkerWatch::MarkerWatch(WaySensing& sensing, Drive& drive, PoseEstimate& estimate)
-    : sensing_(sensing), drive_(drive), estimate_(estimate), trail_(drive) {}
+    : sensing_(sensing),
+      drive_(drive),
+      estimate_(estimate),
+      trail_(drive),
+      segments_(drive.type()) {}
 
 void MarkerWatch::step(double dt_s, const std::deque<vda5050::OrderEdge>& ahead) {
     const double own_s = dt_s * drive_.time_factor();
     trail_.step(own_s);
     expect(ahead);
+    const auto taken_before = static_cast<std::ptrdiff_t>(taken_.size());
     for (const auto& reading : sensing_.look_below(expected_, estimate_.pose(), own_s)) {
         take(reading);
     }
+    const std::span<const std::string> taken(taken_.begin() + taken_before, taken_.end());
+    segments_.step(ahead, taken, std::abs(drive_.velocity_mps()) * dt_s, estimate_.sigma_xy_m());
     if (!ahead.empty() && !drive_.standing()) lead_drive(own_s);
 }
 

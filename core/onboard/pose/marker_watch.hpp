@@ -8,6 +8,7 @@
 #include "core/onboard/drive.hpp"
 #include "core/onboard/pose/odometry_trail.hpp"
 #include "core/onboard/pose/pose_estimate.hpp"
+#include "core/onboard/pose/segment_watch.hpp"
 #include "core/onboard/way_sensing.hpp"
 #include "core/vda5050/messages.hpp"
 
@@ -40,6 +41,8 @@ public:
     /// Payload of a code that was refused, as it reads, until another one is taken; empty: none.
     const std::string& refused() const { return refused_; }
     const OdometryTrail& trail() const { return trail_; }
+    /// What its way relies on, and whether it was read.
+    const SegmentWatch& segments() const { return segments_; }
 
 private:
     void expect(const std::deque<vda5050::OrderEdge>& ahead);
@@ -50,6 +53,7 @@ private:
     Drive& drive_;
     PoseEstimate& estimate_;
     OdometryTrail trail_;
+    SegmentWatch segments_;
     std::vector<vda5050::SurveyedMarker> expected_;
     std::vector<std::string> read_;  // of the codes near a camera
     std::vector<std::string> taken_;

@@ -25,44 +25,71 @@ double whole_way_m(std::span<const Segment> segments) {
     return length_m;
 }
 
+/// How far beside the line from `a` to `b` a place lies; past its ends, how far from them.
+double off_line_m(geometry::Point2 a, geometry::Point2 b, geometry::Point2 place) {
+    const geometry::Point2 line = b - a;
+    const double length2 = dot(line, line);
+    const double share = length2 > 0 ? std::clamp(dot(place - a, line) / length2, 0.0, 1.0) : 0;
+    return distance(a + share * line, place);
+}
+
 /// Stretches of the way on which one camera has one code in view.
 class Sightings {
 public:
-    Sightings(std::size_t code, const plant::Marker& marker, const plant::Camera& camera,
-              double caught_within_m)
+    Sightings(std::size_t code, const plant::Marker& marker, const plant::Camera& camera)
         : code_(code),
+          at_(marker.pose.position()),
           marker_(marker),
           camera_(camera),
-          sigma_m_(localisation::known_by_code(camera, marker).place_m),
-          caught_within_m_(caught_within_m),
           reach_m_(norm(camera.body_from_camera.position()) +
                    std::max(0.0, localisation::view_radius_m(camera, marker.size_m))) {}
 
     void look_along(const Segment& segment, double before_m) {
-        const double away_m = distance(segment.start.position(), marker_.pose.position());
+        const double away_m = distance(segment.start.position(), at_);
         if (away_m > std::abs(segment.length_m) + reach_m_) return;
         const std::span<const plant::Camera> one(&camera_, 1);
         for (const double share : localisation::seen_at(marker_, one, segment)) {
-            see_at(before_m + share * std::abs(segment.length_m));
+            const auto foot =
+                kinematics::pose_at(segment, share) * camera_.body_from_camera.position();
+            see_at(before_m + share * std::abs(segment.length_m), foot);
         }
     }
-    const std::vector<CodePass>& passes() const { return passes_; }
+
+    std::vector<CodePass> passes(const localisation::OdometryNoise& noise) const {
+        std::vector<CodePass> passes;
+        for (const Sight& sight : sights_) {
+            passes.push_back(
+                {code_, sight.from_m, sight.to_m,
+                 localisation::known_by_code(camera_, marker_).place_m,
+                 localisation::blind_way_m(camera_, marker_.size_m, {}, noise, sight.off_m)});
+        }
+        return passes;
+    }
 
 private:
-    void see_at(double way_m) {
-        if (passes_.empty() || way_m - passes_.back().to_m > kOneSight_m) {
-            passes_.push_back({code_, way_m, way_m, sigma_m_, caught_within_m_});
+    struct Sight {
+        double from_m = 0;
+        double to_m = 0;
+        geometry::Point2 foot;  // of the camera, seen last
+        double off_m = 0;       // what the code lies beside the foot's line
+    };
+
+    void see_at(double way_m, geometry::Point2 foot) {
+        if (sights_.empty() || way_m - sights_.back().to_m > kOneSight_m) {
+            sights_.push_back({way_m, way_m, foot, distance(foot, at_)});
         }
-        passes_.back().to_m = std::max(passes_.back().to_m, way_m);
+        Sight& sight = sights_.back();
+        sight.to_m = std::max(sight.to_m, way_m);
+        sight.off_m = std::min(sight.off_m, off_line_m(sight.foot, foot, at_));
+        sight.foot = foot;
     }
 
     std::size_t code_;
+    geometry::Point2 at_;
     const plant::Marker& marker_;
     const plant::Camera& camera_;
-    double sigma_m_;
-    double caught_within_m_;
     double reach_m_;  // from the body's middle
-    std::vector<CodePass> passes_;
+    std::vector<Sight> sights_;
 };
 
 bool is_code_of(const plant::Station* station, const plant::Marker& marker) {
@@ -85,13 +112,13 @@ std::vector<CodePass> passes_of(const plant::Plant& plant, const plant::HallId& 
         const plant::Marker& marker = plant.markers[code];
         if (marker.hall != hall) continue;
         for (const plant::Camera& camera : reach.cameras()) {
-            Sightings sightings(code, marker, camera, reach.at_most_m(marker.size_m));
+            Sightings sightings(code, marker, camera);
             double before_m = 0;
             for (const Segment& segment : segments) {
                 sightings.look_along(segment, before_m);
                 before_m += std::abs(segment.length_m);
             }
-            for (const CodePass& pass : sightings.passes()) {
+            for (const CodePass& pass : sightings.passes(reach.noise())) {
                 if (is_under_way(pass, is_code_of(station, marker), length_m)) {
                     passes.push_back(pass);
                 }

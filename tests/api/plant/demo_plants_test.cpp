@@ -1,11 +1,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <string>
 #include <variant>
 
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/layout.hpp"
+#include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/validate.hpp"
 
@@ -113,7 +115,22 @@ TEST_P(DemoPlant, EveryVehicleCanDriveHomeFromEveryStationOfItsTypeAndBack) {
     }
 }
 
-/// Wherever it goes from a station to another, it catches the next code.
+/// What is relied on along all ways of a plant.
+struct ChainFigures {
+    int ways = 0;
+    std::size_t most_markers = 0;
+    double worst_m = 0;
+    double arrival_m = 0;
+
+    void add(const planning::LegChain& chain) {
+        ++ways;
+        most_markers = std::max(most_markers, chain.markers.size());
+        worst_m = std::max(worst_m, chain.worst_m);
+        arrival_m = std::max(arrival_m, chain.arrival_m);
+    }
+};
+
+/// Wherever it goes from a station to another, it catches the next code, and has a marker chain.
 TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
     const Plant plant = demo(GetParam());
     const planning::LegPlanner planner(plant);
@@ -121,7 +138,10 @@ TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
         const auto& types = station.vehicle_types;
         return types.empty() || std::find(types.begin(), types.end(), vehicle.type) != types.end();
     };
+    ChainFigures figures;
     for (const Vehicle& vehicle : plant.vehicles) {
+        const planning::CodeReach reach(*find_vehicle_type(plant, vehicle.type),
+                                        is_loaded(vehicle));
         for (const Station& from : plant.stations) {
             for (const Station& to : plant.stations) {
                 if (from.id == to.id || !serves(from, vehicle) || !serves(to, vehicle)) continue;
@@ -132,9 +152,18 @@ TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
                     << vehicle.id.str() << " from " << from.number << " to " << to.number << ": "
                     << plan->blind.way_m << " m without a code, " << plan->blind.at_most_m
                     << " m are sure";
+                const auto chain = planning::leg_chain(plant, to.hall, reach, &to, plan->segments);
+                if (!chain) continue;
+                EXPECT_TRUE(*chain) << vehicle.id.str() << " from " << from.number << " to "
+                                    << to.number << ": " << chain->error().what;
+                if (*chain) figures.add(**chain);
             }
         }
     }
+    std::printf(
+        "[ chains   ] %s: %d ways, at most %zu markers, sigma %.1f mm, on arrival %.1f mm\n",
+        GetParam(), figures.ways, figures.most_markers, 1e3 * figures.worst_m,
+        1e3 * figures.arrival_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlant,

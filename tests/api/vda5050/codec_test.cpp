@@ -75,6 +75,8 @@ TEST(Order, AnEdgeMayAskToObserveMarkersAndForNothingElse) {
     EXPECT_EQ(action.markers[1].payload, expected.markers[1].payload);
     EXPECT_EQ(action.markers[1].pose, expected.markers[1].pose);
     EXPECT_EQ(action.markers[1].sigma_rad, expected.markers[1].sigma_rad);
+    EXPECT_EQ(action.segment_markers, expected.segment_markers);
+    EXPECT_EQ(action.boundary_marker, expected.boundary_marker);
     EXPECT_TRUE(read->edges[1].actions.empty());
 
     message["edges"][0]["actions"][0]["actionType"] = "beep";
@@ -82,6 +84,20 @@ TEST(Order, AnEdgeMayAskToObserveMarkersAndForNothingElse) {
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().reason.code, "action_not_supported");
     EXPECT_EQ(refused.error().field, "/edges/0/actions/0");
+}
+
+TEST(Order, NamesOfMarkersThatTheWayReliesOnAreOptional) {
+    auto sent = testing::order();
+    auto& observe = sent.edges[0].actions[0];
+    observe.segment_markers.clear();
+    observe.boundary_marker.clear();
+    const std::string text = encode_order(sent, header());
+    EXPECT_EQ(text.find("segmentMarkers"), std::string::npos);
+    EXPECT_EQ(text.find("boundaryMarker"), std::string::npos);
+    const auto read = decode_order(parsed(text));
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(read->edges[0].actions[0].segment_markers.empty());
+    EXPECT_TRUE(read->edges[0].actions[0].boundary_marker.empty());
 }
 
 TEST(Order, ACorridorOfTheCentreAloneIsNone) {

@@ -99,6 +99,8 @@ inline vda5050::OrderMessage order() {
     observe.id = "leg-1-e0-observeMarkers";
     observe.blocking = vda5050::BlockingType::kNone;
     observe.markers = stop_target().markers;
+    observe.segment_markers = {observe.markers[0].payload, observe.markers[1].payload};
+    observe.boundary_marker = observe.markers[1].payload;
     message.edges.back().actions = {observe};
     add(straight(at, 2, kPi), true);
     add(turn(at, -1.3), true);

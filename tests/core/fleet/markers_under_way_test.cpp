@@ -36,6 +36,44 @@ TEST(MarkersUnderWay, AnOrderNamesTheCodesOnEachEdge) {
     EXPECT_NE(std::find(payloads.begin(), payloads.end(), "ST02-F"), payloads.end());
 }
 
+/// A code on the way to station 2, where it passes from station 1.
+plant::Plant with_code_half_way() {
+    plant::Plant plant = small_plant();
+    const auto* from = plant::find_station(plant, 1);
+    const auto* to = plant::find_station(plant, 2);
+    plant::Marker marker = plant.markers.front();
+    marker.id = plant::MarkerId("half-way");
+    marker.payload = "half-way";
+    const auto middle = 0.5 * (from->pose.position() + to->pose.position());
+    marker.pose = {middle.x_m, middle.y_m, 0};
+    plant.markers.push_back(marker);
+    return plant;
+}
+
+TEST(MarkersUnderWay, AnOrderSaysWhichCodesItsWayReliesOn) {
+    World world(with_code_half_way());
+    const auto& order = *order_of(world, {"observeMarkers"});
+    std::vector<std::string> segment_markers;
+    std::string boundary;
+    for (const auto& edge : order.edges) {
+        for (const auto& action : edge.actions) {
+            for (const auto& payload : action.segment_markers) segment_markers.push_back(payload);
+            if (!action.boundary_marker.empty()) boundary = action.boundary_marker;
+            for (const auto& payload : action.segment_markers) {
+                EXPECT_NE(
+                    std::ranges::find(action.markers, payload, &vda5050::SurveyedMarker::payload),
+                    action.markers.end());
+            }
+        }
+    }
+    ASSERT_FALSE(segment_markers.empty());
+    EXPECT_NE(std::ranges::find(segment_markers, boundary), segment_markers.end());
+
+    const auto view = world.fleet->vehicle(plant::VehicleId("V1"), world.now);
+    ASSERT_TRUE(view->leg && view->leg->chain && *view->leg->chain);
+    EXPECT_EQ((*view->leg->chain)->markers.back().payload, boundary);
+}
+
 TEST(MarkersUnderWay, AVehicleThatDoesNotAnnounceItIsNotAsked) {
     World silent;
     EXPECT_TRUE(observed(*order_of(silent, {})).empty());

@@ -120,6 +120,16 @@ TEST_F(LegChainTest, WithoutAChainItSaysWhereAMarkerHelps) {
     EXPECT_TRUE(*chain());
 }
 
+/// What lies at the border of the picture is seen only by who is exactly on its line.
+TEST_F(LegChainTest, ACodeBesideTheLineIsLessSurelyCaught) {
+    codes_every(sparse_m());
+    EXPECT_TRUE(*chain());
+    plant_.markers[3].pose.y_m += 0.01;
+    EXPECT_TRUE(*chain());
+    plant_.markers[3].pose.y_m += 0.03;
+    EXPECT_FALSE(*chain()) << "40 mm of 45 mm beside it";
+}
+
 TEST_F(LegChainTest, ATurnMakesItLessSure) {
     codes_every(10);
     const double straight_m = (*chain())->arrival_m;

@@ -38,6 +38,16 @@ describe("the check of codes on the way", () => {
     expect(codesCheck(gap(9.2, 17.3))).toBeUndefined();
     expect(codesCheck({ ...gap(52, 17.3), feasible: false })).toBeUndefined();
   });
+  it("notes where one would help", () => {
+    const params = { gap_m: 40, at_most_m: 17, x_m: 20, y_m: 30 };
+    const chain = { markers: [], reason: { code: "no_marker_chain", params } };
+    expect(codesCheck({ ...gap(52, 17.3), marker_chain: chain })).toEqual({
+      code: "codes_on_way",
+      result: "note",
+      params: { widest_gap_m: 40, at_most_m: 17, x_m: 20, y_m: 30 },
+    });
+    expect(codesCheck(option({ marker_chain: { markers: [] } }))).toBeUndefined();
+  });
   it("notes how far it would drive without one", () =>
     expect(codesCheck(gap(52, 17.3))).toEqual({
       code: "codes_on_way",

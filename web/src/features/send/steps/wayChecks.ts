@@ -17,13 +17,20 @@ export function floorCheck(
   return { code: "floor", result: "fail", params: names === "" ? {} : { closure: names, by } };
 }
 
-/** Farther without a code than it may drive to catch the next one: said, not refused. */
+/** Farther without a code than it may drive to catch the next one, or to know its place: said, not refused. */
 export function codesCheck(option: ModeOption | undefined): ShownCheck | undefined {
-  const gap = option?.feasible === true ? option.codes_on_way : undefined;
-  if (gap === undefined || gap.widest_gap_m <= gap.at_most_m) return undefined;
-  return {
+  if (option?.feasible !== true) return undefined;
+  const note = (params: ShownCheck["params"]): ShownCheck => ({
     code: "codes_on_way",
     result: "note",
-    params: { widest_gap_m: gap.widest_gap_m, at_most_m: gap.at_most_m },
-  };
+    params,
+  });
+  const missing = option.marker_chain?.reason?.params;
+  if (missing !== undefined) {
+    const { gap_m, ...rest } = missing;
+    return note(gap_m === undefined ? rest : { widest_gap_m: gap_m, ...rest });
+  }
+  const gap = option.codes_on_way;
+  if (gap === undefined || gap.widest_gap_m <= gap.at_most_m) return undefined;
+  return note({ widest_gap_m: gap.widest_gap_m, at_most_m: gap.at_most_m });
 }
