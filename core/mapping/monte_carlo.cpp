@@ -51,6 +51,7 @@ constexpr double kBehind_m = 0.5;
 
 struct MatchedMap {
     OccupancyMap map;
+    /// Seen from the map's corner: MRPT moves a corner to a multiple of the cell.
     mrpt::maps::COccupancyGridMap2D::Ptr grid;
 
     bool is_occupied(Point2 place) const {
@@ -122,15 +123,13 @@ struct MatchedMap {
 
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     auto matched = std::make_shared<MatchedMap>();
-    const Point2 far = map.corner + Point2{map.columns * map.cell_m, map.rows * map.cell_m};
     matched->grid = mrpt::maps::COccupancyGridMap2D::Create(
-        static_cast<float>(map.corner.x_m), static_cast<float>(far.x_m),
-        static_cast<float>(map.corner.y_m), static_cast<float>(far.y_m),
-        static_cast<float>(map.cell_m));
+        0.0F, static_cast<float>(map.columns * map.cell_m), 0.0F,
+        static_cast<float>(map.rows * map.cell_m), static_cast<float>(map.cell_m));
     for (int row = 0; row < map.rows; ++row) {
         for (int column = 0; column < map.columns; ++column) {
             const float free = map.occupied(column, row) ? 0.0F : 1.0F;
-            const Point2 middle = map.middle_of(column, row);
+            const Point2 middle = map.middle_of(column, row) - map.corner;
             matched->grid->setPos(static_cast<float>(middle.x_m), static_cast<float>(middle.y_m),
                                   free);
         }
@@ -177,7 +176,8 @@ void MonteCarlo::Particles::spread(const Pose2& about, const Eigen::Matrix3d& ro
                                    unsigned count) {
     std::mt19937_64 random(seed * 1000003 + ++looks);
     std::normal_distribution<double> normal;
-    cloud.resetDeterministic({about.x_m, about.y_m, about.heading_rad}, count);
+    const Point2 in_map = about.position() - map->map.corner;
+    cloud.resetDeterministic({in_map.x_m, in_map.y_m, about.heading_rad}, count);
     for (auto& particle : cloud.m_particles) {
         const Eigen::Vector3d off =
             root * Eigen::Vector3d(normal(random), normal(random), normal(random));
@@ -206,7 +206,9 @@ Pose2 MonteCarlo::Particles::mean(const std::vector<double>& weights) const {
         mean +=
             weights[i] * Eigen::Vector3d(at.x - first.x, at.y - first.y, wrap(at.phi - first.phi));
     }
-    return {first.x + mean[0], first.y + mean[1], wrap(first.phi + mean[2])};
+    const Point2 corner = map->map.corner;
+    return {corner.x_m + first.x + mean[0], corner.y_m + first.y + mean[1],
+            wrap(first.phi + mean[2])};
 }
 
 namespace {

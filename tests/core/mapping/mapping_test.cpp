@@ -106,6 +106,23 @@ TEST(MonteCarlo, FromADecimetreAndFiveDegreesOffLooksTellWhereItIsAndHowWell) {
     EXPECT_GT(inside, 0.85 * all);
 }
 
+/// Nothing says that a corner is a multiple of the cell.
+TEST(MonteCarlo, AMapMayLieAnywhere) {
+    const geometry::Point2 away{1000.021, -300.013};
+    auto moved = hall_map();
+    moved.corner = moved.corner + away;
+    MonteCarlo here(prepare(hall_map()), 1);
+    MonteCarlo there(prepare(moved), 1);
+    Scanning scanning(1);
+    const Pose2 at{2, 0, 0.3};
+    const auto& scans = scanning.from(at);
+    const Pose2 at_there{at.x_m + away.x_m, at.y_m + away.y_m, at.heading_rad};
+    const auto one = here.look(at, sigmas(0.05, 0.03), kNone, kNone, scans).check;
+    const auto two = there.look(at_there, sigmas(0.05, 0.03), kNone, kNone, scans).check;
+    ASSERT_TRUE(one.anything);
+    EXPECT_LT(distance(one.pose.position() + away, two.pose.position()), 1e-6);
+}
+
 TEST(MonteCarlo, SeesThatItStandsSomewhereElse) {
     MonteCarlo particles(prepare(hall_map()), 1);
     Scanning scanning(1);

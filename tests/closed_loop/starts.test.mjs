@@ -1,0 +1,118 @@
+// Vehicles that are switched on somewhere: half of them near a station, half anywhere on the floor. Each finds itself by what
+// it sees or asks a person, who points at it 0.1 m and 5 deg off; what it then says of its place holds. Truth judges.
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { test } from "node:test";
+import { Client } from "../harness/client.mjs";
+import { System, until } from "../harness/processes.mjs";
+
+const ROUNDS = Number(process.env.PULSELINE_STARTS ?? 2), FACTOR = 8, LOOKS_S = 30, DEG = Math.PI / 180;
+const PERSON_M = 0.1, PERSON_DEG = 5;
+
+/** Small seeded generator: the same starts for the same seed. */
+function mulberry(state) {
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+const wayBetween = (a, b) => Math.hypot(a.x_m - b.x_m, a.y_m - b.y_m);
+
+function awayFromEdge(at, outline) {
+  return Math.min(...outline.map((a, i) => {
+    const b = outline[(i + 1) % outline.length], dx = b.x_m - a.x_m, dy = b.y_m - a.y_m;
+    const share = Math.min(1, Math.max(0, ((at.x_m - a.x_m) * dx + (at.y_m - a.y_m) * dy) / (dx * dx + dy * dy)));
+    return Math.hypot(a.x_m + share * dx - at.x_m, a.y_m + share * dy - at.y_m);
+  }));
+}
+function isInside(at, outline) {
+  return outline.reduce((inside, a, i) => {
+    const b = outline[(i + 1) % outline.length];
+    return (a.y_m > at.y_m) !== (b.y_m > at.y_m) && at.x_m < a.x_m + ((at.y_m - a.y_m) / (b.y_m - a.y_m)) * (b.x_m - a.x_m) ? !inside : inside;
+  }, false);
+}
+
+/** Places for all, with room for each body however it is turned. */
+function starts(model, random) {
+  const [hall] = model.halls, taken = [];
+  const radius = ({ type }) => {
+    const { footprint, load_footprint } = model.vehicle_types.find(({ id }) => id === type);
+    return Math.max(...[...footprint, ...(load_footprint ?? [])].map(({ x_m, y_m }) => Math.hypot(x_m, y_m)));
+  };
+  const isFree = (at, r) => isInside(at, hall.outline) && awayFromEdge(at, hall.outline) > r
+    && model.areas.filter(({ kind }) => kind === "obstacle" || kind === "no_go").every(({ outline }) => !isInside(at, outline) && awayFromEdge(at, outline) > r)
+    && taken.every((other) => wayBetween(at, other) > r + other.r);
+  const anywhere = () => ({ x_m: random() * 120, y_m: random() * 60, heading_rad: (2 * random() - 1) * Math.PI });
+  const nearAStation = (vehicle) => {
+    const own = model.stations.filter(({ vehicle_types }) => !vehicle_types?.length || vehicle_types.includes(vehicle.type));
+    const { pose } = own[Math.floor(random() * own.length)], off = () => (2 * random() - 1) * 0.15;
+    return { x_m: pose.x_m + off(), y_m: pose.y_m + off(), heading_rad: pose.heading_rad + off() };
+  };
+  // The largest first: the others find a place beside them.
+  return [...model.vehicles].sort((a, b) => radius(b) - radius(a)).map((vehicle, i) => {
+    const r = radius(vehicle) + 0.3, near = i % 2 === 0;
+    for (let tries = 0; tries < 1000; ++tries) {
+      const at = near && tries < 200 ? nearAStation(vehicle) : anywhere();
+      if (!isFree(at, r)) continue;
+      taken.push({ ...at, r });
+      return { vehicle, at };
+    }
+    throw new Error(`no room for ${vehicle.id}`);
+  });
+}
+
+/** What it says of its place, against where it is; waits until it has said it of where it stands. */
+async function holds(client, id, truth) {
+  const said = await client.get(`/api/v1/vehicles/${id}`);
+  assert.equal(said.claimed_pose, undefined, `${id} says that it stands where it cannot`);
+  const off_m = wayBetween(said.pose, truth);
+  assert.ok(off_m <= said.pose_deviation_m, `${id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`);
+  return said;
+}
+
+const done = { itself: 0, asked: 0, byWalls: 0 };
+
+for (let round = 1; round <= ROUNDS; ++round) {
+  test(`twelve vehicles switched on somewhere, round ${round}: each finds itself or asks, and knows how well it knows`, async (t) => {
+    const system = await System.create("final-assembly");
+    t.after(() => system.stop());
+    const random = mulberry(round);
+    const all = starts(system.plant.model, random);
+    system.prepareVehicles(all.map(({ vehicle }) => vehicle.id));
+    await system.startServer();
+    const client = new Client(system.url, system.apiToken);
+    for (const [i, { vehicle, at }] of all.entries()) {
+      const line = { t_ms: Date.now(), vehicle: vehicle.id, ...at, moving: false, order_id: "", last_node_seq: 0, base_end_seq: 0 };
+      writeFileSync(`${system.truthLog}.${vehicle.id}`, `${JSON.stringify(line)}\n`);
+      system.startAgent(vehicle.id, { seed: 100 * round + i, timeFactor: FACTOR, sensing: "analytic", extra: ["--drive", "servo", "--maps", "db/maps/final-assembly"] });
+    }
+    const begun_ms = Date.now();
+    for (const { vehicle: { id }, at } of all) {
+      const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && Date.now() - begun_ms > LOOKS_S / FACTOR * 1e3)), "finds itself or asks");
+      if (first.pose_known) {
+        await holds(client, id, at);
+        ++done.itself;
+        continue;
+      }
+      ++done.asked;
+      const away = random() * 2 * Math.PI, turned = (random() < 0.5 ? 1 : -1) * PERSON_DEG * DEG;
+      await client.post(`/api/v1/vehicles/${id}/init-position`, { x_m: at.x_m + PERSON_M * Math.cos(away), y_m: at.y_m + PERSON_M * Math.sin(away), heading_rad: at.heading_rad + turned });
+      await client.untilVehicle(id, (v) => v.pose_known, "knows what it was told");
+      const told_ms = Date.now();
+      await until(`${id} to look around`, () => Date.now() - told_ms > LOOKS_S / FACTOR * 1e3 / 2);
+      const said = await client.get(`/api/v1/vehicles/${id}`);
+      if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
+      await holds(client, id, at);
+      done.byWalls += said.navigation?.by === "contours" && said.pose_deviation_m < PERSON_M;
+    }
+  });
+}
+
+test("of them some found themselves, some asked, and of these some were found by the walls", () => {
+  console.log(`# ${JSON.stringify(done)}`);
+  assert.ok(done.itself > 0 && done.asked > 0 && done.byWalls > 0, JSON.stringify(done));
+  assert.equal(done.itself + done.asked, 12 * ROUNDS);
+});
