@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
     Options options;
     options.folder = PULSELINE_EXPERIMENTS;
     app.add_option("NAME", name)
-        ->check(CLI::IsMember({"all", "igps", "landmark-accuracy", "navigation", "self-positioning",
-                               "stop-adjustment", "stops"}));
+        ->check(CLI::IsMember({"all", "igps", "landmark-accuracy", "navigation", "segments",
+                               "self-positioning", "stop-adjustment", "stops"}));
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     app.add_option("--stretch", options.stretch,
@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
     if (name == "all" || name == "igps") good &= igps(options);
     if (name == "all" || name == "landmark-accuracy") good &= landmark_accuracy(options);
     if (name == "all" || name == "navigation") good &= navigation(options);
+    if (name == "all" || name == "segments") good &= segments(options);
     if (name == "all" || name == "self-positioning") good &= self_positioning(options);
     if (name == "all" || name == "stop-adjustment") good &= stop_adjustment(options);
     if (name == "all" || name == "stops") good &= stops(options);
