@@ -13,6 +13,7 @@ struct Scan {
     double first_rad = 0;
     double step_rad = 0;
     std::vector<float> ranges_m;
+    bool blind = false;  // its window is dirty or covered, as it says itself
 };
 
 }  // namespace pulseline::control

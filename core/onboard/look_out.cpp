@@ -86,6 +86,8 @@ control::FieldAnswer LookOut::look() {
     if (still(twist)) return {};
     ++looks_;
     scanners_.scan(scans_);
+    blind_ = std::ranges::any_of(scans_, &control::Scan::blind);
+    if (blind_) return stopped_by({});
     auto answer = check(twist);
     const double run_m = drive_.run_ahead_m();
     if (!keeps_room_ || run_m == 0) return answer;
@@ -118,6 +120,11 @@ bool LookOut::take_changed() { return std::exchange(changed_, false); }
 void LookOut::write_state(vda5050::StateMessage& state) const {
     if (!barred_) return;
     state.field_violation = true;
+    if (blind_) {
+        state.errors.push_back(
+            {kBlind, false, "a scanner cannot see: clean its window; then it goes on", {}});
+        return;
+    }
     char where[64] = "";
     if (last_.nearest) {
         std::snprintf(where, sizeof where, " %.2f m ahead and %.2f m to the left of its centre",

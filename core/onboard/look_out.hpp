@@ -11,11 +11,13 @@
 namespace pulseline::onboard {
 
 /// The vehicle's scanners and the fields that follow its motion: beside something it drives slower,
-/// before something it stops and waits until that is gone. Not a safety function, as little as the
-/// fields are.
+/// before something it stops and waits until that is gone. With a scanner that cannot see it stays.
+/// Not a safety function, as little as the fields are.
 class LookOut {
 public:
-    static constexpr const char* kObstacle = "obstacle";  // type of the error it reports
+    // Types of the errors that it reports.
+    static constexpr const char* kObstacle = "obstacle";
+    static constexpr const char* kBlind = "scannerBlind";
 
     /// `drive` is slowed down by it; both must outlive it.
     LookOut(Scanners& scanners, const plant::Vehicle& vehicle, Drive& drive);
@@ -56,6 +58,7 @@ private:
     bool keeps_room_ = false;
     bool told_to_bar_ = false;
     bool barred_ = false;
+    bool blind_ = false;
     bool changed_ = false;
 };
 

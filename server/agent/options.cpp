@@ -157,7 +157,8 @@ Result<Fault> parse_fault(const std::string& text) {
             Errc::kInvalid, "bad_fault",
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, scanner-covered, obstacle=X,Y, way-free, "
+                "camera-dark, transmitter-dark=NAME, scanner-covered, look-out-covered, "
+                "obstacle=X,Y, way-free, "
                 "carried=AHEAD,LEFT,DEGREES or carried-driving=AHEAD,LEFT,DEGREES, "
                 "each with @SECONDS "
                 "or without");
@@ -175,6 +176,7 @@ Result<Fault> parse_fault(const std::string& text) {
     for (const auto& [name, kind] : {std::pair{"marker-lost", Fault::Kind::kMarkerLost},
                                      std::pair{"camera-dark", Fault::Kind::kDark},
                                      std::pair{"scanner-covered", Fault::Kind::kScannerCovered},
+                                     std::pair{"look-out-covered", Fault::Kind::kLookOutCovered},
                                      std::pair{"way-free", Fault::Kind::kWayFree}}) {
         if (what != name) continue;
         fault.kind = kind;

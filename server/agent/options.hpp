@@ -34,13 +34,14 @@ struct Fault {
         kWayFree,
         kTransmitterDark,
         kScannerCovered,
+        kLookOutCovered,
         kCarried,
         kCarriedDriving
     };
     Kind kind = Kind::kWheel;
-    std::string part;         // the wheel, or the transmitter
-    double share = 0;         // of the rim's speed that slips
-    geometry::Point2 place;   // of the obstacle's centre, hall frame; it is 0.5 m wide and long
+    std::string part;        // the wheel, or the transmitter
+    double share = 0;        // of the rim's speed that slips
+    geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     double after_s = 0;
     geometry::Pose2 carried = {};  // to where, seen from where it was
 };

@@ -227,7 +227,11 @@ void Vehicle::apply(const Fault& fault) {
             if (scanners_) scanners_->put(thing_at(fault.place));
             return;
         case Fault::Kind::kWayFree:
-            if (scanners_) scanners_->take_away();
+            if (!scanners_) return;
+            scanners_->take_away();
+            return scanners_->clean();
+        case Fault::Kind::kLookOutCovered:
+            if (scanners_) scanners_->cover();
             return;
         case Fault::Kind::kTransmitterDark:
             if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));

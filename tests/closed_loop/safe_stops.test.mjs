@@ -12,7 +12,7 @@ let system, client;
 
 before(async () => {
   system = await System.create("final-assembly");
-  system.prepareVehicles(["DL-01", "DL-02", "MV-01", "TP-01", "OM-01"]);
+  system.prepareVehicles(["DL-01", "DL-02", "DL-03", "MV-01", "TP-01", "OM-01"]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
 });
@@ -42,6 +42,17 @@ test("something in the way: it waits before it, says so, and goes on when the wa
   await until("it stands", () => !moves("DL-01"));
   const { x_m } = system.lastTruth("DL-01");
   assert.ok(Math.abs(x_m - 97) > 0.25 + 0.5, `it stands at ${x_m}, the box at 97`);
+  assert.equal((await client.untilEnded(order.id)).state, "Ended");
+});
+
+test("its scanners' windows covered on the way: it stops, names what it lacks, and goes on when they are clean", async () => {
+  await start("DL-03", ["--fault", "look-out-covered@3", "--fault", "way-free@12"]);
+  const order = await client.order("DL-03", [36]);
+  const blind = await client.untilVehicle("DL-03", (v) => v.errors.some((error) => error.type === "scannerBlind"), "is blind");
+  assert.equal(blind.activity, "blocked");
+  assert.equal(blind.reason.code, "field_violation");
+  assert.ok(!blind.errors.some((error) => error.type === "obstacle"), JSON.stringify(blind.errors));
+  await standsStill("DL-03");
   assert.equal((await client.untilEnded(order.id)).state, "Ended");
 });
 

@@ -1,5 +1,8 @@
 #include "core/simulation/world/scanners.hpp"
 
+#include <algorithm>
+#include <limits>
+
 namespace pulseline::simulation {
 namespace {
 
@@ -32,6 +35,10 @@ void SimulatedScanners::scan(std::vector<control::Scan>& scans) {
     scans.resize(scanners_.size());
     for (std::size_t i = 0; i < scanners_.size(); ++i) {
         scanners_[i].scan(true_pose_, seen_, random_, scans[i]);
+        scans[i].blind = covered_;
+        if (covered_) {
+            std::ranges::fill(scans[i].ranges_m, std::numeric_limits<float>::infinity());
+        }
     }
 }
 

@@ -22,6 +22,9 @@ public:
     /// Something not in the drawing, hall frame.
     void put(geometry::Polygon obstacle) { others_.push_back(std::move(obstacle)); }
     void take_away() { others_.clear(); }
+    /// The windows of all of them, until they are cleaned.
+    void cover() { covered_ = true; }
+    void clean() { covered_ = false; }
     /// The bodies of the vehicles near a place, as they truly stand now: asked at every scan.
     using Neighbours = std::function<void(geometry::Point2, std::vector<geometry::Polygon>&)>;
     void see(Neighbours neighbours) { neighbours_ = std::move(neighbours); }
@@ -35,6 +38,7 @@ private:
     Neighbours neighbours_;
     std::vector<geometry::Polygon> seen_;  // by the last scan, beside what stands for good
     std::mt19937_64 random_;
+    bool covered_ = false;
 };
 
 }  // namespace pulseline::simulation

@@ -52,5 +52,42 @@ TEST(LookOut, StopsBeforeAnotherVehicleAndGoesOnWhenThatHasLeft) {
     EXPECT_GT(asked, 20);
 }
 
+TEST(LookOut, WithAWindowCoveredItStaysUntilThatIsClean) {
+    const auto type = differential();
+    const auto world = testing::world_of(type);
+    plant::Vehicle vehicle;
+    vehicle.type = type.id;
+    simulation::ServoDrive drive(type, {20, 30, 0}, 3);
+    simulation::SimulatedScanners scanners(world, plant::HallId("hall"), type, drive.true_pose(),
+                                           5);
+    LookOut look_out(scanners, vehicle, drive);
+    const auto run = [&](double seconds) {
+        for (double t = 0; t < seconds; t += testing::kStep_s) {
+            look_out.step(testing::kStep_s);
+            drive.step(testing::kStep_s);
+        }
+    };
+    drive.append(simulation::testing::straight({20, 30, 0}, 15));
+    run(5);
+    ASSERT_FALSE(drive.standing());
+    const double covered_at_m = drive.true_pose().x_m;
+    scanners.cover();
+    run(10);
+    EXPECT_TRUE(look_out.barred());
+    EXPECT_TRUE(drive.standing());
+    EXPECT_LT(drive.true_pose().x_m, covered_at_m + 1.5);
+    vda5050::StateMessage state;
+    look_out.write_state(state);
+    ASSERT_EQ(state.errors.size(), 1u);
+    EXPECT_EQ(state.errors.front().type, LookOut::kBlind);
+
+    scanners.clean();
+    run(60);
+    EXPECT_NEAR(drive.believed_pose().x_m, 35, 0.01);
+    state = {};
+    look_out.write_state(state);
+    EXPECT_TRUE(state.errors.empty());
+}
+
 }  // namespace
 }  // namespace pulseline::onboard
