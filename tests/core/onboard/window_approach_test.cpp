@@ -12,6 +12,7 @@
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/machine/vehicle_motion.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
+#include "tests/core/simulation/platform.hpp"
 
 namespace pulseline::onboard {
 namespace {
@@ -156,6 +157,76 @@ TEST(WindowApproach, IsNotUsedWhereMovesAreBetter) {
     control::AdjustmentLimits fine;
     fine.good_m = 0.0005;
     EXPECT_FALSE(WindowApproach::helps(mecanum(), {0.05, -0.05, 0.01}, fine, kTick_s));
+}
+
+/// The last two metres, from where the boundary marker has corrected it by a few millimetres.
+struct LastWay {
+    double time_s = 0;
+    double end_m = 0;     // off the station
+    double beside_m = 0;  // of the line that was planned and is held, at most
+};
+
+template <class Step>
+LastWay driven(SimulatedDrive& drive, const Pose2& target, Step step) {
+    LastWay way;
+    for (int i = 0; i < kMostTicks && step(); ++i) {
+        drive.step(kTick_s);
+        way.time_s += kTick_s;
+        way.beside_m = std::max(way.beside_m, std::abs(drive.believed_pose().y_m));
+    }
+    way.end_m = norm((inverse(drive.believed_pose()) * target).position());
+    return way;
+}
+
+/// Li 2022 drives from the boundary marker to the station by the window. Here the leg's line is
+/// driven to its end: it takes less time and stays on the floor that is held.
+TEST(WindowApproach, FromTheBoundaryMarkerTheLineOfTheLegIsBetter) {
+    const Pose2 target{2, 0, 0};
+    for (const auto& type : {platform(), mecanum(), differential()}) {
+        LastWay line;
+        LastWay window;
+        constexpr int kSeeds = 20;
+        for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+            const auto add = [](LastWay& sum, const LastWay& one) {
+                sum.time_s += one.time_s / kSeeds;
+                sum.end_m = std::max(sum.end_m, one.end_m);
+                sum.beside_m = std::max(sum.beside_m, one.beside_m);
+            };
+            const Pose2 corrected{0, seed % 2 == 0 ? 0.005 : -0.005, radians(0.1)};
+            const auto by_line = make_drive(true, type, seed);
+            by_line->set_believed(corrected);
+            by_line->append(simulation::testing::straight({0, 0, 0}, 2));
+            add(line,
+                driven(*by_line, target, [&] { return !by_line->idle() || !by_line->standing(); }));
+
+            const auto by_window = make_drive(true, type, seed);
+            by_window->set_believed(corrected);
+            control::DynamicWindowOptions options;
+            options.top_speed_mps = type.max_speed_mps;
+            options.tolerance_m = 0.002;
+            control::DynamicWindow chooser(type, options);
+            kinematics::Twist asked;
+            bool reached = false;
+            int tick = 0;
+            add(window, driven(*by_window, target, [&] {
+                    if (reached) return !by_window->standing();
+                    if (tick++ % 3 != 0) return true;
+                    const auto command =
+                        chooser.step({asked, by_window->believed_pose(), target, 3 * kTick_s, {}});
+                    reached = command.state != control::WindowCommand::State::kDriving;
+                    asked = reached ? kinematics::Twist{} : command.twist;
+                    by_window->steer(asked);
+                    return true;
+                }));
+        }
+        std::printf(
+            "[ last 2 m ] %s: line %.2f s, %.2f mm off, %.1f mm beside; window %.2f s, %.2f mm, "
+            "%.1f mm\n",
+            type.name.c_str(), line.time_s, 1e3 * line.end_m, 1e3 * line.beside_m, window.time_s,
+            1e3 * window.end_m, 1e3 * window.beside_m);
+        EXPECT_LT(line.time_s, window.time_s) << type.name;
+        EXPECT_LT(line.end_m, 0.003) << type.name;
+    }
 }
 
 TEST(WindowApproach, ALookOnTheWayCorrectsWhereItBelievesToBe) {
