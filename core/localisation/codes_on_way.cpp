@@ -114,6 +114,32 @@ double sure_way_m(const KnownPose& known, double arm_m, double within_m,
     return sure_m;
 }
 
+double turn_sigma_rad(double turn_rad, bool brakes, const OdometryNoise& noise) {
+    const double turned2 = square(noise.heading_rad_per_sqrt_rad) * std::abs(turn_rad);
+    // It settles where it brakes from its speed, and a little where the turn ends
+    // (PoseFilter::rest).
+    const double stood2 = square(noise.fine_rad + noise.settle_rad) + square(noise.fine_rad);
+    return std::sqrt(turned2 + (brakes ? stood2 : 0));
+}
+
+double as_straight_m(const KnownPose& known, double way_m, double arm_m,
+                     std::span<const TurnBehind> turns, const OdometryNoise& noise) {
+    double turned2 = 0;
+    for (const TurnBehind& turn : turns) {
+        turned2 +=
+            square(turn_sigma_rad(turn.turn_rad, turn.brakes, noise) * (turn.rest_m + arm_m));
+    }
+    if (turned2 == 0) return way_m;
+    const double across_m = std::sqrt(square(across_sigma_m(known, way_m, arm_m, noise)) + turned2);
+    double less_m = way_m;
+    double more_m = kFarthest_m;
+    while (more_m - less_m > 0.01) {
+        const double middle_m = (less_m + more_m) / 2;
+        (across_sigma_m(known, middle_m, arm_m, noise) < across_m ? less_m : more_m) = middle_m;
+    }
+    return less_m;
+}
+
 double blind_way_m(const plant::Camera& camera, double size_m, const ErrorBudget& budget,
                    const OdometryNoise& noise, double off_m) {
     const double radius_m = view_radius_m(camera, size_m);

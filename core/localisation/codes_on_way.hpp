@@ -47,6 +47,22 @@ KnownPose known_by_code(const plant::Camera& camera, const plant::Marker& marker
 double sure_way_m(const KnownPose& known, double arm_m, double within_m,
                   const OdometryNoise& noise);
 
+/// A turn on a way, and what is driven behind it.
+struct TurnBehind {
+    double turn_rad = 0;
+    double rest_m = 0;
+    bool brakes = true;  // before it turns on the spot, and stands behind that
+};
+
+/// One sigma [rad] that a turn adds to the heading.
+double turn_sigma_rad(double turn_rad, bool brakes, const OdometryNoise& noise);
+
+/// The straight way [m] after which three sigma across are what they are after `way_m` with these
+/// turns on it: each leaves the heading less known for the rest of the way. Never less than
+/// `way_m`.
+double as_straight_m(const KnownPose& known, double way_m, double arm_m,
+                     std::span<const TurnBehind> turns, const OdometryNoise& noise);
+
 /// The longest way [m] without a code after which the camera still catches the next one: three
 /// sigma across the way, and the view's radius. 0: it cannot see a code of that size whole. Li 2022
 /// eq. 5 as corrected (second line), with errors that grow as OdometryNoise says instead of as

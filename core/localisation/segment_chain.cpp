@@ -34,6 +34,13 @@ private:
         return std::max(0.0, places_[to].from_m - places_[from].to_m);
     }
 
+    /// Without a code, as its reach is counted.
+    double blind_m(std::size_t from, std::size_t to) const {
+        const double gap = gap_m(from, to);
+        if (gap == 0 || gap > places_[to].caught_within_m) return gap;
+        return task_.as_straight_m(places_[from].to_m, places_[to].from_m);
+    }
+
     /// Eq. 4.
     double sigma_before_m(std::size_t from, std::size_t to) const {
         const CodePass& last = places_[from];
@@ -41,7 +48,7 @@ private:
     }
 
     bool holds(std::size_t from, std::size_t to) const {
-        return gap_m(from, to) <= places_[to].caught_within_m + kChainRounding_m &&
+        return blind_m(from, to) <= places_[to].caught_within_m + kChainRounding_m &&
                sigma_before_m(from, to) <= task_.limit_m + kChainRounding_m;
     }
 
@@ -130,8 +137,9 @@ private:
         double most_m = -std::numeric_limits<double>::infinity();
         for (std::size_t to = 1; to < places_.size(); ++to) {
             if (holds(to - 1, to)) continue;
+            const double turns_m = blind_m(to - 1, to) - gap_m(to - 1, to);
             const double at_most_m =
-                std::min(places_[to].caught_within_m, way_within_limit_m(to - 1));
+                std::min(places_[to].caught_within_m - turns_m, way_within_limit_m(to - 1));
             const double too_much_m = gap_m(to - 1, to) - at_most_m;
             if (too_much_m <= most_m) continue;
             most_m = too_much_m;

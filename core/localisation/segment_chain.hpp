@@ -33,6 +33,10 @@ struct ChainTask {
     /// What motion from one place of the way to another adds to sigma: C s_m of eq. 4. Never less
     /// for a longer stretch.
     std::function<double(double from_m, double to_m)> motion_m;
+    /// A stretch of the way as caught_within_m counts it, with what turns on it add
+    /// (as_straight_m).
+    std::function<double(double from_m, double to_m)> as_straight_m =
+        [](double from_m, double to_m) { return to_m - from_m; };
 };
 
 struct ChainMarker {

@@ -18,7 +18,9 @@ using vda5050::Topic;
 
 namespace {
 
-constexpr double kRangeSigmas = 3;  // what deviationRange covers
+// What deviationRange covers, both axes together as in Li 2022, Table 1: of three sigma of one axis
+// one place in a hundred lies outside.
+constexpr double kRangeSigmas = 3;
 
 }  // namespace
 
@@ -49,7 +51,8 @@ vda5050::StateMessage Vehicle::state() {
                                 {}});
     }
     state.cameras = sensing_.readings();
-    state.deviation_range_m = kRangeSigmas * estimate_.sigma_xy_m();
+    const auto covariance = estimate_.covariance();
+    state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1));
     state.localization_score = estimate_.score();
     return state;
 }

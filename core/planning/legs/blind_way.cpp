@@ -114,6 +114,24 @@ double CodeReach::at_most_m(double size_m) const {
     return known->second;
 }
 
+double CodeReach::as_straight_m(double from_m, double to_m, std::span<const TurnAt> turns) const {
+    std::vector<localisation::TurnBehind> behind;
+    for (const TurnAt& turn : turns) {
+        if (turn.at_m >= from_m && turn.at_m <= to_m) {
+            behind.push_back({turn.turn_rad, to_m - turn.at_m, turn.brakes});
+        }
+    }
+    if (behind.empty()) return to_m - from_m;
+    localisation::KnownPose known{kByBeacons_m, kByBeacons_rad};
+    double arm_m = 0;
+    for (const auto& camera : cameras_) {
+        const double own_m = norm(camera.body_from_camera.position());
+        if (own_m >= arm_m) known = localisation::known_by_code(camera, {});
+        arm_m = std::max(arm_m, own_m);
+    }
+    return localisation::as_straight_m(known, to_m - from_m, arm_m, behind, noise_);
+}
+
 double CodeReach::in_the_dark_m() const {
     if (!in_the_dark_m_) {
         in_the_dark_m_ =
@@ -141,6 +159,21 @@ bool CodeReach::is_lit(const plant::Plant& plant, const plant::HallId& hall,
     return known->second;
 }
 
+std::vector<TurnAt> turns_on(std::span<const kinematics::Segment> segments) {
+    std::vector<TurnAt> turns;
+    double before_m = 0;
+    for (const auto& segment : segments) {
+        const double length_m = std::abs(segment.length_m);
+        // Where the way begins it stands already.
+        const bool brakes = segment.kind == kinematics::Segment::Kind::kRotate && before_m > 0;
+        if (segment.turn_rad != 0) {
+            turns.push_back({before_m + length_m / 2, segment.turn_rad, brakes});
+        }
+        before_m += length_m;
+    }
+    return turns;
+}
+
 BlindWay blind_way(const LegTask& task, const std::vector<kinematics::Segment>& segments) {
     const bool by_codes = !task.reach.cameras().empty() && !task.plant.markers.empty();
     const bool by_beacons = has_beacons(task);
@@ -151,10 +184,13 @@ BlindWay blind_way(const LegTask& task, const std::vector<kinematics::Segment>& 
     if (const double at_most_m = at_end_m(task); at_most_m > 0) {
         sights.push_back({length_m, length_m, at_most_m});
     }
+    const auto turns = turns_on(segments);
     BlindWay worst;
     double seen_m = 0;  // way until which it found itself last
     for (const Sight& sight : sights) {
-        const BlindWay gap{sight.from_m - seen_m, sight.at_most_m};
+        const double gap_m = sight.from_m - seen_m;
+        const double turns_m = task.reach.as_straight_m(seen_m, sight.from_m, turns) - gap_m;
+        const BlindWay gap{gap_m, sight.at_most_m - turns_m};
         if (gap.way_m - gap.at_most_m > worst.way_m - worst.at_most_m) worst = gap;
         seen_m = std::max(seen_m, sight.to_m);
     }

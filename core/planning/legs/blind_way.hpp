@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <vector>
 
@@ -9,6 +10,15 @@
 #include "core/planning/legs/road_leg.hpp"
 
 namespace pulseline::planning {
+
+/// A turn of a way, and how far along.
+struct TurnAt {
+    double at_m = 0;
+    double turn_rad = 0;
+    bool brakes = true;  // TurnBehind
+};
+/// Of these segments, in their order; those of arcs and of combined ways in their middles.
+std::vector<TurnAt> turns_on(std::span<const kinematics::Segment> segments);
 
 /// How far a body drives without a code or light so that it still finds itself at the next, as its
 /// machine comes from assembly. Kept once worked out: no const thread safety.
@@ -21,6 +31,8 @@ public:
     const localisation::OdometryNoise& noise() const { return noise_; }
     /// By localisation::blind_way_m, of its best camera.
     double at_most_m(double size_m) const;
+    /// A stretch of the way as long as at_most_m counts it: with the turns on it.
+    double as_straight_m(double from_m, double to_m, std::span<const TurnAt> turns) const;
     /// Until beacons are seen again: as long as it stays on the floor that traffic keeps beside it.
     double in_the_dark_m() const;
     /// Whether the light of two transmitters falls on it there, or it sees three reflectors, looked

@@ -129,36 +129,25 @@ std::vector<CodePass> passes_of(const plant::Plant& plant, const plant::HallId& 
     return passes;
 }
 
-/// What motion adds to sigma between two places of the way; turns make the heading less known.
+/// What motion adds to sigma between two places of the way; turns make the heading less known, from
+/// the first place on as far as eq. 4 knows.
 class WayErrors {
 public:
-    WayErrors(std::span<const Segment> segments, double heading_rad,
+    WayErrors(const std::vector<TurnAt>& turns, double heading_rad,
               const localisation::OdometryNoise& noise)
-        : segments_(segments), heading_rad_(heading_rad), noise_(noise) {}
+        : turns_(turns), heading_rad_(heading_rad), noise_(noise) {}
 
     double operator()(double from_m, double to_m) const {
-        const double turned_rad = turns_until(to_m) - turns_until(from_m);
-        const double heading_rad =
-            std::sqrt(square(heading_rad_) + square(noise_.heading_rad_per_sqrt_rad) * turned_rad);
-        return kSafety * localisation::motion_sigma_m(heading_rad, to_m - from_m, noise_);
+        double heading2 = square(heading_rad_);
+        for (const TurnAt& turn : turns_) {
+            if (turn.at_m < from_m || turn.at_m >= to_m) continue;
+            heading2 += square(localisation::turn_sigma_rad(turn.turn_rad, turn.brakes, noise_));
+        }
+        return kSafety * localisation::motion_sigma_m(std::sqrt(heading2), to_m - from_m, noise_);
     }
 
 private:
-    /// A turn on the spot belongs to the way behind it.
-    double turns_until(double way_m) const {
-        double turned_rad = 0;
-        double before_m = 0;
-        for (const Segment& segment : segments_) {
-            if (before_m >= way_m) break;
-            const double length_m = std::abs(segment.length_m);
-            const double share = length_m > 0 ? std::min(1.0, (way_m - before_m) / length_m) : 1.0;
-            turned_rad += share * std::abs(segment.turn_rad);
-            before_m += length_m;
-        }
-        return turned_rad;
-    }
-
-    std::span<const Segment> segments_;
+    const std::vector<TurnAt>& turns_;
     double heading_rad_;
     localisation::OdometryNoise noise_;
 };
@@ -230,7 +219,11 @@ std::optional<Result<LegChain>> leg_chain(const plant::Plant& plant, const plant
     task.start_sigma_m = sigma_at_start(reach);
     task.goal_within_m = caught_at_station(plant, reach, station);
     task.limit_m = kChainLimit_m;
-    task.motion_m = WayErrors(segments, heading_by_codes(plant, task.passes), reach.noise());
+    const auto turns = turns_on(segments);
+    task.motion_m = WayErrors(turns, heading_by_codes(plant, task.passes), reach.noise());
+    task.as_straight_m = [&](double from_m, double to_m) {
+        return reach.as_straight_m(from_m, to_m, turns);
+    };
     const auto found = localisation::segment_chain(task);
     if (!found) return no_chain(found.error(), segments);
     LegChain chain{{}, found->arrival_m, found->worst_m, task.limit_m};

@@ -75,7 +75,8 @@ TEST(LookOut, WithAWindowCoveredItStaysUntilThatIsClean) {
     run(10);
     EXPECT_TRUE(look_out.barred());
     EXPECT_TRUE(drive.standing());
-    EXPECT_LT(drive.true_pose().x_m, covered_at_m + 1.5);
+    const double braking_m = type.max_speed_mps * type.max_speed_mps / (2 * type.max_accel_mps2);
+    EXPECT_LT(drive.true_pose().x_m, covered_at_m + braking_m + 0.5);
     vda5050::StateMessage state;
     look_out.write_state(state);
     ASSERT_EQ(state.errors.size(), 1u);

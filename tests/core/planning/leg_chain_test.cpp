@@ -224,6 +224,7 @@ TEST(RouteChain, SaysHowWellThePlaceIsKnownOnARoute) {
     ASSERT_TRUE(broken && !*broken);
     EXPECT_EQ(broken->error().reason.code, "no_marker_chain");
     lay(22);
+    lay(16);  // behind the turn at the start
     const auto chain = route_chain(plant, question, route);
     ASSERT_TRUE(chain && *chain);
     EXPECT_EQ((*chain)->markers.back().marker, plant::MarkerId("y34"));
