@@ -27,8 +27,8 @@ namespace {
 using geometry::Pose2;
 using kinematics::Segment;
 
-// In a way that is just sure without turns. Like Li's markers: at every fourth one the vehicle
-// still certainly sees the next, at every fifth it does not where it turns between them.
+// In a way that is just sure without turns. Much as Li's lay: where every fourth one is looked for
+// it still certainly sees the next if it turns once between them, and nowhere by every sixth.
 constexpr double kMarkersBlind = 6.2;
 // So that the last one before the station, the boundary marker, is one of every one, two and three
 // markers, and not of every four.
@@ -296,7 +296,7 @@ bool segments(const Options& options) {
         while (every <= kMarkers && courses[r].chain(every)) ++every;
         fmt::print("route {}: no chain by every {} markers (Li: 5) or fewer: {}\n", kRoutes[r].name,
                    every, every <= kMarkers ? courses[r].chain(every).error().what : "");
-        good &= every > 4 && every <= kMarkers / 2;
+        good &= every >= 4 && every <= 6;
     }
     return good;
 }
