@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "core/base/square.hpp"
 #include "core/localisation/covariance.hpp"
 
 namespace pulseline::onboard {
@@ -44,6 +46,21 @@ Eigen::Matrix3d no_more_shared(const Eigen::Matrix3d& before, const Eigen::Matri
            rest.eigenvectors().transpose();
 }
 
+/// Where one code puts the body, and how well.
+std::pair<Pose2, Eigen::Matrix3d> by_code(const localisation::CodeObservation& seen,
+                                          const localisation::SurveyedCode& code) {
+    const double heading_rad = wrap(code.pose.heading_rad - seen.up_rad);
+    const geometry::Point2 arm = Pose2{0, 0, heading_rad} * seen.centre;
+    const geometry::Point2 place = code.pose.position() - arm;
+    const double place2 = square(seen.sigma_m) + square(code.sigma_m);
+    const double angle2 = square(seen.sigma_up_rad) + square(code.sigma_heading_rad);
+    const Eigen::Vector3d swing(arm.y_m, -arm.x_m, 1);
+    const Eigen::Matrix3d covariance =
+        angle2 * swing * swing.transpose() +
+        Eigen::Matrix3d(Eigen::Vector3d(place2, place2, 0).asDiagonal());
+    return {{place.x_m, place.y_m, heading_rad}, covariance};
+}
+
 PoseSource source_of(localisation::Method method) {
     switch (method) {
         case localisation::Method::kIgps:
@@ -72,6 +89,7 @@ void PoseEstimate::drive_to(const Pose2& believed) {
 void PoseEstimate::catch_up() {
     const Pose2 way = inverse(driven_) * now_;
     filter_.drive(odometry_of(way));
+    if (other_) other_->filter.drive(odometry_of(way));
     since_m_ += norm(way.position());
     if (said_ago_m_) *said_ago_m_ += norm(way.position());
     driven_ = now_;
@@ -98,6 +116,7 @@ double PoseEstimate::driven_since_m() const {
 void PoseEstimate::rest(double speed_share) {
     catch_up();
     filter_.rest(speed_share);
+    if (other_) other_->filter.rest(speed_share);
 }
 
 /// Codes do not share what beacons have in common: against them all of it counts.
@@ -111,6 +130,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
     catch_up();
     filter_ = against_codes();
     lasting_.setZero();
+    other_.reset();
     if (!filter_.correct(fix)) {
         filter_.restart(fix.pose, localisation::matrix(fix.covariance));
         ++begun_;
@@ -124,11 +144,29 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
     catch_up();
     localisation::PoseFilter filter = against_codes();
     const Status corrected = filter.correct(seen, code);
-    if (!corrected) return corrected;
-    filter_ = filter;
+    if (corrected) {
+        filter_ = filter;
+    } else if (!begins_by(seen, code)) {
+        return corrected;
+    }
+    other_.reset();
     lasting_.setZero();
     note(PoseSource::kCodes);
     return {};
+}
+
+/// Two codes were moved alike less often than wheels slip.
+bool PoseEstimate::begins_by(const localisation::CodeObservation& seen,
+                             const localisation::SurveyedCode& code) {
+    if (other_ && other_->by != code.payload && other_->filter.correct(seen, code)) {
+        filter_ = other_->filter;
+        ++begun_;
+        return true;
+    }
+    const auto [pose, covariance] = by_code(seen, code);
+    other_ = Other{filter_, code.payload};
+    other_->filter.restart(pose, covariance);
+    return false;
 }
 
 /// By codes, and not so long ago that beacons, however often they are seen, would know it better.
@@ -163,6 +201,7 @@ void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     lasting_ = localisation::matrix(seen.lasting);
     ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
+    other_.reset();
     note(source_of(seen.fix.method));
 }
 
@@ -176,6 +215,7 @@ void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_h
     filter_.restart(pose, worked_out ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();
+    other_.reset();
     driven_ = now_ = pose;
     note(worked_out ? PoseSource::kStop : PoseSource::kPerson);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/localisation/beacon_fix.hpp"
 #include "core/localisation/pose_filter.hpp"
@@ -22,7 +23,9 @@ public:
     /// It has come to rest from this share of its full speed.
     void rest(double speed_share);
     /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
-    /// the pose alone, when it contradicts the way driven.
+    /// the pose alone, when it contradicts the way driven. When it agrees with another one that was
+    /// refused just before, and the way from there, the vehicle is where both put it: its wheels
+    /// have slipped.
     Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
     /// A pose by beacons, of where the vehicle is now; seen some centimetres ago, which the wheels
     /// have told since with errors of `since`. The filter's own way has the same errors, so that
@@ -67,9 +70,18 @@ private:
     void note(PoseSource source);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
+    bool begins_by(const localisation::CodeObservation& seen,
+                   const localisation::SurveyedCode& code);
+
+    /// Where it would be if a code that was refused were right.
+    struct Other {
+        localisation::PoseFilter filter;
+        std::string by;
+    };
 
     localisation::OdometryNoise noise_;
     localisation::PoseFilter filter_;
+    std::optional<Other> other_;
     /// Of the last pose by beacons: what all of them have in common, the filter does not count.
     Eigen::Matrix3d lasting_ = Eigen::Matrix3d::Zero();
     geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
