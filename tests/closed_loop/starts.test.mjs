@@ -64,16 +64,17 @@ function starts(model, random) {
   });
 }
 
-/** What it says of its place, against where it is; waits until it has said it of where it stands. */
-async function holds(client, id, truth) {
-  const said = await client.get(`/api/v1/vehicles/${id}`);
-  assert.equal(said.claimed_pose, undefined, `${id} says that it stands where it cannot`);
-  const off_m = wayBetween(said.pose, truth);
-  assert.ok(off_m <= said.pose_deviation_m, `${id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`);
-  return said;
-}
+const done = { itself: 0, asked: 0, byWalls: 0, beyond: 0 };
 
-const done = { itself: 0, asked: 0, byWalls: 0 };
+/** What it says of its place, against where it is: three sigma. By chance alone one in some hundreds lies a little beyond. */
+function holds(said, truth) {
+  assert.equal(said.claimed_pose, undefined, `${said.id} says that it stands where it cannot`);
+  const off_m = wayBetween(said.pose, truth), words = `${said.id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`;
+  assert.ok(off_m <= 1.2 * said.pose_deviation_m, words);
+  if (off_m <= said.pose_deviation_m) return;
+  ++done.beyond;
+  console.log(`# ${words}`);
+}
 
 for (let round = 1; round <= ROUNDS; ++round) {
   test(`twelve vehicles switched on somewhere, round ${round}: each finds itself or asks, and knows how well it knows`, async (t) => {
@@ -93,7 +94,7 @@ for (let round = 1; round <= ROUNDS; ++round) {
     for (const { vehicle: { id }, at } of all) {
       const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && Date.now() - begun_ms > LOOKS_S / FACTOR * 1e3)), "finds itself or asks");
       if (first.pose_known) {
-        await holds(client, id, at);
+        holds(first, at);
         ++done.itself;
         continue;
       }
@@ -105,7 +106,7 @@ for (let round = 1; round <= ROUNDS; ++round) {
       await until(`${id} to look around`, () => Date.now() - told_ms > LOOKS_S / FACTOR * 1e3 / 2);
       const said = await client.get(`/api/v1/vehicles/${id}`);
       if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
-      await holds(client, id, at);
+      holds(said, at);
       done.byWalls += said.navigation?.by === "contours" && said.pose_deviation_m < PERSON_M;
     }
   });
@@ -115,4 +116,5 @@ test("of them some found themselves, some asked, and of these some were found by
   console.log(`# ${JSON.stringify(done)}`);
   assert.ok(done.itself > 0 && done.asked > 0 && done.byWalls > 0, JSON.stringify(done));
   assert.equal(done.itself + done.asked, 12 * ROUNDS);
+  assert.ok(done.beyond <= Math.max(1, 0.01 * 12 * ROUNDS), JSON.stringify(done));
 });

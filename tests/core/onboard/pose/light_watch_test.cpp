@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "core/simulation/world/receivers.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
@@ -118,6 +119,33 @@ TEST(LightWatch, StandingItsMeanIsNearerThanOneLook) {
         EXPECT_LT(last->fix.sigma_xy_m, first->fix.sigma_xy_m);
     }
     EXPECT_LT(std::sqrt(mean2 / one2), 0.4);
+}
+
+/// Standing in the light of transmitters that are surveyed as plants have them, machine by machine.
+TEST(LightWatch, WhatItStatesOfItsPlaceHolds) {
+    int inside = 0;
+    int outside = 0;
+    double most = 0;
+    constexpr int kMachines = 300;
+    for (std::uint64_t seed = 1; seed <= kMachines; ++seed) {
+        plant::Plant plant = cell();
+        for (auto& transmitter : plant.transmitters) {
+            transmitter.position.x_m += static_cast<double>(seed % 7) - 3;
+        }
+        Lit lit(seed, plant, {0.01, -0.02, 0.01});
+        lit.stand(1.5);
+        const geometry::Pose2 off = inverse(lit.drive.true_pose()) * lit.estimate.pose();
+        const auto covariance = lit.estimate.covariance();
+        inside += std::abs(off.x_m) <= 1.96 * std::sqrt(covariance(0, 0));
+        inside += std::abs(off.y_m) <= 1.96 * std::sqrt(covariance(1, 1));
+        const double range = norm(off.position()) / std::sqrt(covariance(0, 0) + covariance(1, 1));
+        outside += range > 3;
+        most = std::max(most, range);
+    }
+    std::printf("[ light    ] %d of %d inside, %d outside of the range, most %.2f\n", inside,
+                2 * kMachines, outside, most);
+    EXPECT_GE(inside, 0.92 * 2 * kMachines);
+    EXPECT_EQ(outside, 0);
 }
 
 TEST(LightWatch, WithoutAPoseItTellsWhatItsReceiversSee) {
