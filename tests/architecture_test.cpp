@@ -216,9 +216,15 @@ TEST(Architecture, OmplIsInOneFileMrptInOneFolderAndOpenCvWhereImagesAre) {
     static const std::regex kOmpl("^\\s*#\\s*include\\s*<ompl/");
     static const std::regex kMrpt("^\\s*#\\s*include\\s*<mrpt/");
     static const std::regex kOpenCv("^\\s*#\\s*include\\s*<opencv2/");
-    static const std::vector<std::string> kImages = {
-        "core/vision/",      "core/calibration/", "core/printing/", "core/mapping/", "core/simulation/world/",
-        "api/localization/", "api/http/",         "api/plant/",     "server/"};
+    static const std::vector<std::string> kImages = {"core/vision/",
+                                                     "core/calibration/",
+                                                     "core/printing/",
+                                                     "core/mapping/",
+                                                     "core/simulation/world/",
+                                                     "api/localization/",
+                                                     "api/http/",
+                                                     "api/plant/",
+                                                     "server/"};
     std::set<std::string> ompl;
     for (const char* top : {"core", "api", "db", "server"}) {
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(PULSELINE_ROOT) / top)) {

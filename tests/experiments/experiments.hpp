@@ -34,9 +34,9 @@ bool navigation(const Options& options);
 /// them and by reflectors. False when it is worse than is asked, or a stated sigma does not hold.
 bool self_positioning(const Options& options);
 
-/// Li 2022, section 5.2, Table 2: where a measuring vehicle arrives on three routes by no marker, by
-/// every first to fourth one, and by the chain that is planned. False when the chain is worse than
-/// Li's, or one is found where markers lie too far apart.
+/// Li 2022, section 5.2, Table 2: where a measuring vehicle arrives on three routes by no marker,
+/// by every first to fourth one, and by the chain that is planned. False when the chain is worse
+/// than Li's, or one is found where markers lie too far apart.
 bool segments(const Options& options);
 
 /// Wang, section 5: stops at one place of the iGPS cell, steered and measured by light alone; what
