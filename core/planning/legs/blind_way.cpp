@@ -102,7 +102,14 @@ CodeReach::CodeReach(const plant::VehicleType& type, bool loaded)
       scanner_(type.navigation_scanner),
       noise_(cameras_.empty() && !has_beacons()
                  ? localisation::OdometryNoise()
-                 : localisation::odometry_noise(localisation::DriveErrors(), type)) {}
+                 : localisation::odometry_noise(localisation::DriveErrors(), type)),
+      known_{kByBeacons_m, kByBeacons_rad} {
+    for (const auto& camera : cameras_) {
+        const double own_m = norm(camera.body_from_camera.position());
+        if (own_m >= arm_m_) known_ = localisation::known_by_code(camera, {});
+        arm_m_ = std::max(arm_m_, own_m);
+    }
+}
 
 double CodeReach::at_most_m(double size_m) const {
     const auto [known, added] = at_most_m_.try_emplace(size_m, 0);
@@ -122,14 +129,7 @@ double CodeReach::as_straight_m(double from_m, double to_m, std::span<const Turn
         }
     }
     if (behind.empty()) return to_m - from_m;
-    localisation::KnownPose known{kByBeacons_m, kByBeacons_rad};
-    double arm_m = 0;
-    for (const auto& camera : cameras_) {
-        const double own_m = norm(camera.body_from_camera.position());
-        if (own_m >= arm_m) known = localisation::known_by_code(camera, {});
-        arm_m = std::max(arm_m, own_m);
-    }
-    return localisation::as_straight_m(known, to_m - from_m, arm_m, behind, noise_);
+    return localisation::as_straight_m(known_, to_m - from_m, arm_m_, behind, noise_);
 }
 
 double CodeReach::in_the_dark_m() const {

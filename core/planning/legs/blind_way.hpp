@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/localisation/codes_on_way.hpp"
 #include "core/localisation/odometry_noise.hpp"
 #include "core/planning/legs/road_leg.hpp"
 
@@ -44,6 +45,8 @@ private:
     double receiver_m_ = 0;  // how high they sit; 0: it has none
     std::optional<plant::NavigationScanner> scanner_;
     localisation::OdometryNoise noise_;
+    localisation::KnownPose known_;               // by what it finds itself by
+    double arm_m_ = 0;                            // of the camera that lies farthest out
     mutable std::map<double, double> at_most_m_;  // by size
     mutable std::optional<double> in_the_dark_m_;
     mutable std::map<std::tuple<plant::HallId, int, int>, bool> lit_;
