@@ -6,6 +6,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { Client } from "../harness/client.mjs";
 import { ROOT, System } from "../harness/processes.mjs";
+import { pick, randomOf } from "../harness/random.mjs";
 
 const { values } = parseArgs({ options: {
   hours: { type: "string", default: "10" }, "time-factor": { type: "string", default: "10" }, seed: { type: "string", default: "1" },
@@ -13,19 +14,8 @@ const { values } = parseArgs({ options: {
 } });
 const HOURS = Number(values.hours), FACTOR = Number(values["time-factor"]), SEED = Number(values.seed);
 const OPEN_EACH = 2, MOST_STEPS = 4, CANCELLED_A_LOOK = 5e-4, PATIENCE_S = 1800; // of the vehicles' time, for an order
-const random = mulberry(SEED);
+const random = randomOf(SEED);
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
-
-/** Small seeded generator: the same orders for the same seed. */
-function mulberry(state) {
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let t = Math.imul(state ^ (state >>> 15), 1 | state);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
-  };
-}
-const pick = (items) => items[Math.floor(random() * items.length)];
 
 const system = await System.create(values.plant);
 const { vehicles, stations } = system.plant.model;
@@ -49,7 +39,7 @@ let ended = 0, cancelled = 0;
 async function order(vehicle) {
   let last;
   const steps = Array.from({ length: 1 + Math.floor(random() * MOST_STEPS) }, () => {
-    do { var station = pick(stationsOf.get(vehicle)); } while (station === last);
+    do { var station = pick(random, stationsOf.get(vehicle)); } while (station === last);
     return (last = station);
   });
   const answer = await client.request("POST", "/api/v1/job-orders", { body: { vehicle, steps: steps.map((station) => ({ station })) } });
@@ -73,9 +63,12 @@ async function look() {
     }
   }
   const { items } = await client.get("/api/v1/vehicles");
-  for (const { id, needs_resume, pose_known, reason } of items) {
-    const calls = needs_resume ? `needs a person: ${reason?.code}` : pose_known ? "" : "lost its pose";
-    if (calls && waiting.get(id) !== calls) bad(`${id} ${calls}`);
+  for (const { id, needs_resume, pose_known, reason, errors, pose, navigation } of items) {
+    const calls = needs_resume ? `needs a person: ${reason?.code}` : pose_known ? "" : `lost its pose: ${errors.map(({ type }) => type).join(" ")}`;
+    if (calls && waiting.get(id) !== calls) {
+      bad(`${id} ${calls}`);
+      console.log(JSON.stringify({ id, stands: system.lastTruth(id), pose, navigation, errors, others: ids.map((other) => [other, system.lastTruth(other)?.x_m, system.lastTruth(other)?.y_m]) }));
+    }
     waiting.set(id, calls);
   }
 }

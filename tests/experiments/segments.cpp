@@ -20,6 +20,7 @@
 #include "server/agent/camera_sensing.hpp"
 #include "server/agent/map_hall.hpp"
 #include "tests/experiments/experiments.hpp"
+#include "tests/experiments/straight_way.hpp"
 
 namespace pulseline::experiments {
 namespace {
@@ -100,17 +101,7 @@ plant::Plant hall_with(plant::Plant plant, const plant::VehicleType& type,
     for (const Segment& segment : way) {
         const int markers = static_cast<int>(std::lround(segment.length_m / spacing_m));
         for (int i = 0; i < markers; ++i) {
-            plant::Marker marker;
-            const std::string number = std::to_string(plant.markers.size() + 1);
-            marker.id = plant::MarkerId("code-" + number);
-            marker.payload = number;
-            marker.kind = type.usual_code.kind;
-            marker.size_m = type.usual_code.size_m;
-            marker.hall = plant.halls.front().id;
-            marker.pose = segment.start * Pose2{(i + 0.5) * spacing_m, 0, 0};
-            marker.sigma_xy_m = 1e-4;
-            marker.sigma_heading_rad = 5e-4;
-            plant.markers.push_back(marker);
+            lay_code(plant, type, segment.start * Pose2{(i + 0.5) * spacing_m, 0, 0});
         }
     }
     return plant;

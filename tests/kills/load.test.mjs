@@ -9,7 +9,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
 import { BUILD, Plant, ROOT, System } from "../harness/processes.mjs";
-import { LoadHall, randomOf } from "./load_hall.mjs";
+import { randomOf } from "../harness/random.mjs";
+import { LoadHall } from "./load_hall.mjs";
 
 const number = (name, otherwise) => Number(process.env[name] ?? otherwise);
 const KILLS = number("PULSELINE_KILLS", 40), ROUNDS = number("PULSELINE_KILL_ROUNDS", 1);

@@ -8,21 +8,10 @@ import { join } from "node:path";
 import { manyVehicles } from "../bench/many_vehicles.mjs";
 import { Client } from "../harness/client.mjs";
 import { BUILD, System, until } from "../harness/processes.mjs";
+import { pick, randomOf } from "../harness/random.mjs";
 
 const VEHICLES = 6, CLIENTS = 3, OPEN_PER_VEHICLE = 2;
 const FINAL = ["Ended", "Aborted"];
-
-/** mulberry32: the same seed gives the same choices. */
-export function randomOf(seed) {
-  let a = seed >>> 0;
-  return () => {
-    a = (a + 0x6d2b79f5) >>> 0;
-    let t = Math.imul(a ^ (a >>> 15), 1 | a);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
-  };
-}
-export const pick = (random, list) => list[Math.floor(random() * list.length)];
 
 export class LoadHall {
   orders = new Map();  // by Idempotency-Key: what was asked and the most that was answered

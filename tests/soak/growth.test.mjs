@@ -1,7 +1,7 @@
 // The soak's own judgement: it finds what grows and lets stand what does not.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { randomOf } from "../kills/load_hall.mjs";
+import { randomOf } from "../harness/random.mjs";
 import { slope } from "./growth.mjs";
 
 /** Twenty minutes of RSS in MB, every 5 s: a line, noise, and a snapshot each two minutes that stands out for half of one. */
