@@ -79,9 +79,10 @@ for (let round = 1; round <= ROUNDS; ++round) {
       writeFileSync(`${system.truthLog}.${vehicle.id}`, `${JSON.stringify(line)}\n`);
       system.startAgent(vehicle.id, { seed: 100 * round + i, timeFactor: FACTOR, sensing: "analytic", extra: ["--drive", "servo", "--maps", "db/maps/final-assembly"] });
     }
-    const begun_ms = Date.now();
+    const lookedAround = (since_ms) => Date.now() - since_ms > LOOKS_S / FACTOR * 1e3;
+    const begun_ms = Date.now(), told = [];
     for (const { vehicle: { id }, at } of all) {
-      const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && Date.now() - begun_ms > LOOKS_S / FACTOR * 1e3)), "finds itself or asks");
+      const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && lookedAround(begun_ms))), "finds itself or asks");
       if (first.pose_known) {
         holds(first, at);
         ++done.itself;
@@ -91,8 +92,11 @@ for (let round = 1; round <= ROUNDS; ++round) {
       const away = random() * 2 * Math.PI, turned = (random() < 0.5 ? 1 : -1) * PERSON_DEG * DEG;
       await client.post(`/api/v1/vehicles/${id}/init-position`, { x_m: at.x_m + PERSON_M * Math.cos(away), y_m: at.y_m + PERSON_M * Math.sin(away), heading_rad: at.heading_rad + turned });
       await client.untilVehicle(id, (v) => v.pose_known, "knows what it was told");
-      const told_ms = Date.now();
-      await until(`${id} to look around`, () => Date.now() - told_ms > LOOKS_S / FACTOR * 1e3 / 2);
+      told.push({ id, at });
+    }
+    const told_ms = Date.now();
+    await until("all to look around", () => lookedAround(told_ms));
+    for (const { id, at } of told) {
       const said = await client.get(`/api/v1/vehicles/${id}`);
       if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
       holds(said, at);
