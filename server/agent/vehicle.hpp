@@ -96,10 +96,11 @@ private:
     void drive(double dt_s);
     void know_pose(double dt_s);
     void lead_at_rest(double dt_s);
-    double guard_pose();
+    void guard_pose(double dt_s);
     void limit_speed();
     double most_step_s() const;
     void write_navigation(vda5050::NavigationStatus& status) const;
+    void write_advice(vda5050::StateMessage& state) const;
     void write_light(vda5050::StateMessage& state) const;
     void write_reflectors(vda5050::StateMessage& state) const;
     void note_rest();
@@ -137,7 +138,7 @@ private:
     vda5050::HeaderSource headers_;
     Outbox outbox_;
     double fastest_share_ = 0;  // of its full speed, since it stood last; 0: it stands
-    bool vague_ = false;        // it drives slowly, since it knows less where it is
+    onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
     bool stopping_ = false;     // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;

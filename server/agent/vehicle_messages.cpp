@@ -43,13 +43,7 @@ vda5050::StateMessage Vehicle::state() {
     if (light_) write_light(state);
     if (reflectors_) write_reflectors(state);
     if (executor_.position_initialized()) write_navigation(state.navigation);
-    if (vague_ && !drive_->idle()) {
-        state.errors.push_back({"poseVague",
-                                false,
-                                "The vehicle knows less where it is and drives slowly until "
-                                "something tells it.",
-                                {}});
-    }
+    write_advice(state);
     state.cameras = sensing_.readings();
     const auto covariance = estimate_.covariance();
     state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1));
@@ -82,6 +76,23 @@ void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
     if (!contours_) return;
     if (const auto& explained = contours_->explained()) status.explained = *explained;
     if (const auto& why_not = contours_->why_not()) status.why_not = why_not->reason.code;
+}
+
+void Vehicle::write_advice(vda5050::StateMessage& state) const {
+    if (drive_->idle()) return;
+    if (advice_ == onboard::PoseGuard::Advice::kDriveSlowly) {
+        state.errors.push_back({"poseVague",
+                                false,
+                                "The vehicle knows less where it is and drives slowly until "
+                                "something tells it.",
+                                {}});
+    } else if (advice_ == onboard::PoseGuard::Advice::kLookAround) {
+        state.errors.push_back({"poseSought",
+                                false,
+                                "The vehicle knows too little where it is to drive. It stands and "
+                                "looks for something that tells it.",
+                                {}});
+    }
 }
 
 void Vehicle::write_light(vda5050::StateMessage& state) const {

@@ -52,6 +52,7 @@ void Vehicle::know_pose(double dt_s) {
         }
     }
     lead_at_rest(dt_s);
+    guard_pose(dt_s);
 }
 
 /// At a stop the procedure leads.
@@ -66,28 +67,25 @@ void Vehicle::lead_at_rest(double dt_s) {
 void Vehicle::limit_speed() {
     if (executor_.in_hand()) return;
     double share = look_out_ ? look_out_->speed_share() : 1;
-    share = std::min({share, watch_.segments().speed_share(), guard_pose()});
+    share = std::min({share, watch_.segments().speed_share(), onboard::speed_share(advice_)});
     drive_->slow_to(share);
 }
 
-/// Of the speed, what is left to a vehicle that knows its place as badly as this one. At a stop its
-/// codes tell where it is.
-double Vehicle::guard_pose() {
-    if (!guard_) return 1;
-    const auto advice = executor_.position_initialized() && !executor_.acting()
-                            ? guard_->advice(estimate_)
-                            : onboard::PoseGuard::Advice::kDrive;
-    const bool vague = advice == onboard::PoseGuard::Advice::kDriveSlowly;
-    state_due_ |= vague != vague_;
-    vague_ = vague;
-    if (advice == onboard::PoseGuard::Advice::kStay) {
-        executor_.lose_pose({"poseUncertain",
-                             true,
-                             "Nothing has told the vehicle for too long where it is. Say where it "
-                             "stands.",
-                             {}});
-    }
-    return vague ? onboard::PoseGuard::kSlowShare : 1;
+/// At a stop its codes tell where it is.
+void Vehicle::guard_pose(double dt_s) {
+    if (!guard_) return;
+    using Advice = onboard::PoseGuard::Advice;
+    const bool located = executor_.position_initialized() && !executor_.acting();
+    const bool driving = located && !drive_->idle() && !executor_.in_hand();
+    const Advice advice = guard_->step(dt_s * drive_->time_factor(), estimate_, driving);
+    state_due_ |= advice != advice_;
+    advice_ = located ? advice : Advice::kDrive;
+    if (advice_ != Advice::kAsk) return;
+    executor_.lose_pose({"poseUncertain",
+                         true,
+                         "Nothing has told the vehicle for too long where it is. Say where it "
+                         "stands, or drive it by hand to a code.",
+                         {}});
 }
 
 void Vehicle::note_rest() {

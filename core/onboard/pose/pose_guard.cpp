@@ -7,9 +7,9 @@ namespace pulseline::onboard {
 namespace {
 
 constexpr double kReachSigmas = 3;
-constexpr double kSlowFrom = 0.75;  // of what is held
-// To the second code at least: those of lanes lie 9 m apart at most, and one can be missed.
-constexpr double kFromAPerson_m = 25;
+// Of what is held; the rest of it is for braking.
+constexpr double kSlowFrom = 0.75;
+constexpr double kStandFrom = 0.97;
 
 }  // namespace
 
@@ -24,12 +24,25 @@ double PoseGuard::reach_m(const PoseEstimate& estimate) const {
            std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
 }
 
-PoseGuard::Advice PoseGuard::advice(const PoseEstimate& estimate) const {
+PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, bool driving) {
     const double reach = reach_m(estimate);
-    if (reach <= kSlowFrom * kHeld_m) return Advice::kDrive;
-    if (reach <= kHeld_m) return Advice::kDriveSlowly;
-    const auto said = estimate.driven_since_said_m();
-    return said && *said <= kFromAPerson_m ? Advice::kDriveSlowly : Advice::kStay;
+    if (reach > kStandFrom * kHeld_m && driving) {
+        looked_s_ += dt_s;
+        return looked_s_ > kLook_s ? Advice::kAsk : Advice::kLookAround;
+    }
+    looked_s_ = 0;
+    return reach > kSlowFrom * kHeld_m ? Advice::kDriveSlowly : Advice::kDrive;
+}
+
+double speed_share(PoseGuard::Advice advice) {
+    switch (advice) {
+        case PoseGuard::Advice::kDrive:
+            return 1;
+        case PoseGuard::Advice::kDriveSlowly:
+            return PoseGuard::kSlowShare;
+        default:
+            return 0;
+    }
 }
 
 }  // namespace pulseline::onboard

@@ -20,19 +20,19 @@ PoseEstimate measured(const localisation::OdometryNoise& noise) {
 /// Way in metres after which each advice is given first.
 struct Ways {
     double slow_m = -1;
-    double stay_m = -1;
+    double stand_m = -1;
 };
 
 Ways ways(const plant::VehicleType& type, bool loaded, PoseEstimate estimate) {
-    const PoseGuard guard(type, loaded);
+    PoseGuard guard(type, loaded);
     Ways found;
-    for (double at_m = 0; at_m < 2000 && found.stay_m < 0; at_m += 0.1) {
+    for (double at_m = 0; at_m < 2000 && found.stand_m < 0; at_m += 0.1) {
         estimate.drive_to({at_m, 0, 0});
-        const Advice advice = guard.advice(estimate);
+        const Advice advice = guard.step(0.1, estimate, true);
         if (advice != Advice::kDrive && found.slow_m < 0) found.slow_m = at_m;
-        if (advice == Advice::kStay) found.stay_m = at_m;
-        if (advice != Advice::kStay && !estimate.driven_since_said_m()) {
-            EXPECT_LE(guard.reach_m(estimate), PoseGuard::kHeld_m) << at_m;
+        if (speed_share(advice) == 0) found.stand_m = at_m;
+        if (speed_share(advice) > 0) {
+            EXPECT_LT(guard.reach_m(estimate), PoseGuard::kHeld_m) << at_m;
         }
     }
     return found;
@@ -42,13 +42,13 @@ localisation::OdometryNoise noise(const plant::VehicleType& type) {
     return localisation::odometry_noise({}, type);
 }
 
-TEST(PoseGuard, FirstItSlowsDownThenItStays) {
+TEST(PoseGuard, FirstItSlowsDownThenItStands) {
     for (const auto& type : {pulseline::testing::mecanum(), pulseline::testing::differential(),
                              pulseline::testing::platform()}) {
         const auto found = ways(type, false, measured(noise(type)));
         EXPECT_GT(found.slow_m, 12) << type.name << ": codes lie 9 m apart";
-        EXPECT_GT(found.stay_m, found.slow_m) << type.name;
-        EXPECT_LT(found.stay_m, 200) << type.name;
+        EXPECT_GT(found.stand_m, found.slow_m) << type.name;
+        EXPECT_LT(found.stand_m, 200) << type.name;
     }
 }
 
@@ -57,24 +57,42 @@ TEST(PoseGuard, ALongLoadReachesFarther) {
     const auto empty = ways(type, false, measured(noise(type)));
     type.load_footprint = geometry::rectangle(30, 10);
     const auto loaded = ways(type, true, measured(noise(type)));
-    EXPECT_LT(loaded.stay_m, empty.stay_m);
+    EXPECT_LT(loaded.stand_m, empty.stand_m);
 }
 
-TEST(PoseGuard, FromWhereAPersonSaidItDrivesSlowlyToTheNextCode) {
+TEST(PoseGuard, WhereAPersonSaidItStandsItLooksAroundAndThenAsks) {
     const auto type = pulseline::testing::differential();
     PoseEstimate estimate{geometry::Pose2{}, noise(type)};
     estimate.start_at({});
-    const auto found = ways(type, false, estimate);
-    EXPECT_EQ(found.slow_m, 0);
-    EXPECT_GT(found.stay_m, 18);
-    EXPECT_LT(found.stay_m, 30);
+    PoseGuard guard(type, false);
+
+    EXPECT_GT(speed_share(guard.step(60, estimate, false)), 0) << "nobody has sent it";
+    for (double looked_s = 0; looked_s < PoseGuard::kLook_s - 0.5; looked_s += 0.5) {
+        EXPECT_EQ(guard.step(0.5, estimate, true), Advice::kLookAround) << looked_s;
+    }
+    guard.step(0.5, estimate, true);
+    EXPECT_EQ(guard.step(0.5, estimate, true), Advice::kAsk);
+}
+
+TEST(PoseGuard, WhatTellsItWhileItLooksLetsItDrive) {
+    const auto type = pulseline::testing::differential();
+    PoseEstimate estimate{geometry::Pose2{}, noise(type)};
+    estimate.start_at({});
+    PoseGuard guard(type, false);
+    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, true), Advice::kLookAround);
+
+    PoseEstimate told = measured(noise(type));
+    EXPECT_EQ(guard.step(1, told, true), Advice::kDrive);
+
+    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, true), Advice::kLookAround)
+        << "it begins to look anew";
 }
 
 TEST(PoseGuard, WhereCodesHaveToldItItDrivesAtOnce) {
     const auto type = pulseline::testing::differential();
     PoseEstimate estimate{geometry::Pose2{}, noise(type)};
     estimate.start_at({}, 0.002, 0.002);
-    EXPECT_EQ(PoseGuard(type, false).advice(estimate), Advice::kDrive);
+    EXPECT_EQ(PoseGuard(type, false).step(0.1, estimate, true), Advice::kDrive);
 }
 
 }  // namespace
