@@ -276,8 +276,12 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
     Eigen::Vector3d of_told = Eigen::Vector3d::Zero();
     MonteCarlo::Told told;
+    told.everything = true;
     for (int i = 0; i < 3; ++i) {
-        if (gain[i] <= 0 || 1 / gain[i] + map(i, i) > 1) continue;
+        if (gain[i] <= 0 || 1 / gain[i] + map(i, i) > 1) {
+            told.everything = false;
+            continue;
+        }
         place[i] = off[i] / gain[i];
         variance[i] = of_told[i] = 1 / gain[i] + map(i, i);
         told.anything = true;

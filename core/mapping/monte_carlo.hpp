@@ -30,6 +30,7 @@ public:
     /// (x_m, y_m, heading_rad), hall frame, with the map's own error.
     struct Told {
         bool anything = false;
+        bool everything = false;  // in all directions
         geometry::Pose2 pose;
         Eigen::Matrix3d covariance;  // huge in directions of which it tells nothing
         Eigen::Matrix3d of_told;     // of the others alone: 0 in these

@@ -71,6 +71,7 @@ void ContourWatch::step(double dt_s, bool located) {
         newest_.reset();
         explained_.reset();
         why_not_.reset();
+        lacks_.clear();
         lost_ = false;
         return;
     }
@@ -110,7 +111,10 @@ void ContourWatch::look() {
     newest_.reset();
     why_not_.reset();
     explained_.reset();
-    if (look.returns < kFewestReturns) return;  // nothing stands near
+    lacks_ = look.returns < kFewestReturns ? "contours_none_near"
+             : look.check.everything       ? ""
+                                           : "contours_featureless";
+    if (look.returns < kFewestReturns) return;
     explained_ = look.explained;
     if (look.through > kThrough * (look.through + look.explained)) {
         why_not_ = Error{Errc::kConflict,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/mapping/monte_carlo.hpp"
@@ -41,6 +42,9 @@ public:
     const std::optional<double>& explained() const { return explained_; }
     /// Error contours_lost {through}: it sees through what the map has there.
     const std::optional<Error>& why_not() const { return why_not_; }
+    /// What the last look lacked to tell the whole pose: contours_none_near, contours_featureless
+    /// (walls that look alike all along them); "": nothing.
+    const std::string& lacks() const { return lacks_; }
     /// It has looked around again and again, and no code has told since the map was right last, or
     /// some metres back: it is not where it believes to be.
     bool lost() const { return lost_; }
@@ -69,6 +73,7 @@ private:
     std::optional<localisation::BeaconFix> newest_;
     std::optional<double> explained_;
     std::optional<Error> why_not_;
+    std::string lacks_;
 };
 
 }  // namespace pulseline::onboard

@@ -67,6 +67,7 @@ TEST(ContourWatch, ADriveIsSteeredByWhatStandsAround) {
             most_sigmas = std::max(most_sigmas, looking.off_m() / looking.estimate.sigma_xy_m());
         });
         EXPECT_TRUE(looking.contours.newest());
+        EXPECT_EQ(looking.contours.lacks(), "");
         EXPECT_LT(worst_m, 0.05) << seed;
         EXPECT_LT(most_sigmas, 4) << seed;
         EXPECT_LT(std::abs(looking.drive.true_pose().y_m), 0.05) << seed;
@@ -168,6 +169,7 @@ TEST(ContourWatch, AWallWithoutFeaturesTellsNothingAlongIt) {
         });
         EXPECT_LT(most_sigmas, 4) << seed;
         EXPECT_FALSE(looking.contours.lost());
+        EXPECT_EQ(looking.contours.lacks(), "contours_featureless");
         EXPECT_LT(std::abs(looking.estimate.pose().y_m - looking.drive.true_pose().y_m), 0.05);
         EXPECT_GT(std::sqrt(looking.estimate.covariance()(0, 0)), 0.04) << "what a person told";
     }
