@@ -11,10 +11,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <optional>
 #include <random>
 #include <utility>
 
+#include "core/base/square.hpp"
 #include "core/mapping/mrpt_frames.hpp"
+#include "core/mapping/surfaces.hpp"
 
 namespace pulseline::mapping {
 namespace {
@@ -24,11 +28,9 @@ using geometry::Pose2;
 
 // Of one ray's end from what it met: the scanner's noise and half a cell.
 constexpr float kRaySigma_m = 0.04F;
-constexpr float kWithin_m = 0.3F;  // farther off something else was met
-constexpr float kByChance = 0.2F;  // of all rays, on what is not in the map
-constexpr int kEveryRay = 12;      // of a scan: neighbours tell the same
-// Rays are not independent: they share the errors of the map where they meet one wall.
-constexpr double kRaysCount = 0.1;
+constexpr float kWithin_m = 0.3F;      // farther off something else was met
+constexpr float kByChance = 0.2F;      // of all rays, on what is not in the map
+constexpr std::size_t kEveryRay = 12;  // of a scan: neighbours tell the same
 constexpr double kLeastPower = 1e-4;
 // Particles, where the place is known well and where it is not.
 constexpr unsigned kFewest = 600;
@@ -39,11 +41,14 @@ constexpr double kWellKnown_rad = 0.02;
 // counts for less than it is worth and the next one begins nearer.
 constexpr double kCarry = 50;
 constexpr double kNothing = 1e4;
-// Around a ray's end, what stands there shows which way it lies.
-constexpr int kAround_cells = 3;
+// Around a ray's end, what stands there shows which way it lies: so far that a wall that the map
+// has in three rows of cells is still one.
+constexpr int kAround_cells = 10;
 // Of the lesser to the greater spread of cells: below it is a line.
 constexpr double kLine = 0.15;
 constexpr int kNear_cells = 2;
+// One sigma of where in its cells a wall lies.
+const double kInCell = 1 / std::sqrt(12.0);
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
 constexpr double kBehind_m = 0.5;
 
@@ -76,12 +81,20 @@ struct MatchedMap {
         return false;
     }
 
-    /// How much the end of a ray there tells of x and y, in units of one ray across a wall: nothing
-    /// along a wall, and both at a corner. 0: nothing stands there.
-    Eigen::Matrix2d told_at(Point2 place) const {
+    /// What was met before, by cell: a vehicle that passes meets the same again and again.
+    mutable std::map<std::pair<int, int>, std::optional<Met>> met;
+
+    /// Nothing: nothing stands there.
+    const std::optional<Met>& met_at(Point2 place) const {
         const Point2 in = place - map.corner;
         const auto column = static_cast<int>(std::floor(in.x_m / map.cell_m));
         const auto row = static_cast<int>(std::floor(in.y_m / map.cell_m));
+        const auto [known, added] = met.try_emplace({column, row});
+        if (added) known->second = met_in(column, row);
+        return known->second;
+    }
+
+    std::optional<Met> met_in(int column, int row) const {
         double count = 0;
         Eigen::Vector2d sum = Eigen::Vector2d::Zero();
         Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
@@ -96,14 +109,15 @@ struct MatchedMap {
                 squares += cell * cell.transpose();
             }
         }
-        if (count == 0) return Eigen::Matrix2d::Zero();
+        if (count == 0) return std::nullopt;
         const Eigen::Matrix2d spread = squares / count - sum * sum.transpose() / (count * count);
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> shape(spread);
         const double lesser = shape.eigenvalues()[0];
         const double greater = shape.eigenvalues()[1];
         const double along = greater > 0 ? lesser / greater : 1;
-        const Eigen::Vector2d worth(1, along < kLine ? 0 : along);
-        return shape.eigenvectors() * worth.asDiagonal() * shape.eigenvectors().transpose();
+        const Point2 middle =
+            map.middle_of(column, row) + (map.cell_m / count) * Point2{sum.x(), sum.y()};
+        return Met{shape.eigenvectors(), {1, along < kLine ? 0 : along}, middle};
     }
 
     bool has_something_near(Point2 place) const {
@@ -140,7 +154,7 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     likelihood.LF_zHit = 1 - kByChance;
     likelihood.LF_zRandom = kByChance;
     likelihood.LF_maxCorrsDistance = kWithin_m;
-    likelihood.LF_decimation = kEveryRay;
+    likelihood.LF_decimation = 1;
     likelihood.enableLikelihoodCache = true;
     matched->map = std::move(map);
     return matched;
@@ -234,7 +248,7 @@ std::vector<double> weights_of(const mrpt::slam::CMonteCarloLocalization2D& clou
 
 struct Tempered {
     std::vector<double> weights;
-    double power = kRaysCount;  // what one ray counts
+    double power = 1;  // what one ray counts
 };
 
 /// As much of the rays' worth as leaves enough particles with weight.
@@ -253,8 +267,9 @@ struct Outcome {
     geometry::Pose2 about;
     Eigen::Matrix3d looked_around;  // covariance that they were drawn with
     geometry::Pose2 mean;
-    Eigen::Matrix3d information;  // inverse covariance of what the rays tell
-    Eigen::Matrix3d of_map;
+    Eigen::Matrix3d information;           // inverse covariance of what the rays tell
+    std::vector<Eigen::Vector3d> by_wall;  // how they answer to one sigma of each wall's own error
+    Eigen::Matrix3d of_map;                // what all of it is off, covariance
 };
 
 /// Bayes' rule, read backwards: what took the place from where the particles were drawn to their
@@ -271,6 +286,10 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     const Eigen::Matrix3d drawn = directions.transpose() * by.looked_around.inverse() * directions;
     const Eigen::Matrix3d map = to_sphere * by.of_map * to_sphere.transpose();
     const Eigen::Vector3d gain = worth.eigenvalues();
+    Eigen::Vector3d of_walls = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& wall : by.by_wall) {
+        of_walls += Eigen::Vector3d(directions.transpose() * wall).cwiseAbs2();
+    }
     const Eigen::Vector3d off = (drawn + Eigen::Matrix3d(gain.asDiagonal())) * to_sphere * moved;
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
@@ -278,12 +297,14 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     MonteCarlo::Told told;
     told.everything = true;
     for (int i = 0; i < 3; ++i) {
-        if (gain[i] <= 0 || 1 / gain[i] + map(i, i) > 1) {
+        const double off2 =
+            gain[i] > 0 ? 1 / gain[i] + of_walls[i] / square(gain[i]) + map(i, i) : kNothing;
+        if (off2 > 1) {
             told.everything = false;
             continue;
         }
         place[i] = off[i] / gain[i];
-        variance[i] = of_told[i] = 1 / gain[i] + map(i, i);
+        variance[i] = of_told[i] = off2;
         told.anything = true;
     }
     const Eigen::Vector3d at = directions * place;
@@ -301,11 +322,25 @@ Eigen::Matrix<double, 2, 3> by_pose(const Pose2& pose, Point2 place) {
     return moves;
 }
 
+/// Some of the rays, evenly.
+std::vector<control::Scan> thinned(const std::vector<control::Scan>& scans) {
+    std::vector<control::Scan> thin;
+    for (const control::Scan& scan : scans) {
+        thin.push_back(
+            {scan.body_from_sensor, scan.first_rad, kEveryRay * scan.step_rad, {}, scan.blind});
+        for (std::size_t i = 0; i < scan.ranges_m.size(); i += kEveryRay) {
+            thin.back().ranges_m.push_back(scan.ranges_m[i]);
+        }
+    }
+    return thin;
+}
+
+/// visit(sensor, end) for each ray that met something.
 template <class Visit>
 void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visit visit) {
     for (const control::Scan& scan : scans) {
         const Pose2 sensor = pose * scan.body_from_sensor;
-        for (std::size_t i = 0; i < scan.ranges_m.size(); i += kEveryRay) {
+        for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
             const double range_m = scan.ranges_m[i];
             if (!std::isfinite(range_m) || range_m <= 0) continue;
             const double angle_rad = scan.first_rad + static_cast<double>(i) * scan.step_rad;
@@ -323,25 +358,27 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
     const Eigen::Matrix3d drawn = covariance + around;
     const bool well_known = drawn(0, 0) + drawn(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
                             drawn(2, 2) < kWellKnown_rad * kWellKnown_rad;
+    const MatchedMap& map = *particles_->map;
+    const auto rays = thinned(scans);
     particles_->spread(about, drawn.llt().matrixL(), well_known ? kFewest : kMost);
-    particles_->weigh(scans);
+    particles_->weigh(rays);
     const auto [weights, power] = tempered(particles_->cloud);
     const Pose2 mean = particles_->mean(weights);
-    const MatchedMap& map = *particles_->map;
     Look look;
     int explained = 0;
     int through = 0;
-    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-    visit_ends(mean, scans, [&](Point2 sensor, Point2 end) {
+    Surfaces surfaces;
+    visit_ends(mean, rays, [&](Point2 sensor, Point2 end) {
         ++look.returns;
         through += map.has_something_between(sensor, end);
         if (!map.has_something_near(end)) return;
         ++explained;
-        const auto moves = by_pose(mean, end);
-        information += moves.transpose() * map.told_at(end) * moves;
+        if (const auto& met = map.met_at(end)) surfaces.add(*met, by_pose(mean, end));
     });
-    information *= power / (kRaySigma_m * kRaySigma_m);
-    const Outcome outcome{about, drawn, mean, information, of_map};
+    const double one_ray = power / square(kRaySigma_m);
+    Outcome outcome{about, drawn, mean, one_ray * surfaces.information(), surfaces.answers(),
+                    of_map};
+    for (auto& wall : outcome.by_wall) wall *= one_ray * kInCell * map.map.cell_m;
     look.news = read_backwards(outcome, covariance);
     look.check = read_backwards(outcome, drawn);
     if (look.returns > 0) {

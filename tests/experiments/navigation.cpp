@@ -306,10 +306,8 @@ bool navigation(const Options& options) {
             };
             const double end_mm = curve.off_mm.empty() ? 1e9 : curve.off_mm.back();
             const double share = covered(made);
-            // What walls tell across the way is two to three times as good as is stated.
-            const double most_covered = method == Method::kContours ? 1 : kCovered + kCoveredWithin;
-            const bool kept = share >= kCovered - kCoveredWithin && share <= most_covered &&
-                              missed == 0 && end_mm <= most_at_end_mm(method);
+            const bool kept = std::abs(share - kCovered) <= kCoveredWithin && missed == 0 &&
+                              end_mm <= most_at_end_mm(method);
             good &= kept;
             fmt::print("{:<22}{:>10}{:>18}{:>18}{:>18}{:>9.1f}%{:>9}{:>9}{}\n", curve.name,
                        every_m > 0 ? fmt::format("{:.1f} m", every_m) : std::string("-"), at(50),

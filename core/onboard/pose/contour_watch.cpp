@@ -19,9 +19,9 @@ constexpr double kStillThere_s = 2;  // then it looks whether it is still there
 // Around where it holds itself to be it looks a little wider: something may have moved it.
 constexpr double kAround_m = 0.02;
 constexpr double kAround_rad = 0.01;
-// A map is no better than the pose that it was made with, nor than its cells.
-constexpr double kMap_m = 0.012;
-constexpr double kMap_rad = 0.0012;
+// A map is no better than the poses that it was made with.
+constexpr double kMap_m = 0.003;
+constexpr double kMap_rad = 0.0003;
 // Looks one after the other have nearly all in common.
 constexpr double kLasting = 0.9;
 // Of what scanners meet, vehicles and people are not in the map.
