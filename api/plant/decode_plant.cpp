@@ -169,6 +169,7 @@ RoutingCost decode_routing(ObjectReader in) {
     routing.reference_step_m = in.number_or("reference_step_m", routing.reference_step_m, kMetres);
     routing.turn_threshold_rad =
         in.number_or("turn_threshold_rad", routing.turn_threshold_rad, kMetres);
+    routing.accuracy_k = in.number_or("accuracy_k", routing.accuracy_k, kQuantity);
     in.refuse_unknown();
     return routing;
 }

@@ -277,6 +277,7 @@ Json encode_plant(const Plant& plant, PlantForm form) {
                    {"k_diff", plant.routing.k_diff},
                    {"reference_step_m", plant.routing.reference_step_m},
                    {"turn_threshold_rad", plant.routing.turn_threshold_rad}}}};
+    if (plant.routing.accuracy_k > 0) json["routing"]["accuracy_k"] = plant.routing.accuracy_k;
     if (!plant.transmitters.empty()) json["transmitters"] = encode_all(plant.transmitters);
     if (!plant.reflectors.empty()) json["reflectors"] = encode_all(plant.reflectors);
     put_names(json, plant.names);

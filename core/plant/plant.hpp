@@ -315,6 +315,9 @@ struct RoutingCost {
     double k_diff = 20;
     double reference_step_m = 1.0;
     double turn_threshold_rad = 5.0 * 3.14159265358979323846 / 180.0;
+    /// Per metre driven and metre of sigma that the body's place has there on an average (Passage);
+    /// 0: how well a vehicle knows where it is costs nothing.
+    double accuracy_k = 0;
 };
 
 struct Plant {

@@ -195,6 +195,7 @@ void check_routing(const RoutingCost& r, Numbers n) {
     n.positive("/k_same", r.k_same);
     n.positive("/reference_step_m", r.reference_step_m);
     n.not_negative("/turn_threshold_rad", r.turn_threshold_rad);
+    n.not_negative("/accuracy_k", r.accuracy_k);
     if (n.finite("/k_diff", r.k_diff) && r.k_diff < r.k_same) {
         n.fault("/k_diff", "turns_cheaper", "A change of direction would be cheaper than none.",
                 "Make k_diff at least k_same.");

@@ -13,7 +13,8 @@ namespace pulseline::db {
 struct PlantRow {
     static constexpr const char* kTable = "plant";
     static constexpr const char* kColumns =
-        "only_one, id, name, revision, k_same, k_diff, reference_step_m, turn_threshold_rad, names";
+        "only_one, id, name, revision, k_same, k_diff, reference_step_m, turn_threshold_rad, "
+        "accuracy_k, names";
     int only_one = 1;
     std::string id, name, names;
     std::int64_t revision = 1;
@@ -21,7 +22,8 @@ struct PlantRow {
 
     auto fields() {
         return std::tie(only_one, id, name, revision, routing.k_same, routing.k_diff,
-                        routing.reference_step_m, routing.turn_threshold_rad, names);
+                        routing.reference_step_m, routing.turn_threshold_rad, routing.accuracy_k,
+                        names);
     }
 };
 

@@ -127,6 +127,8 @@ const char* text(planning::LegAlternative::Reason reason) {
             return "length";
         case Reason::kTurns:
             return "turns";
+        case Reason::kAccuracy:
+            return "accuracy";
         case Reason::kTime:
             return "time";
     }
@@ -145,6 +147,7 @@ Json alternative_json(const planning::LegAlternative& alternative) {
              {{"cost", alternative.more_cost},
               {"length", alternative.more_length},
               {"turns", alternative.more_turns},
+              {"accuracy", alternative.more_accuracy},
               {"duration_s", alternative.more_s}}},
             {"main_reason", text(alternative.main_reason)}};
 }

@@ -84,6 +84,7 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     plan.length_m = sums.length_m;
     plan.turns = draft.turns;
     plan.cost = draft.cost;
+    plan.accuracy = draft.accuracy;
     plan.duration_s = sums.duration_s;
     plan.expected = expected_of(*task.request.type, plan.segments);
     plan.blind = blind_way(task, plan.segments);

@@ -349,6 +349,18 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
         [&](const LegPlan& rest) { return joined(*request.type, *first, rest); });
 }
 
+namespace {
+
+/// What most of it is; one that costs no more would only take longer.
+LegAlternative::Reason main_reason(const LegAlternative& more) {
+    using Reason = LegAlternative::Reason;
+    if (more.more_cost <= 0) return Reason::kTime;
+    if (more.more_accuracy > std::max(more.more_turns, more.more_length)) return Reason::kAccuracy;
+    return more.more_turns > more.more_length ? Reason::kTurns : Reason::kLength;
+}
+
+}  // namespace
+
 std::vector<LegAlternative> LegPlanner::alternatives(
     const LegRequest& request, const LegPlan& plan, int count,
     const std::vector<StandingBody>& standing) const {
@@ -369,12 +381,10 @@ std::vector<LegAlternative> LegPlanner::alternatives(
         LegAlternative more;
         more.more_cost = other->cost - plan.cost;
         more.more_turns = (k.k_diff - k.k_same) * k.reference_step_m * (other->turns - plan.turns);
-        more.more_length = more.more_cost - more.more_turns;
+        more.more_accuracy = other->accuracy - plan.accuracy;
+        more.more_length = more.more_cost - more.more_turns - more.more_accuracy;
         more.more_s = other->duration_s - plan.duration_s;
-        using Reason = LegAlternative::Reason;
-        more.main_reason = more.more_cost <= 0                  ? Reason::kTime
-                           : more.more_turns > more.more_length ? Reason::kTurns
-                                                                : Reason::kLength;
+        more.main_reason = main_reason(more);
         more.plan = std::move(*other);
         found.push_back(std::move(more));
     }

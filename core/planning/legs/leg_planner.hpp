@@ -50,8 +50,9 @@ struct LegPlan {
     std::vector<double> max_speed_mps;  // of each segment by its lane; 0, or empty: none
     std::vector<plant::NodeId> route;   // roadmap nodes visited; empty for a direct motion
     double length_m = 0;
-    int turns = 0;    // changes of direction up to arrival; an arc is one
-    double cost = 0;  // in units of k, roadmap routes and direct motions alike
+    int turns = 0;        // changes of direction up to arrival; an arc is one
+    double cost = 0;      // in units of k, roadmap routes and direct motions alike
+    double accuracy = 0;  // of the cost, for driving where its place is uncertain
     double duration_s = 0;
     kinematics::ExpectedDeviation expected;  // at its end, on odometry alone, nothing adjusted yet
     /// Closed floor it leads over because there is no other way: ids of a smallest set that has to
@@ -89,8 +90,9 @@ struct LegAlternative {
     double more_cost = 0;
     double more_length = 0;
     double more_turns = 0;
+    double more_accuracy = 0;
     double more_s = 0;
-    enum class Reason : std::uint8_t { kLength, kTurns, kTime };
+    enum class Reason : std::uint8_t { kLength, kTurns, kAccuracy, kTime };
     Reason main_reason = Reason::kLength;
 };
 

@@ -130,6 +130,12 @@ void append_move(Segments& segments, Pose2& pose, double heading_rad, Point2 tar
     pose = {target.x_m, target.y_m, heading_rad};
 }
 
+/// What driving an arc costs because the vehicle's place is uncertain there.
+double accuracy_cost(const LegTask& task, int arc) {
+    const double length_m = task.roads.graph().arcs[static_cast<std::size_t>(arc)].length_m;
+    return task.cost.accuracy_k * task.passage.sigma_m(arc) * length_m;
+}
+
 LegDraft drive(const LegTask& task, const Entry& entry, const RoadPath& path, int goal) {
     const RoadGraph& graph = task.roads.graph();
     LegDraft draft;
@@ -165,6 +171,7 @@ LegDraft drive(const LegTask& task, const Entry& entry, const RoadPath& path, in
     kinematics::set_durations(*task.request.type, segments, speeds);
     draft.max_speed_mps = std::move(speeds);
     draft.cost = path.cost;
+    for (const int arc : path.arcs) draft.accuracy += accuracy_cost(task, arc);
     draft.turns = path.turns + entry.turns;
     return draft;
 }
@@ -176,6 +183,7 @@ RoadQuery query_of(const LegTask& task, const std::vector<Entry>& entries, int g
     query.may_follow = [&task](int arc, int next) {
         return task.roads.may_follow(task.passage, arc, next);
     };
+    query.besides = [&task](int arc) { return accuracy_cost(task, arc); };
     query.ending = [&task, goal](int arc) -> std::optional<double> {
         const double body = task.roads.graph().arcs[static_cast<std::size_t>(arc)].body_rad;
         const Point2 at = last_point(task, goal);
@@ -353,8 +361,9 @@ std::vector<LegDraft> draft_other_road_legs(const LegTask& task,
     for (const Entry& entry : entries) {
         const double length = graph.arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
         seeds.push_back(
-            {entry.first.arc, task.lanes.counted(entry.first.cost +
-                                                 edge_cost(task.cost, length, entry.first.turn))});
+            {entry.first.arc,
+             task.lanes.counted(entry.first.cost + edge_cost(task.cost, length, entry.first.turn) +
+                                accuracy_cost(task, entry.first.arc))});
     }
     RoadRoute chosen;
     chosen.arcs = arcs_along(task.roads, route);

@@ -30,6 +30,7 @@ struct LegDraft {
     std::vector<plant::NodeId> route;
     int turns = 0;
     double cost = 0;
+    double accuracy = 0;                // of the cost, for driving where its place is uncertain
     std::vector<std::size_t> closures;  // driven over: a smallest set to reopen
 };
 

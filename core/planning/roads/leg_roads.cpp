@@ -27,6 +27,7 @@ double unit_of(const plant::RoutingCost& cost) {
 RoadPreferences scaled(plant::RoutingCost cost, double unit) {
     cost.k_same /= unit;
     cost.k_diff /= unit;
+    cost.accuracy_k /= unit;
     RoadPreferences preferences{cost};
     preferences.round_down = true;  // a bound must never lie above the truth
     return preferences;
@@ -37,6 +38,7 @@ std::vector<LaneRules> rules_of(const RoadmapIndex& roads, const Passage& passag
     for (std::size_t i = 0; i < rules.size(); ++i) {
         rules[i].too_narrow = passage.arc_free[i] == 0;
         if (passage.arc_allowed[i] == 0) rules[i].classes = 0;
+        rules[i].sigma_m = passage.sigma_m(static_cast<int>(i));
     }
     return rules;
 }

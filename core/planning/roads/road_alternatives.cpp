@@ -60,7 +60,7 @@ RoadRoute route_over(const RoadView& view, const CostTable& table, const Forward
         seen = 1;
         route.length_m += arc.length_m;
         route.turns +=
-            heading && is_turn(view.preferences().turns, *heading, arc.heading_rad) ? 1 : 0;
+            heading && is_turn(view.preferences().cost, *heading, arc.heading_rad) ? 1 : 0;
         heading = arc.heading_rad;
     }
     visited[start] = 0;
@@ -126,7 +126,7 @@ std::vector<RoadRoute> alternatives(RoadRouter& router, int user, const RoadStar
     for (const int arc : view.graph().out[static_cast<std::size_t>(start.node)]) {
         const double heading = view.arc(arc).heading_rad;
         const bool turn =
-            start.heading_rad && is_turn(view.preferences().turns, *start.heading_rad, heading);
+            start.heading_rad && is_turn(view.preferences().cost, *start.heading_rad, heading);
         seeds.push_back({arc, view.cost(arc, turn)});
     }
     add_different(view, router.table(user, goal), seeds, start.heading_rad, chosen.front().cost,

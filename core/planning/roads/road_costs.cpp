@@ -38,7 +38,7 @@ double speed_of(const LaneRules& rules, const RoadUser& user) {
 
 ArcCost arc_cost(const RoadPreferences& preferences, const RoadArc& arc, const LaneRules& rules,
                  const RoadUser& user) {
-    const plant::RoutingCost& k = preferences.turns;
+    const plant::RoutingCost& k = preferences.cost;
     const bool down = preferences.round_down;
     ArcCost cost;
     const double way = k.k_same * arc.length_m;
@@ -47,7 +47,7 @@ ArcCost arc_cost(const RoadPreferences& preferences, const RoadArc& arc, const L
     if (speed > 0 && speed < preferences.reference_speed_mps) {
         cost.speed = rounded(way * (preferences.reference_speed_mps / speed - 1), down);
     }
-    cost.accuracy = rounded(preferences.accuracy_k * rules.sigma_m * arc.length_m, down);
+    cost.accuracy = rounded(k.accuracy_k * rules.sigma_m * arc.length_m, down);
     const double turn = (k.k_diff - k.k_same) * k.reference_step_m;
     cost.turn = turn >= 0 ? std::int64_t{rounded(turn, down)}
                           : -std::int64_t{std::min(saved(-turn, down), cost.straight())};

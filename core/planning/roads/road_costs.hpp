@@ -27,14 +27,14 @@ struct RoadUser {
     std::function<bool(int arc, int next)> may_follow = {};  // turns there is room for; none: all
 };
 
-/// What a route is to save. With the defaults of the last two it is the design's cost exactly:
-/// k_same x length + (k_diff - k_same) x reference step per change of direction.
+/// What a route is to save. With the defaults of the last two it is the plant's cost exactly:
+/// k_same x length + (k_diff - k_same) x reference step per change of direction, and what is
+/// asked for driving where the position is uncertain.
 struct RoadPreferences {
-    plant::RoutingCost turns;
+    plant::RoutingCost cost;
     // A lane that is driven slower than this costs as much as the length that this speed would have
     // covered in the same time; 0: speed does not count.
     double reference_speed_mps = 0;
-    double accuracy_k = 0;    // per metre driven and metre of uncertainty
     bool round_down = false;  // costs are never above the exact ones: bounds for other searches
 };
 

@@ -35,7 +35,7 @@ std::optional<RoadRoute> search_barred(const RoadRouter& router, int user, const
         known = label;
         open.push({label.bars, label.cost, arc});
     };
-    const plant::RoutingCost& turns = view.preferences().turns;
+    const plant::RoutingCost& turns = view.preferences().cost;
     for (const int arc : router.graph().out[static_cast<std::size_t>(start.node)]) {
         const double heading = view.arc(arc).heading_rad;
         const bool turn = start.heading_rad && is_turn(turns, *start.heading_rad, heading);
@@ -88,7 +88,7 @@ std::vector<RouteLegCost> leg_costs(const RoadRouter& router, int user, const Ro
     for (const int index : arcs) {
         const RoadArc& arc = view.arc(index);
         const ArcCost cost = open_cost(router, user, index);
-        const bool turn = heading && is_turn(view.preferences().turns, *heading, arc.heading_rad);
+        const bool turn = heading && is_turn(view.preferences().cost, *heading, arc.heading_rad);
         legs.push_back({index, arc.length_m, turn, cost.length, turn ? cost.turn : 0, cost.speed,
                         cost.accuracy});
         heading = arc.heading_rad;

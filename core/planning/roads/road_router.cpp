@@ -72,7 +72,7 @@ bool RoadRouter::prepare(int user, int goal, const std::atomic<bool>* cancel) {
 /// Of driving onto an arc out of the start; kNoWay when it is barred.
 RoadCost RoadRouter::first_cost(const RoadView& view, const RoadStart& start, int arc) const {
     const bool turn = start.heading_rad &&
-                      is_turn(preferences_.turns, *start.heading_rad, view.arc(arc).heading_rad);
+                      is_turn(preferences_.cost, *start.heading_rad, view.arc(arc).heading_rad);
     return view.cost(arc, turn);
 }
 
@@ -111,7 +111,7 @@ bool RoadRouter::find(int user, const RoadStart& start, int goal, RoadRoute& rou
         const RoadArc& arc = of.arc(at);
         route.arcs.push_back(at);
         route.length_m += arc.length_m;
-        route.turns += heading && is_turn(preferences_.turns, *heading, arc.heading_rad) ? 1 : 0;
+        route.turns += heading && is_turn(preferences_.cost, *heading, arc.heading_rad) ? 1 : 0;
         heading = arc.heading_rad;
     }
     return route.cost != kNoWay;

@@ -146,10 +146,12 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
         label = {arc_total, burden, before, turn};
         open.push({arc_total + left, burden, arc_total, arc});
     };
+    const auto besides = [&](int arc) { return query.besides ? query.besides(arc) : 0; };
     for (const FirstArc& first : query.first) {
         if (query.usable && !query.usable(first.arc)) continue;
         const RoadArc& arc = graph.arcs[static_cast<std::size_t>(first.arc)];
-        reach(first.arc, first.cost + edge_cost(cost, arc.length_m, first.turn),
+        reach(first.arc,
+              first.cost + edge_cost(cost, arc.length_m, first.turn) + besides(first.arc),
               first.burden + arc.burden, -1, first.turn);
     }
     int expanded = 0;
@@ -170,7 +172,7 @@ std::optional<RoadPath> search_road(const RoadGraph& graph, const plant::Routing
             if (query.may_follow && !query.may_follow(top.arc, next)) continue;
             const RoadArc& to = graph.arcs[static_cast<std::size_t>(next)];
             const bool turn = is_turn(cost, arc.heading_rad, to.heading_rad);
-            reach(next, label.cost + edge_cost(cost, to.length_m, turn),
+            reach(next, label.cost + edge_cost(cost, to.length_m, turn) + besides(next),
                   label.burden + to.burden + std::abs(wrap(to.body_rad - arc.body_rad)), top.arc,
                   turn);
         }

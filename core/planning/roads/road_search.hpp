@@ -47,6 +47,8 @@ struct RoadQuery {
     int goal = 0;
     std::function<bool(int arc)> usable;                // none: all
     std::function<bool(int arc, int next)> may_follow;  // none: all
+    /// What an arc costs besides its way and turn, at least 0; none: nothing.
+    std::function<double(int arc)> besides = {};
     std::function<std::optional<double>(int arc)>
         ending;  // burden of stopping there; nullopt: may not
     /// Lower bound of what is left after an arc, infinite where no way leads on; none: from the

@@ -9,7 +9,7 @@ RoadView::RoadView(const RoadGraph& graph, const std::vector<LaneRules>& rules,
     : graph_(graph), preferences_(preferences), user_(std::move(user)) {
     const auto node = [](int index) { return static_cast<std::size_t>(index); };
     const auto link = [&](int from, int to, int named) {
-        const bool turn = is_turn(preferences_.turns, arc(from).heading_rad, arc(to).heading_rad);
+        const bool turn = is_turn(preferences_.cost, arc(from).heading_rad, arc(to).heading_rad);
         return Link{static_cast<std::uint32_t>(named) * 2 + (turn ? 1u : 0u)};
     };
     const auto may = [&](int from, int to) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/roads/code_reach.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -146,7 +147,22 @@ Passage RoadmapIndex::passage(const plant::VehicleType& type, bool loaded) const
     for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
         result.turn_free.push_back(free_turns(result, static_cast<int>(i)));
     }
+    if (plant_.routing.accuracy_k > 0) result.arc_sigma_m = sigmas(type, loaded);
     return result;
+}
+
+std::vector<double> RoadmapIndex::sigmas(const plant::VehicleType& type, bool loaded) const {
+    const CodeReach reach(type, loaded);
+    std::vector<double> sigmas;
+    for (const RoadArc& arc : graph_.arcs) {
+        const geometry::Point2 from = graph_.nodes[static_cast<std::size_t>(arc.from)];
+        std::vector<kinematics::Segment> lane;
+        kinematics::append_straight(lane, {from.x_m, from.y_m, arc.body_rad},
+                                    graph_.nodes[static_cast<std::size_t>(arc.to)]);
+        sigmas.push_back(
+            lane.empty() ? 0 : reach.mean_sigma_m(plant_, node(arc.from).hall, lane.front()));
+    }
+    return sigmas;
 }
 
 bool RoadmapIndex::usable(const Passage& passage, int arc) const {

@@ -27,6 +27,12 @@ struct Passage {
     std::vector<char> arc_free;                // by arc: the body fits
     std::vector<char> arc_allowed;             // by arc: the lane is for this type
     std::vector<std::vector<char>> turn_free;  // by node: (heading, heading) at the node
+    /// By arc, CodeReach::mean_sigma_m; empty: the plant does not say what that costs.
+    std::vector<double> arc_sigma_m;
+
+    double sigma_m(int arc) const {
+        return arc_sigma_m.empty() ? 0 : arc_sigma_m[static_cast<std::size_t>(arc)];
+    }
 };
 
 class RoadmapIndex {
@@ -58,6 +64,7 @@ private:
     int heading_number(int node, double heading_rad);
     std::vector<char> headings_in_use(const Passage& passage, int node) const;
     std::vector<char> free_turns(const Passage& passage, int node) const;
+    std::vector<double> sigmas(const plant::VehicleType& type, bool loaded) const;
 
     const plant::Plant& plant_;
     LaneLines lines_;

@@ -36,6 +36,7 @@ std::vector<LaneRules> rules_of(const RoadmapIndex& roads, const Passage& passag
                            : is_backwards(roads.graph().arcs[i]) ? kAnyWay
                                                                  : kAnyWay | kForwards;
         rules[i].max_speed_mps = edge.max_speed_mps;
+        rules[i].sigma_m = passage.sigma_m(static_cast<int>(i));
     }
     return rules;
 }

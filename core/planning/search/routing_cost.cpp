@@ -23,7 +23,8 @@ Status check(const plant::RoutingCost& cost) {
         {"k_same", cost.k_same},
         {"k_diff", cost.k_diff},
         {"reference_step_m", cost.reference_step_m},
-        {"turn_threshold_rad", cost.turn_threshold_rad}};
+        {"turn_threshold_rad", cost.turn_threshold_rad},
+        {"accuracy_k", cost.accuracy_k}};
     for (const auto& [name, value] : numbers) {
         if (std::isfinite(value) && value >= 0) continue;
         return fail(Errc::kInvalid, "routing_cost_invalid",

@@ -29,16 +29,17 @@ std::int64_t charged(const RoadPreferences& k, const RoadArc& arc, const LaneRul
     }
     if (user.max_speed_mps > 0) speed = std::min(speed, user.max_speed_mps);
     const auto thousandths = [](double cost) { return std::int64_t{std::llround(cost * 1000)}; };
-    const double way = k.turns.k_same * arc.length_m;
-    std::int64_t cost = thousandths(way) + thousandths(k.accuracy_k * rules.sigma_m * arc.length_m);
+    const double way = k.cost.k_same * arc.length_m;
+    std::int64_t cost =
+        thousandths(way) + thousandths(k.cost.accuracy_k * rules.sigma_m * arc.length_m);
     if (speed < k.reference_speed_mps)
         cost += thousandths(way * (k.reference_speed_mps / speed - 1));
-    if (turn) cost += thousandths((k.turns.k_diff - k.turns.k_same) * k.turns.reference_step_m);
+    if (turn) cost += thousandths((k.cost.k_diff - k.cost.k_same) * k.cost.reference_step_m);
     return std::max(std::int64_t{0}, cost);
 }
 
 bool turns(const RoadPreferences& k, double a, double b) {
-    return std::abs(std::remainder(b - a, 2 * kPi)) > k.turns.turn_threshold_rad;
+    return std::abs(std::remainder(b - a, 2 * kPi)) > k.cost.turn_threshold_rad;
 }
 
 /// A random roadmap with everything that rules may say, and a judge that knows nothing clever.
@@ -136,10 +137,10 @@ World random_world(Random& random, int most_nodes) {
     }
     const double k[] = {0, 0.3, 0.8, 1, 2.5, 10};
     const double diff[] = {0, 0.5, 1, 1.6, 7, 20, 100};
-    world.preferences.turns.k_same = k[random() % 6];
-    world.preferences.turns.k_diff = diff[random() % 7];
+    world.preferences.cost.k_same = k[random() % 6];
+    world.preferences.cost.k_diff = diff[random() % 7];
     if (random() % 2 == 0) world.preferences.reference_speed_mps = 1.5;
-    if (random() % 2 == 0) world.preferences.accuracy_k = 100;
+    if (random() % 2 == 0) world.preferences.cost.accuracy_k = 100;
     world.user.vehicle_class = 1 + random() % 2;
     world.user.loaded = random() % 2 == 0;
     if (random() % 3 == 0) {
@@ -295,15 +296,15 @@ constexpr int kStairs = 5;  // arcs of the short way; the long one has the last 
 
 RoadPreferences plain(double k_same, double k_diff) {
     RoadPreferences preferences;
-    preferences.turns.k_same = k_same;
-    preferences.turns.k_diff = k_diff;
+    preferences.cost.k_same = k_same;
+    preferences.cost.k_diff = k_diff;
     return preferences;
 }
 
 TEST(RoadExplain, SaysWhatEachLegCostsAndWhyNotTheOther) {
     RoadPreferences preferences = plain(10, 12);
     preferences.reference_speed_mps = 1;
-    preferences.accuracy_k = 100;
+    preferences.cost.accuracy_k = 100;
     RoadRouter router(stairs(), {}, preferences);
     LaneRules slow;
     slow.max_speed_mps = 0.5;
