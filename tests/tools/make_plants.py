@@ -144,6 +144,7 @@ class Plant:
         self.transmitters, self.reflectors = [], []
         self.types, self.vehicles, self.nodes, self.edges = [], [], {}, []
         self.hall = None
+        self.routing = {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}
 
     def add_hall(self, ident, name, width, depth, occupancy=None):
         self.hall = ident
@@ -223,7 +224,7 @@ class Plant:
                  **({"reflectors": self.reflectors} if self.reflectors else {}), "areas": areas,
                  "vehicle_types": types, "vehicles": self.vehicles,
                  "roadmap": {"nodes": list(self.nodes.values()), "edges": self.edges},
-                 "routing": {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}}
+                 "routing": self.routing}
         lines = []
         for key, value in plant.items():
             if key == "roadmap":
@@ -350,6 +351,7 @@ def igps_cell(folder):
 
 def final_assembly(folder):
     p = Plant("final-assembly", "Final assembly")
+    p.routing["accuracy_k"] = 100
     p.add_hall("hall-3", "Hall 3", 120, 60, "final-assembly.yaml")
     columns = []
     for x in range(10, 120, 10):

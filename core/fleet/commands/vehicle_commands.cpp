@@ -120,9 +120,11 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
     if (Status heard = is_heard(*live, {}, "Its position can be set"); !heard) {
         return fail(std::move(heard).error());
     }
-    // In doubt its leg is kept after it has given it up, since the floor of it is.
+    // As long as nobody knows where it stands, its leg is kept after it has given it up, since the
+    // floor of it is.
+    const bool unknown = is_in_doubt(*live) || !live->record.pose_known;
     const bool has_order = live->has_leg() && live->state.order_id == live->leg().id.str() &&
-                           !(is_in_doubt(*live) && has_nothing_left(live->state));
+                           !(unknown && has_nothing_left(live->state));
     if (live->state.driving || has_order) {
         return fail(Errc::kConflict, "vehicle_busy",
                     "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",

@@ -369,6 +369,33 @@ TEST(LostLegs, OneOfAVehicleWithoutPoseIsKeptUntilItIsKnownWhereItStands) {
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
 }
 
+// It neither ended nor could anybody say where the vehicle stands, each for want of the other.
+TEST(LostLegs, OneThatIsCancelledWhenItsVehicleIsLostEndsOnceAPersonSaysWhereThatStands) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(0.8);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    const Pose2 stands = *vehicle.state.pose;
+    vehicle.state.position_initialized = false;
+    vehicle.sees_codes = false;
+    vehicle.state.cameras.clear();
+    vehicle.stands = true;
+    world.run(2);
+    const auto busy = world.fleet->init_position(kV1, stands, "op", world.now);
+    ASSERT_FALSE(busy);
+    EXPECT_EQ(busy.error().reason.code, "vehicle_busy");
+
+    ASSERT_TRUE(world.fleet->cancel_order(world.only_order().id, {}, "op", world.now));
+    world.run(2);
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
+    ASSERT_TRUE(world.fleet->init_position(kV1, stands, "op", world.now));
+    world.run(2);
+
+    EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+    EXPECT_EQ(world.only_order().state, JobState::kAborted);
+}
+
 TEST(LostLegs, AVehicleWithoutPoseKeepsItsFloorOverARestart) {
     World world;
     world.connect_all();
