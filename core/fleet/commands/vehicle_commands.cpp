@@ -52,7 +52,7 @@ bool is_about_vehicle(const Reason& reason) {
         reasons::kVehiclePaused,          reasons::kOrderNotAccepted, reasons::kOrderRejected,
         reasons::kForeignOrder,           reasons::kIdentityConflict, reasons::kVehicleWithdrawn,
         reasons::kLoadOnWithdrawnVehicle, reasons::kDrivenByHand,     reasons::kPoseJumped,
-        reasons::kCommandExpired};
+        reasons::kPoseLost,               reasons::kCommandExpired};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }

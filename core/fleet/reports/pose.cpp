@@ -159,11 +159,18 @@ void believe(FleetState& fleet, LiveVehicle& live, const Whereabouts& told, Time
     fleet.store(live);
 }
 
+/// What it still has to drive led on from where it believed to be: it is told to give that up, so
+/// that a person can say where it stands and let its order go on from there.
 void lose_pose(FleetState& fleet, LiveVehicle& live, Time now) {
     if (!live.record.pose_known) return;
     live.record.pose_known = false;
     add_event(fleet, now, event::kVehiclePoseLost, {}, {}, live.record.id, {});
     fleet.store(live);
+    const bool has_way = live.has_leg() && live.state.order_id == live.leg().id.str() &&
+                         !has_nothing_left(live.state);
+    if (!has_way) return;
+    require_person(fleet, live, {reasons::kPoseLost, {{"vehicle", live.record.id.str()}}}, now);
+    cancel_leg(fleet, live, now);
 }
 
 /// It may be where it was or where it says: both floors are its own, it is told to give up what it

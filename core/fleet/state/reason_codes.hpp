@@ -16,6 +16,7 @@ inline constexpr const char* kVehicleWithdrawn = "vehicle_withdrawn";
 inline constexpr const char* kLoadOnWithdrawnVehicle = "load_on_withdrawn_vehicle";
 inline constexpr const char* kDrivenByHand = "driven_by_hand";
 inline constexpr const char* kPoseJumped = "pose_jumped";
+inline constexpr const char* kPoseLost = "pose_lost";
 inline constexpr const char* kCommandExpired = "command_expired";
 inline constexpr const char* kFloorClosed = "floor_closed";
 inline constexpr const char* kGoesFirst = "goes_first";

@@ -369,27 +369,49 @@ TEST(LostLegs, OneOfAVehicleWithoutPoseIsKeptUntilItIsKnownWhereItStands) {
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
 }
 
-// It neither ended nor could anybody say where the vehicle stands, each for want of the other.
-TEST(LostLegs, OneThatIsCancelledWhenItsVehicleIsLostEndsOnceAPersonSaysWhereThatStands) {
-    World world;
+/// V1 stands on its way and does not know where any more.
+void lose_v1(World& world) {
     world.connect_all();
     ASSERT_TRUE(world.order("V1", {3}));
     world.run(0.8);
     FakeVehicle& vehicle = world.vehicle("V1");
-    const Pose2 stands = *vehicle.state.pose;
+    ASSERT_FALSE(vehicle.state.node_states.empty());
     vehicle.state.position_initialized = false;
     vehicle.sees_codes = false;
     vehicle.state.cameras.clear();
     vehicle.stands = true;
     world.run(2);
-    const auto busy = world.fleet->init_position(kV1, stands, "op", world.now);
-    ASSERT_FALSE(busy);
-    EXPECT_EQ(busy.error().reason.code, "vehicle_busy");
+}
+
+TEST(LostLegs, WhoLosesItsPoseOnTheWayGoesOnFromWhereAPersonSaysAndOnlyThen) {
+    World world;
+    lose_v1(world);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    EXPECT_EQ(world.only_order().state, JobState::kInterrupted);
+    EXPECT_EQ(world.only_order().reason.code, "pose_lost");
+    EXPECT_TRUE(vehicle.state.node_states.empty()) << "it has given up its way";
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
+
+    ASSERT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    world.run(2);
+    EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
+    EXPECT_EQ(world.only_order().state, JobState::kInterrupted) << "a place moves nothing";
+    vehicle.stands = false;
+    vehicle.sees_codes = true;
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(60);
+
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
+// It neither ended nor could anybody say where the vehicle stands, each for want of the other.
+TEST(LostLegs, OneThatIsCancelledWhenItsVehicleIsLostEndsOnceAPersonSaysWhereThatStands) {
+    World world;
+    lose_v1(world);
 
     ASSERT_TRUE(world.fleet->cancel_order(world.only_order().id, {}, "op", world.now));
     world.run(2);
-    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
-    ASSERT_TRUE(world.fleet->init_position(kV1, stands, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, *world.vehicle("V1").state.pose, "op", world.now));
     world.run(2);
 
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
