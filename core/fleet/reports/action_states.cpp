@@ -26,9 +26,10 @@ const vda5050::ActionState* find_action(const vda5050::StateMessage& state, cons
 void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now) {
     bool cancelled = false;
     bool again = false;
-    std::erase_if(live.actions, [&](const PendingAction& pending) {
+    std::erase_if(live.actions, [&](PendingAction& pending) {
         const vda5050::ActionState* found = find_action(live.state, pending.action.id);
         if (!found || !is_final(found->status)) return false;
+        pending.escalated = true;  // it has answered, whatever else this waits for
         // A cancel is done when the vehicle says so AND stands; floor is freed only then.
         if (pending.action.type == vda5050::kCancelOrder) {
             if (live.state.driving || (live.has_leg() && !live.record.pose_known)) return false;

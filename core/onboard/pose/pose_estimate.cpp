@@ -91,13 +91,22 @@ void PoseEstimate::catch_up() {
     filter_.drive(odometry_of(way));
     if (other_) other_->filter.drive(odometry_of(way));
     since_m_ += norm(way.position());
+    if (said_ago_m_) *said_ago_m_ += norm(way.position());
     driven_ = now_;
 }
 
 void PoseEstimate::note(PoseSource source) {
     source_ = source;
     since_m_ = 0;
+    // A person's word and what walls make of it go together: at first they know little more.
+    if (source == PoseSource::kPerson) said_ago_m_ = 0;
+    if (source != PoseSource::kPerson && source != PoseSource::kContours) said_ago_m_.reset();
     by_codes_ += source == PoseSource::kStop || source == PoseSource::kCodes;
+}
+
+std::optional<double> PoseEstimate::driven_since_said_m() const {
+    if (!said_ago_m_) return std::nullopt;
+    return *said_ago_m_ + norm((inverse(driven_) * now_).position());
 }
 
 double PoseEstimate::driven_since_m() const {

@@ -47,6 +47,8 @@ public:
     void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0);
 
     PoseSource source() const { return source_; }
+    /// By the wheels, since a person said where it is; nothing: something else has told since then.
+    std::optional<double> driven_since_said_m() const;
     /// How often codes have told where it is.
     int by_codes() const { return by_codes_; }
     /// By the wheels, since that.
@@ -87,7 +89,8 @@ private:
     int begun_ = 0;
     PoseSource source_ = PoseSource::kPerson;
     int by_codes_ = 0;
-    double since_m_ = 0;  // as far as the filter has followed
+    std::optional<double> said_ago_m_;  // as far as the filter has followed
+    double since_m_ = 0;                // as far as the filter has followed
 };
 
 }  // namespace pulseline::onboard
