@@ -48,11 +48,13 @@ Status is_heard(const LiveVehicle& live, const std::string& field, const std::st
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {
     static const char* const kCodes[] = {
-        reasons::kServerRestarted,        reasons::kVehicleLostOrder, reasons::kVehicleWasLost,
-        reasons::kVehiclePaused,          reasons::kOrderNotAccepted, reasons::kOrderRejected,
-        reasons::kForeignOrder,           reasons::kIdentityConflict, reasons::kVehicleWithdrawn,
-        reasons::kLoadOnWithdrawnVehicle, reasons::kDrivenByHand,     reasons::kPoseJumped,
-        reasons::kPoseLost,               reasons::kCommandExpired};
+        reasons::kServerRestarted,  reasons::kVehicleLostOrder,
+        reasons::kVehicleWasLost,   reasons::kVehiclePaused,
+        reasons::kOrderNotAccepted, reasons::kOrderRejected,
+        reasons::kForeignOrder,     reasons::kIdentityConflict,
+        reasons::kVehicleWithdrawn, reasons::kLoadOnWithdrawnVehicle,
+        reasons::kDrivenByHand,     reasons::kPoseJumped,
+        reasons::kPoseLost,         reasons::kCommandExpired};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
