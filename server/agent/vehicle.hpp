@@ -139,7 +139,7 @@ private:
     Outbox outbox_;
     double fastest_share_ = 0;  // of its full speed, since it stood last; 0: it stands
     onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
-    bool stopping_ = false;     // at a stop, measuring or adjusting
+    bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;
     double age_s_ = 0;
