@@ -78,16 +78,18 @@ void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
     if (const auto& why_not = contours_->why_not()) status.why_not = why_not->reason.code;
 }
 
-/// What it knows too little by, the sense that leaves it alone included.
+/// That it knows too little where it is, and which sense leaves it alone.
 void Vehicle::write_advice(vda5050::StateMessage& state) const {
     if (drive_->idle() || advice_ == onboard::PoseGuard::Advice::kDrive) return;
-    if (contours_ && contours_->lacks() == "contours_none_near") {
+    using Lacks = onboard::ContourWatch::Lacks;
+    const Lacks lacks = contours_ ? contours_->lacks() : Lacks::kNothing;
+    if (lacks == Lacks::kThingsNear) {
         state.errors.push_back({"contoursNoneNear",
                                 false,
                                 "The scanners see nothing near by which the vehicle finds itself "
                                 "in its map.",
                                 {}});
-    } else if (contours_ && contours_->lacks() == "contours_featureless") {
+    } else if (lacks == Lacks::kFeatures) {
         state.errors.push_back({"contoursFeatureless",
                                 false,
                                 "The scanners see walls that look alike all along, which do not "

@@ -62,12 +62,13 @@ void Vehicle::lead_at_rest(double dt_s) {
     if (rests && executor_.position_initialized()) watch_.lead_at_rest(dt_s);
 }
 
-/// By what the scanners see, the codes that it missed and how well it knows where it is; who drives
-/// it by hand sees that.
+/// By what the scanners see, the codes that it missed, how well it knows where it is and whether
+/// the map bears it out; who drives it by hand sees that.
 void Vehicle::limit_speed() {
     if (executor_.in_hand()) return;
     double share = look_out_ ? look_out_->speed_share() : 1;
     share = std::min({share, watch_.segments().speed_share(), onboard::speed_share(advice_)});
+    if (contours_ && contours_->doubts()) share = std::min(share, onboard::PoseGuard::kSlowShare);
     drive_->slow_to(share);
 }
 

@@ -1,7 +1,7 @@
 // A corridor of 300 m whose walls look alike all along and in which no code lies: what tells a vehicle less and less has it
 // drive slowly, then stand and look around, then ask; on a person's word it looks for something for 25 m. Truth judges.
 import assert from "node:assert/strict";
-import { mkdirSync, mkdtempSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
@@ -60,7 +60,10 @@ before(async () => {
   system.startAgent(ID, { seed: 61, timeFactor: 10, sensing: "analytic", extra: ["--drive", "servo", "--errors", "harsh", "--maps", maps] });
   await client.untilReady(ID);
 });
-after(() => system?.stop());
+after(async () => {
+  await system?.stop();
+  if (folder) rmSync(folder, { recursive: true });
+});
 
 const vehicle = () => client.get(`/api/v1/vehicles/${ID}`);
 const says = (...types) => (v) => types.every((type) => v.errors.some((error) => error.type === type));

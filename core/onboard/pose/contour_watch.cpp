@@ -31,7 +31,9 @@ constexpr int kFewestReturns = 12;
 constexpr double kThrough = 0.2;
 // Where codes have told since the map was right last, the map is old; but not for longer than that.
 constexpr double kWithoutCodes_m = 5;
-constexpr int kLostAfter = 12;  // looks in a row that contradict
+// Looks in a row that contradict. At its full speed a vehicle drives as far again while it brakes.
+constexpr int kDoubtsAfter = 4;
+constexpr int kLostAfter = 12;
 
 Eigen::Matrix3d diagonal(double sigma_m, double sigma_rad) {
     return Eigen::Vector3d(square(sigma_m), square(sigma_m), square(sigma_rad)).asDiagonal();
@@ -71,7 +73,8 @@ void ContourWatch::step(double dt_s, bool located) {
         newest_.reset();
         explained_.reset();
         why_not_.reset();
-        lacks_.clear();
+        lacks_ = Lacks::kNothing;
+        doubts_ = false;
         lost_ = false;
         return;
     }
@@ -98,6 +101,7 @@ void ContourWatch::begin() {
     looks_standing_ = 0;
     contradicted_ = 0;
     by_codes_ = estimate_.by_codes();
+    doubts_ = false;
     lost_ = false;
 }
 
@@ -111,10 +115,13 @@ void ContourWatch::look() {
     newest_.reset();
     why_not_.reset();
     explained_.reset();
-    lacks_ = look.returns < kFewestReturns ? "contours_none_near"
-             : look.check.everything       ? ""
-                                           : "contours_featureless";
-    if (look.returns < kFewestReturns) return;
+    lacks_ = look.returns < kFewestReturns ? Lacks::kThingsNear
+             : look.check.everything       ? Lacks::kNothing
+                                           : Lacks::kFeatures;
+    if (look.returns < kFewestReturns) {
+        doubts_ = false;  // nothing speaks for the map, nor against it
+        return;
+    }
     explained_ = look.explained;
     if (look.through > kThrough * (look.through + look.explained)) {
         why_not_ = Error{Errc::kConflict,
@@ -126,6 +133,7 @@ void ContourWatch::look() {
         return;
     }
     contradicted_ = 0;
+    doubts_ = false;
     lost_ = false;
     by_codes_ = estimate_.by_codes();
     if (look.explained >= kExplained) correct(look);
@@ -135,7 +143,9 @@ void ContourWatch::contradict() {
     looks_standing_ = 0;
     const bool codes_tell =
         by_codes_ != estimate_.by_codes() && estimate_.driven_since_m() < kWithoutCodes_m;
-    lost_ |= ++contradicted_ >= kLostAfter && !codes_tell;
+    ++contradicted_;
+    doubts_ = contradicted_ >= kDoubtsAfter && !codes_tell;
+    lost_ |= contradicted_ >= kLostAfter && !codes_tell;
 }
 
 void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "core/mapping/monte_carlo.hpp"
@@ -42,9 +41,12 @@ public:
     const std::optional<double>& explained() const { return explained_; }
     /// Error contours_lost {through}: it sees through what the map has there.
     const std::optional<Error>& why_not() const { return why_not_; }
-    /// What the last look lacked to tell the whole pose: contours_none_near, contours_featureless
-    /// (walls that look alike all along them); "": nothing.
-    const std::string& lacks() const { return lacks_; }
+    /// What the last look lacked to tell the whole pose: something near, or features: walls look
+    /// alike all along them.
+    enum class Lacks { kNothing, kThingsNear, kFeatures };
+    Lacks lacks() const { return lacks_; }
+    /// The map has been wrong for some looks: it slows down, and stops the sooner when it is lost.
+    bool doubts() const { return doubts_; }
     /// It has looked around again and again, and no code has told since the map was right last, or
     /// some metres back: it is not where it believes to be.
     bool lost() const { return lost_; }
@@ -69,11 +71,12 @@ private:
     int looks_standing_ = 0;
     int contradicted_ = 0;  // looks in a row
     int by_codes_ = 0;      // of the estimate, when the map was right last
+    bool doubts_ = false;
     bool lost_ = false;
     std::optional<localisation::BeaconFix> newest_;
     std::optional<double> explained_;
     std::optional<Error> why_not_;
-    std::string lacks_;
+    Lacks lacks_ = Lacks::kNothing;
 };
 
 }  // namespace pulseline::onboard

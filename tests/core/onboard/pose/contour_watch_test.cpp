@@ -67,7 +67,7 @@ TEST(ContourWatch, ADriveIsSteeredByWhatStandsAround) {
             most_sigmas = std::max(most_sigmas, looking.off_m() / looking.estimate.sigma_xy_m());
         });
         EXPECT_TRUE(looking.contours.newest());
-        EXPECT_EQ(looking.contours.lacks(), "");
+        EXPECT_EQ(looking.contours.lacks(), ContourWatch::Lacks::kNothing);
         EXPECT_LT(worst_m, 0.05) << seed;
         EXPECT_LT(most_sigmas, 4) << seed;
         EXPECT_LT(std::abs(looking.drive.true_pose().y_m), 0.05) << seed;
@@ -121,15 +121,20 @@ TEST(ContourWatch, CarriedOffWhileItStandsItIsLost) {
 TEST(ContourWatch, CarriedOffWhileItDrivesItIsLostWithinThreeMetres) {
     Looking looking(4, {0.02, -0.02, 0.01});
     double carried_at_m = 0;
+    double doubts_after_m = 0;
     double lost_after_m = 0;
     looking.run(15, [&] {
         if (carried_at_m == 0 && looking.drive.believed_pose().x_m > 4) {
             carried_at_m = looking.drive.believed_pose().x_m;
             looking.drive.carry({4, -2, 1.0});
         }
-        if (carried_at_m > 0 && lost_after_m == 0 && looking.contours.lost())
-            lost_after_m = looking.drive.believed_pose().x_m - carried_at_m;
+        const double since_m = looking.drive.believed_pose().x_m - carried_at_m;
+        if (carried_at_m == 0) return;
+        if (doubts_after_m == 0 && looking.contours.doubts()) doubts_after_m = since_m;
+        if (lost_after_m == 0 && looking.contours.lost()) lost_after_m = since_m;
     });
+    EXPECT_GT(doubts_after_m, 0);
+    EXPECT_LT(doubts_after_m, 1) << "it has to brake, too";
     EXPECT_GT(lost_after_m, 0);
     EXPECT_LT(lost_after_m, 3);
 }
@@ -169,7 +174,7 @@ TEST(ContourWatch, AWallWithoutFeaturesTellsNothingAlongIt) {
         });
         EXPECT_LT(most_sigmas, 4) << seed;
         EXPECT_FALSE(looking.contours.lost());
-        EXPECT_EQ(looking.contours.lacks(), "contours_featureless");
+        EXPECT_EQ(looking.contours.lacks(), ContourWatch::Lacks::kFeatures);
         EXPECT_LT(std::abs(looking.estimate.pose().y_m - looking.drive.true_pose().y_m), 0.05);
         EXPECT_GT(std::sqrt(looking.estimate.covariance()(0, 0)), 0.04) << "what a person told";
     }
