@@ -151,6 +151,31 @@ LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPl
     return plan;
 }
 
+namespace {
+
+/// What most of it is; one that costs no more would only take longer.
+LegAlternative::Reason main_reason(const LegAlternative& more) {
+    using Reason = LegAlternative::Reason;
+    if (more.more_cost <= 0) return Reason::kTime;
+    if (more.more_accuracy > std::max(more.more_turns, more.more_length)) return Reason::kAccuracy;
+    return more.more_turns > more.more_length ? Reason::kTurns : Reason::kLength;
+}
+
+}  // namespace
+
+LegAlternative compared(const plant::RoutingCost& cost, const LegPlan& taken, LegPlan other) {
+    const double turn = (cost.k_diff - cost.k_same) * cost.reference_step_m;
+    LegAlternative more;
+    more.more_cost = other.cost - taken.cost;
+    more.more_turns = turn * (other.turns - taken.turns);
+    more.more_accuracy = other.accuracy - taken.accuracy;
+    more.more_length = more.more_cost - more.more_turns - more.more_accuracy;
+    more.more_s = other.duration_s - taken.duration_s;
+    more.main_reason = main_reason(more);
+    more.plan = std::move(other);
+    return more;
+}
+
 void describe(const plant::VehicleType& type, const Body& body, const Obstacles& obstacles,
               const std::vector<StandingBody>& standing, LegPlan& plan) {
     const auto pieces = kinematics::sweep(body.pieces, plan.segments);

@@ -20,6 +20,9 @@ Result<LegPlan> finish(const LegTask& task, plant::MotionMode mode, LegDraft dra
 /// One way after another. A route begins where the vehicle first comes to the roadmap.
 LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPlan& rest);
 
+/// Another plan beside the one that was taken: what it costs more, and most of all for what.
+LegAlternative compared(const plant::RoutingCost& cost, const LegPlan& taken, LegPlan other);
+
 /// What people want to know of a plan besides: how near it comes to what, what the wheels do, and
 /// its outline.
 void describe(const plant::VehicleType& type, const Body& body, const Obstacles& obstacles,

@@ -349,18 +349,6 @@ Result<LegPlan> LegPlanner::plan_leg_after(double first_m, LegRequest request) c
         [&](const LegPlan& rest) { return joined(*request.type, *first, rest); });
 }
 
-namespace {
-
-/// What most of it is; one that costs no more would only take longer.
-LegAlternative::Reason main_reason(const LegAlternative& more) {
-    using Reason = LegAlternative::Reason;
-    if (more.more_cost <= 0) return Reason::kTime;
-    if (more.more_accuracy > std::max(more.more_turns, more.more_length)) return Reason::kAccuracy;
-    return more.more_turns > more.more_length ? Reason::kTurns : Reason::kLength;
-}
-
-}  // namespace
-
 std::vector<LegAlternative> LegPlanner::alternatives(
     const LegRequest& request, const LegPlan& plan, int count,
     const std::vector<StandingBody>& standing) const {
@@ -370,7 +358,6 @@ std::vector<LegAlternative> LegPlanner::alternatives(
     const GoingRound round(*tables_, by, request.hall, standing);
     const auto task = tables_->task_of(request, by);
     if (!task) return {};
-    const plant::RoutingCost& k = task->cost;
     std::vector<LegAlternative> found;
     for (LegDraft& draft :
          draft_other_road_legs(*task, plan.route, count + (plan.route.empty() ? 1 : 0))) {
@@ -378,15 +365,7 @@ std::vector<LegAlternative> LegPlanner::alternatives(
         if (!other) continue;  // too narrow where it leaves its start or reaches the station
         if (plan.route.empty() && same_way(*other, plan)) continue;
         if (static_cast<int>(found.size()) == count) break;
-        LegAlternative more;
-        more.more_cost = other->cost - plan.cost;
-        more.more_turns = (k.k_diff - k.k_same) * k.reference_step_m * (other->turns - plan.turns);
-        more.more_accuracy = other->accuracy - plan.accuracy;
-        more.more_length = more.more_cost - more.more_turns - more.more_accuracy;
-        more.more_s = other->duration_s - plan.duration_s;
-        more.main_reason = main_reason(more);
-        more.plan = std::move(*other);
-        found.push_back(std::move(more));
+        found.push_back(compared(task->cost, plan, std::move(*other)));
     }
     return found;
 }

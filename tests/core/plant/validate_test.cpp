@@ -230,6 +230,8 @@ const Case kCases[] = {
     {"Overloaded", [](Plant& p) { p.vehicles[0].load_kg = 101; }, "/vehicles/0/load_kg",
      "overloaded"},
     {"TurnsCheaper", [](Plant& p) { p.routing.k_diff = 1; }, "/routing/k_diff", "turns_cheaper"},
+    {"AccuracyBelowNothing", [](Plant& p) { p.routing.accuracy_k = -1; }, "/routing/accuracy_k",
+     "negative"},
     {"TwoCorners", [](Plant& p) { p.areas[0].outline.resize(2); }, "/areas/0/outline",
      "too_few_points"},
     {"HallCrossesItself", [](Plant& p) { std::swap(p.halls[0].outline[0], p.halls[0].outline[1]); },
