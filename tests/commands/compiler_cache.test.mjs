@@ -1,0 +1,31 @@
+// What the compiler cache gives back is what would have been compiled.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, test } from "node:test";
+
+import { BUILD } from "../harness/processes.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "pulseline-ccache-"));
+after(() => rmSync(folder, { recursive: true, force: true }));
+
+function compiled(...args) {
+  const done = spawnSync(join(BUILD, "ccache.sh"), ["g++", "-std=c++20", "-Winvalid-pch", "-MD", ...args], {
+    cwd: folder, encoding: "utf8", env: { ...process.env, CCACHE_DIR: join(folder, "cache"), CCACHE_SLOPPINESS: "pch_defines,time_macros" },
+  });
+  return done.status === 0 ? "compiled" : done.stderr;
+}
+
+test("a header whose comment or spaces changed is precompiled anew", { skip: !existsSync(join(BUILD, "ccache.sh")) && "no ccache" }, () => {
+  writeFileSync(join(folder, "all.hpp"), '#include "part.hpp"\n');
+  writeFileSync(join(folder, "all.cpp"), "");
+  for (const part of ["int value = 0;  // of old", "int value = 0;  // the new", "int   value = 0;  // the new"]) {
+    rmSync(join(folder, "all.hpp.gch"), { force: true });  // as in another clone
+    writeFileSync(join(folder, "part.hpp"), `#pragma once\nstruct Part { ${part}\n};\n`);
+    writeFileSync(join(folder, "main.cpp"), `#include "part.hpp"\nint main() { return Part{}.value + ${part.length}; }\n`);
+    assert.equal(compiled("-x", "c++-header", "-include", join(folder, "all.hpp"), "-o", join(folder, "all.hpp.gch"), "-c", join(folder, "all.cpp")), "compiled");
+    assert.equal(compiled("-include", join(folder, "all.hpp"), "-o", join(folder, "main.o"), "-c", join(folder, "main.cpp")), "compiled");
+  }
+});
