@@ -128,9 +128,11 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
     const bool has_order = live->has_leg() && live->state.order_id == live->leg().id.str() &&
                            !(unknown && has_nothing_left(live->state));
     if (live->state.driving || has_order) {
-        return fail(Errc::kConflict, "vehicle_busy",
-                    "Vehicle " + id.str() + " has an order. Cancel it before its position is set.",
-                    {}, {{"vehicle", id.str()}});
+        const char* remedy = unknown
+                                 ? " still gives up its way. Say its position again in a moment."
+                                 : " has an order. Cancel it before its position is set.";
+        return fail(Errc::kConflict, "vehicle_busy", "Vehicle " + id.str() + remedy, {},
+                    {{"vehicle", id.str()}});
     }
     Whereabouts stated{pose, hall_of(fleet, *live)};
     stated.pose.heading_rad = wrap(pose.heading_rad);

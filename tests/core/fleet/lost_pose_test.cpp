@@ -137,6 +137,28 @@ TEST(LostPose, ACancelThatWaitsForThePlaceIsNotToldAsUnconfirmed) {
     EXPECT_EQ(world.count_events("vehicle.action_unconfirmed"), 0);
 }
 
+// "Cancel its order first" would be the wrong advice: it has been told to already.
+TEST(LostPose, WhoSaysItsPlaceBeforeTheWayIsGivenUpIsToldToSayItAgain) {
+    World world;
+    world.connect_all();
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(0.8);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    vehicle.stands = true;
+    vehicle.sees_codes = false;
+    vehicle.state.cameras.clear();
+    vehicle.state.position_initialized = false;
+    for (int i = 0; i < 50 && world.fleet->vehicle(kV1, world.now)->pose_known; ++i) world.run(0.1);
+
+    const auto said = world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now);
+
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().reason.code, "vehicle_busy");
+    EXPECT_NE(said.error().what.find("again in a moment"), std::string::npos) << said.error().what;
+    world.run(2);
+    EXPECT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+}
+
 TEST(LostPose, TheFloorIsKeptOverARestart) {
     World world;
     world.connect_all();

@@ -51,6 +51,12 @@ it.each<[string, Partial<Vehicle>, string | undefined, string | undefined]>([
   ["a bracket that carries too little", worst(-0.11), "bracket", "high"],
   ["brackets that lean a little", worst(0.1), undefined, undefined],
   ["an unknown pose", { pose_known: false }, "pose", "high"],
+  [
+    "a pose that it lost, and why",
+    { pose_known: false, errors: [{ type: "poseUncertain", fatal: true, description: "" }] },
+    "pose",
+    "high",
+  ],
   ["an unknown pose out of the hall", { pose_known: false, integration: "ignore" }, undefined, undefined],
   ["a stop that was not measured", because("stop_not_measured"), "stop", "high"],
   ["a stop out of tolerance", because("out_of_tolerance"), "tolerance", "high"],

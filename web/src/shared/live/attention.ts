@@ -54,6 +54,8 @@ const kAsides = 3;
 const kAsidesMs = 300_000;
 /** What is told as an error and needs nobody. */
 const kNoFault = new Set(["going_round", "obstacle"]);
+/** Why it does not know its place: nothing to clear at the vehicle, it only has to be told. */
+const kPoseFaults = new Set(["poseUncertain", "contoursLost"]);
 
 const kByReason: Readonly<Record<string, [AlarmKind, Priority]>> = {
   traffic_violation: ["traffic", "critical"],
@@ -78,7 +80,7 @@ type Cause = Omit<Alarm, "vehicle">;
 
 /** Every cause there is, the most urgent of a priority first. */
 function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
-  const fatal = v.errors.find((e) => e.fatal);
+  const fatal = v.errors.find((e) => e.fatal && (v.pose_known || !kPoseFaults.has(e.type)));
   if (pressed(v)) yield { kind: "e_stop", priority: "critical" };
   if (fatal !== undefined) yield { kind: "error", priority: "critical", fault: fatal.type };
   const told = v.reason === undefined ? undefined : kByReason[v.reason.code];
