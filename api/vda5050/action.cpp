@@ -147,6 +147,7 @@ InitPosition read_init_position(json::ObjectReader& in) {
     init.last_node_id = in.text_or("lastNodeId", "", {0, 200});
     init.sigma_xy_m = in.number_or("sigma_xy_m", 0, limits::kSigma_m);
     init.sigma_heading_rad = in.number_or("sigma_heading_rad", 0, limits::kSigma_rad);
+    init.worked_out = in.boolean_or("workedOut", false);
     return init;
 }
 
@@ -160,6 +161,7 @@ Json init_parameters(const InitPosition& init) {
         parameters["sigma_xy_m"] = finite(init.sigma_xy_m);
         parameters["sigma_heading_rad"] = finite(init.sigma_heading_rad);
     }
+    if (init.worked_out) parameters["workedOut"] = true;
     return parameters;
 }
 

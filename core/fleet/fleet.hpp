@@ -96,7 +96,9 @@ public:
     /// unknown_vehicle, off_floor_unconfirmed, vehicle_busy.
     Result<VehicleView> integrate(const plant::VehicleId& id, Integration level, bool off_floor,
                                   const std::string& actor, Time now);
-    Result<VehicleView> init_position(const plant::VehicleId& id, const Pose2& pose,
+    /// A person says where it stands. Errors: unknown_vehicle, vehicle_busy, outside_hall, and why
+    /// it does not hear.
+    Result<VehicleView> init_position(const plant::VehicleId& id, const StatedPose& stated,
                                       const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
     Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,

@@ -41,9 +41,10 @@ struct InitPosition {
     Pose2 pose;
     std::string map_id;
     std::string last_node_id = {};
-    // How well it is known; 0: a person has said so.
+    // How well it is known; 0: as well as a person knows it who points there.
     double sigma_xy_m = 0;
     double sigma_heading_rad = 0;
+    bool worked_out = false;  // from what its sensors see; else a person has said so
 };
 
 enum class BlockingType { kNone, kSoft, kHard };

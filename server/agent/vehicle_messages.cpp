@@ -283,7 +283,9 @@ void Vehicle::receive(std::string_view text) {
         if (!actions) return report(actions.error(), topic);
         executor_.handle(*actions);
         if (const auto told = executor_.take_told()) {
-            estimate_.start_at(told->pose, told->sigma_xy_m, told->sigma_heading_rad);
+            estimate_.start_at(
+                told->pose, told->sigma_xy_m, told->sigma_heading_rad,
+                told->worked_out ? onboard::PoseSource::kStop : onboard::PoseSource::kPerson);
         }
         return;
     }

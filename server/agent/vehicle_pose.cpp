@@ -84,8 +84,8 @@ void Vehicle::guard_pose(double dt_s) {
     if (advice_ != Advice::kAsk) return;
     executor_.lose_pose({"poseUncertain",
                          true,
-                         "Nothing has told the vehicle for too long where it is. Say where it "
-                         "stands, or drive it by hand to a code.",
+                         "Nothing tells the vehicle well enough where it is. Measure where it "
+                         "stands and say it, or drive it by hand to a code.",
                          {}});
 }
 

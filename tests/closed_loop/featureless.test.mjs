@@ -84,18 +84,32 @@ test("where walls look alike it drives slowly, then stands and looks around, the
   assert.ok(truth.x_m > 40 && truth.x_m < LENGTH_M - 40, `it stands at ${truth.x_m} m`);
 });
 
-test("a person says where it stands and lets it go on: it looks around, drives slowly on that word for 25 m, and asks again", async () => {
+/** A person says where it stands, so well, and lets it go on. */
+async function isHelped(within) {
   const stands = system.lastTruth(ID);
-  const said = { x_m: stands.x_m + 0.07, y_m: stands.y_m - 0.07, heading_rad: stands.heading_rad + 5 * DEG };
+  const off_m = (within.within_m ?? 0.1) * 0.7;
+  const said = { x_m: stands.x_m + off_m, y_m: stands.y_m - off_m, heading_rad: stands.heading_rad + (within.within_rad ?? 5 * DEG), ...within };
   await client.untilOrder(order.id, (o) => o.state === "Interrupted" && o.reason.code === "pose_lost", "is interrupted");
   await until("it has given up its way", async () => (await client.request("POST", `/api/v1/vehicles/${ID}/init-position`, { body: said })).status === 202);
   await client.untilVehicle(ID, (v) => v.pose_known, "has heard it");
   await client.post("/api/v1/fleet/resume", { vehicles: [ID] });
-  await client.untilVehicle(ID, says("poseSought"), "looks around", 30);
-  await client.untilVehicle(ID, says("poseVague"), "drives slowly", 30);
-  await client.untilVehicle(ID, (v) => says("poseUncertain")(v) && v.speed_mps === 0, "asks", 60);
+  return stands;
+}
 
-  const driven = wayBetween(stands, system.lastTruth(ID));
-  assert.ok(driven > 15 && driven < 27, `it has driven ${driven} m`);
+test("a person points to where it stands and lets it go on: it looks around and asks again, for nothing tells it how far along it is", async () => {
+  const stands = await isHelped({});
+  await client.untilVehicle(ID, says("poseSought"), "looks around", 30);
+  await client.untilVehicle(ID, says("poseUncertain"), "asks", 60);
+
+  assert.ok(wayBetween(stands, system.lastTruth(ID)) < HELD_M, "it has not moved");
   assert.equal((await vehicle()).pose_known, false);
+});
+
+test("a person measures where it stands: it drives on as far as that holds", async () => {
+  const stands = await isHelped({ within_m: 0.01, within_rad: 0.1 * DEG });
+  await client.untilVehicle(ID, (v) => v.speed_mps > 0, "drives", 30);
+  await client.untilVehicle(ID, (v) => says("poseUncertain")(v) && v.speed_mps === 0, "asks", 90);
+
+  const truth = system.lastTruth(ID);
+  assert.ok(wayBetween(stands, truth) > 18, `it has driven ${wayBetween(stands, truth)} m`);
 });

@@ -137,7 +137,7 @@ async function killAgent(drives, order, i) {
   if (!(await client.get(`/api/v1/vehicles/${VEHICLE}`)).pose_known) {
     await until("the position is accepted", async () => {
       const { truth } = drives;
-      const answer = await client.request("POST", `/api/v1/vehicles/${VEHICLE}/init-position`, { body: { x_m: truth.x_m + 0.005, y_m: truth.y_m - 0.005, heading_rad: truth.heading_rad + 0.0005 } });
+      const answer = await client.request("POST", `/api/v1/vehicles/${VEHICLE}/init-position`, { body: { x_m: truth.x_m + 0.005, y_m: truth.y_m - 0.005, heading_rad: truth.heading_rad + 0.0005, within_m: 0.01, within_rad: 0.002 } });
       return answer.status === 202;
     }, { timeout_s: 20, every_ms: 50 });
     await client.untilReady(VEHICLE);

@@ -70,7 +70,7 @@ async function findItsCodes(order) {
   const done = await client.untilOrder(order.id, (o) => ["Ended", "Aborted"].includes(o.state) || o.reason?.code === "stop_not_measured", "ended or does not find its codes", 120);
   if (done.state !== "Interrupted") return;
   const { x_m, y_m, heading_rad } = system.lastTruth(done.vehicle);
-  await client.post(`/api/v1/vehicles/${done.vehicle}/init-position`, { x_m: x_m + 0.01, y_m: y_m - 0.01, heading_rad });
+  await client.post(`/api/v1/vehicles/${done.vehicle}/init-position`, { x_m: x_m + 0.01, y_m: y_m - 0.01, heading_rad, within_m: 0.02, within_rad: 0.002 });
   await client.untilVehicle(done.vehicle, (v) => v.pose_known && Math.hypot(v.pose.x_m - x_m, v.pose.y_m - y_m) < 0.02, "knows where it stands");
   await client.post(`/api/v1/job-orders/${order.id}/resume`);
 }

@@ -210,7 +210,7 @@ private:
 
     /// The person who put it there, or has looked.
     void say_where(const plant::VehicleId& id) {
-        static_cast<void>(fleet_->init_position(id, vehicles_.at(id).pose(), "person", now()));
+        static_cast<void>(fleet_->init_position(id, {vehicles_.at(id).pose()}, "person", now()));
     }
 
     static bool is_traffic(const std::string& code) {

@@ -116,20 +116,20 @@ void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {
     const bool in_doubt = view->claimed_pose.has_value();
     // It refuses to begin where the server takes it to stand: a person looks before the next try.
     if (view->needs_resume_reason.code == "order_rejected" && vehicle.standing()) {
-        static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));
+        static_cast<void>(fleet_->init_position(id, {vehicle.pose()}, "person", now()));
     }
     if (waits && fleet_->resume_fleet({id}, "person", now())) {
         watch.restarted_on_leg = watch.needs_person = false;
     } else if (in_doubt) {
         // It is not where it says; a person walks there and looks.
         if (vehicle.standing()) {
-            static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));
+            static_cast<void>(fleet_->init_position(id, {vehicle.pose()}, "person", now()));
         }
     } else if (waits) {
         return;
     } else if (vehicle.standing() && !vehicle.knows_pose()) {
         // No codes below it: the person says where it stands.
-        static_cast<void>(fleet_->init_position(id, vehicle.pose(), "person", now()));
+        static_cast<void>(fleet_->init_position(id, {vehicle.pose()}, "person", now()));
     }
     settle();
 }

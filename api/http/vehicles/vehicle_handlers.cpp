@@ -79,11 +79,11 @@ FleetAnswer pause_vehicle(FleetContext& context, const Request& request) {
 }
 
 FleetAnswer init_position(FleetContext& context, const Request& request) {
-    const auto pose = read_pose(request);
-    if (!pose) return {problem(400, pose.error(), request)};
+    const auto stated = read_stated_pose(request);
+    if (!stated) return {problem(400, stated.error(), request)};
     return vehicle_answer(context, request,
-                          context.fleet.init_position(plant::VehicleId(request.param("id")), *pose,
-                                                      request.identity.name, context.now));
+                          context.fleet.init_position(plant::VehicleId(request.param("id")),
+                                                      *stated, request.identity.name, context.now));
 }
 
 FleetAnswer integrate_vehicle(FleetContext& context, const Request& request) {

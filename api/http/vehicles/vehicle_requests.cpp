@@ -11,11 +11,25 @@ using json::ObjectReader;
 
 constexpr std::size_t kMaxResumed = 1000;
 constexpr json::TextLimits kVehicleName{1, 64};
+// Nobody measures a vehicle's place better than its own codes do.
+constexpr double kLeastWithin_m = 0.001;
+constexpr double kLeastWithin_rad = 1e-4;
 
 }  // namespace
 
-Result<geometry::Pose2> read_pose(const Request& request) {
-    return read_object<geometry::Pose2>(request, read_pose_members);
+Result<fleet::StatedPose> read_stated_pose(const Request& request) {
+    return read_object<fleet::StatedPose>(request, [](ObjectReader& in) {
+        using fleet::StatedPose;
+        StatedPose stated{read_pose_members(in)};
+        stated.sigma_xy_m = in.number_or("within_m", StatedPose::kPointedWithin_m,
+                                         {kLeastWithin_m, StatedPose::kPointedWithin_m}) /
+                            2;
+        stated.sigma_heading_rad =
+            in.number_or("within_rad", StatedPose::kPointedWithin_rad,
+                         {kLeastWithin_rad, StatedPose::kPointedWithin_rad}) /
+            2;
+        return stated;
+    });
 }
 
 Result<IntegrationRequest> read_integration(const Request& request) {

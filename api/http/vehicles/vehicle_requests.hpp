@@ -14,7 +14,7 @@ struct IntegrationRequest {
     bool off_floor = false;
 };
 Result<IntegrationRequest> read_integration(const Request& request);
-Result<geometry::Pose2> read_pose(const Request& request);
+Result<fleet::StatedPose> read_stated_pose(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 Result<fleet::MotionQuestion> read_motion_question(const Request& request);
 

@@ -114,9 +114,9 @@ Result<VehicleView> Fleet::pause_vehicle(const plant::VehicleId& id, const std::
     return view_of(fleet, *live, now);
 }
 
-Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2& pose,
+Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const StatedPose& stated,
                                          const std::string& actor, Time now) {
-    FleetState& fleet = input<&Fleet::init_position>(now, id, pose, actor);
+    FleetState& fleet = input<&Fleet::init_position>(now, id, stated, actor);
     LiveVehicle* live = fleet.find(id);
     if (!live) return no_such_vehicle(id);
     if (Status heard = is_heard(*live, {}, "Its position can be set"); !heard) {
@@ -134,13 +134,14 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
         return fail(Errc::kConflict, "vehicle_busy", "Vehicle " + id.str() + remedy, {},
                     {{"vehicle", id.str()}});
     }
-    Whereabouts stated{pose, hall_of(fleet, *live)};
-    stated.pose.heading_rad = wrap(pose.heading_rad);
+    const Pose2& pose = stated.pose;
+    Whereabouts where{pose, hall_of(fleet, *live)};
+    where.pose.heading_rad = wrap(pose.heading_rad);
     const auto& claim = live->record.claim;
     if (claim && geometry::distance(claim->pose.position(), pose.position()) < kAsClaimed_m) {
-        stated.hall = claim->hall;
+        where.hall = claim->hall;
     }
-    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(stated.hall));
+    const auto* hall = plant::find_hall(fleet.plant, plant::HallId(where.hall));
     if (hall && !geometry::contains(hall->outline, pose.position())) {
         return fail(Errc::kUnreachable, "outside_hall",
                     "That position lies outside hall " + hall->name + ".", "/x_m",
@@ -150,10 +151,15 @@ Result<VehicleView> Fleet::init_position(const plant::VehicleId& id, const Pose2
                   [](const PendingAction& p) { return p.action.type == vda5050::kInitPosition; });
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
-    action.init_position = vda5050::InitPosition{pose, stated.hall, {}};
-    live->stated = LiveVehicle::Statement{stated, now, actor};
+    action.init_position =
+        vda5050::InitPosition{pose, where.hall, {}, stated.sigma_xy_m, stated.sigma_heading_rad};
+    live->stated = LiveVehicle::Statement{where, now, actor};
     add_event(fleet, now, event::kVehicleInitPosition, {}, {}, id, actor,
-              {{"x_m", pose.x_m}, {"y_m", pose.y_m}, {"heading_rad", pose.heading_rad}});
+              {{"x_m", pose.x_m},
+               {"y_m", pose.y_m},
+               {"heading_rad", pose.heading_rad},
+               {"sigma_xy_m", stated.sigma_xy_m},
+               {"sigma_heading_rad", stated.sigma_heading_rad}});
     send_action(fleet, *live, std::move(action), now);
     return view_of(fleet, *live, now);
 }

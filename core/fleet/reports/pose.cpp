@@ -320,8 +320,8 @@ void offer_seen_pose(FleetState& fleet, LiveVehicle& live, std::optional<Time> b
     vda5050::Action action;
     action.type = vda5050::kInitPosition;
     action.blocking = vda5050::BlockingType::kHard;
-    action.init_position = vda5050::InitPosition{
-        seen->pose, hall_of(fleet, live), {}, seen->sigma_xy_m, seen->sigma_heading_rad};
+    action.init_position = vda5050::InitPosition{seen->pose,       hall_of(fleet, live),    {},
+                                                 seen->sigma_xy_m, seen->sigma_heading_rad, true};
     send_action(fleet, live, std::move(action), now);
 }
 

@@ -84,7 +84,8 @@ namespace vda5050 {
 PULSELINE_FIELDS(SurveyedMarker, payload, kind, size_m, pose, sigma_m, sigma_rad)
 PULSELINE_FIELDS(StopTarget, station_id, station_number, target, tolerance_x_m, tolerance_y_m,
                  tolerance_heading_rad, markers)
-PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id, sigma_xy_m, sigma_heading_rad)
+PULSELINE_FIELDS(InitPosition, pose, map_id, last_node_id, sigma_xy_m, sigma_heading_rad,
+                 worked_out)
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Action>
 void fields(V& visit, S& it) {
@@ -146,6 +147,7 @@ PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
                  released_nodes, passed_nodes, duration_s, attempt, actions_only, charges)
 PULSELINE_FIELDS(Whereabouts, pose, hall)
+PULSELINE_FIELDS(StatedPose, pose, sigma_xy_m, sigma_heading_rad)
 PULSELINE_FIELDS(Pause, actor, at, with_fleet)
 PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,

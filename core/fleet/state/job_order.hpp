@@ -193,6 +193,17 @@ struct Whereabouts {
     friend bool operator==(const Whereabouts&, const Whereabouts&) = default;
 };
 
+/// Where a person says that a vehicle stands, and how well that person knows it.
+struct StatedPose {
+    /// Of one who points there, 95 in 100 times; who measures knows it better.
+    static constexpr double kPointedWithin_m = 0.1;
+    static constexpr double kPointedWithin_rad = radians(5);
+
+    Pose2 pose;
+    double sigma_xy_m = kPointedWithin_m / 2;
+    double sigma_heading_rad = kPointedWithin_rad / 2;
+};
+
 /// A person's wish that a vehicle stands.
 struct Pause {
     std::string actor;  // empty: nobody is known any more

@@ -91,22 +91,13 @@ void PoseEstimate::catch_up() {
     filter_.drive(odometry_of(way));
     if (other_) other_->filter.drive(odometry_of(way));
     since_m_ += norm(way.position());
-    if (said_ago_m_) *said_ago_m_ += norm(way.position());
     driven_ = now_;
 }
 
 void PoseEstimate::note(PoseSource source) {
     source_ = source;
     since_m_ = 0;
-    // A person's word and what walls make of it go together: at first they know little more.
-    if (source == PoseSource::kPerson) said_ago_m_ = 0;
-    if (source != PoseSource::kPerson && source != PoseSource::kContours) said_ago_m_.reset();
     by_codes_ += source == PoseSource::kStop || source == PoseSource::kCodes;
-}
-
-std::optional<double> PoseEstimate::driven_since_said_m() const {
-    if (!said_ago_m_) return std::nullopt;
-    return *said_ago_m_ + norm((inverse(driven_) * now_).position());
 }
 
 double PoseEstimate::driven_since_m() const {
@@ -210,14 +201,15 @@ void PoseEstimate::led_to(const Pose2& believed) {
     now_ = believed;
 }
 
-void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_heading_rad) {
-    const bool worked_out = sigma_xy_m > 0 && sigma_heading_rad > 0;
-    filter_.restart(pose, worked_out ? known_to(sigma_xy_m, sigma_heading_rad) : told());
+void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_heading_rad,
+                            PoseSource by) {
+    const bool is_said = sigma_xy_m > 0 && sigma_heading_rad > 0;
+    filter_.restart(pose, is_said ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();
     other_.reset();
     driven_ = now_ = pose;
-    note(worked_out ? PoseSource::kStop : PoseSource::kPerson);
+    note(by);
 }
 
 /// With the way that the filter has not followed yet.

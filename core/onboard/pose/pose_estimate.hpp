@@ -42,13 +42,11 @@ public:
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
     /// seen, but as a new beginning: the vehicle was moved by hand, or its wheels slipped.
     void take(const localisation::PoseFix& fix);
-    /// A person said where it stands; with sigmas somebody who has worked it out from codes or
-    /// beacons.
-    void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0);
+    /// It was told where it stands. Without sigmas: by a person who pointed there.
+    void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0,
+                  PoseSource by = PoseSource::kPerson);
 
     PoseSource source() const { return source_; }
-    /// By the wheels, since a person said where it is; nothing: something else has told since then.
-    std::optional<double> driven_since_said_m() const;
     /// How often codes have told where it is.
     int by_codes() const { return by_codes_; }
     /// By the wheels, since that.
@@ -89,8 +87,7 @@ private:
     int begun_ = 0;
     PoseSource source_ = PoseSource::kPerson;
     int by_codes_ = 0;
-    std::optional<double> said_ago_m_;  // as far as the filter has followed
-    double since_m_ = 0;                // as far as the filter has followed
+    double since_m_ = 0;  // as far as the filter has followed
 };
 
 }  // namespace pulseline::onboard

@@ -10,8 +10,6 @@ constexpr double kReachSigmas = 3;
 // Of what is held; the rest of it is for braking.
 constexpr double kSlowFrom = 0.75;
 constexpr double kStandFrom = 0.97;
-// To the second code at least: those of lanes lie 9 m apart at most, and one can be missed.
-constexpr double kFromAPerson_m = 25;
 
 }  // namespace
 
@@ -30,9 +28,7 @@ PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, boo
     const double reach = reach_m(estimate);
     if (reach > kStandFrom * kHeld_m && driving) {
         looked_s_ += dt_s;
-        if (looked_s_ <= kLook_s) return Advice::kLookAround;
-        const auto said_m = estimate.driven_since_said_m();
-        return said_m && *said_m <= kFromAPerson_m ? Advice::kDriveSlowly : Advice::kAsk;
+        return looked_s_ <= kLook_s ? Advice::kLookAround : Advice::kAsk;
     }
     looked_s_ = 0;
     return reach > kSlowFrom * kHeld_m ? Advice::kDriveSlowly : Advice::kDrive;

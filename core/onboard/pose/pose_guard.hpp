@@ -8,9 +8,8 @@ namespace pulseline::onboard {
 /// What becomes of a drive whose vehicle knows less and less where it is, since no code, beacon or
 /// contour has told it: first it drives slowly, which leaves its senses more time; before three
 /// sigma of any point of its body reach beyond the floor that is held for it, it stands and looks
-/// around; and if nothing tells it then, it asks. Where a person has said that it stands, the
-/// person has looked whether the floor around is free: from there it looks around first, too, and
-/// then drives slowly for a while, to find something that tells it better.
+/// around; and if nothing tells it then, it asks. So it does from where a person points to; what a
+/// person has measured lets it drive as far as that holds.
 /// Thread safety: none. No clock: time passes by step().
 class PoseGuard {
 public:

@@ -176,6 +176,13 @@ TEST(BadInput, PosesNameTheFieldAtFault) {
             {R"({"x_m":1,"y_m":-1e300,"heading_rad":0})", 400, "out_of_range", "/y_m"},
             {R"({"x_m":1,"y_m":2,"heading_rad":6.3})", 400, "out_of_range", "/heading_rad"},
             {R"({"x_m":1,"y_m":2,"heading_rad":0,"z_m":0})", 400, "unknown_field", "/z_m"},
+            {R"({"x_m":1,"y_m":2,"heading_rad":0,"within_m":0})", 400, "out_of_range", "/within_m"},
+            {R"({"x_m":1,"y_m":2,"heading_rad":0,"within_m":0.2})", 400, "out_of_range",
+             "/within_m"},
+            {R"({"x_m":1,"y_m":2,"heading_rad":0,"within_rad":-0.01})", 400, "out_of_range",
+             "/within_rad"},
+            {R"({"x_m":1,"y_m":2,"heading_rad":0,"within_rad":"0.01"})", 400, "wrong_type",
+             "/within_rad"},
             {R"({"x_m":1,"x_m":1,"y_m":2,"heading_rad":0})", 400, "json_duplicate_key", ""},
         });
 }

@@ -115,6 +115,9 @@ TEST(InstantActions, RoundTripAndNumbersAsText) {
     EXPECT_EQ(read->actions[0].params.size(), 3u);
     EXPECT_EQ(read->actions[1].init_position->pose, (geometry::Pose2{1.5, -2, 0.3}));
     EXPECT_EQ(read->actions[1].init_position->last_node_id, "st01");
+    EXPECT_EQ(read->actions[1].init_position->sigma_xy_m, 0.005);
+    EXPECT_EQ(read->actions[1].init_position->sigma_heading_rad, 0.001);
+    EXPECT_TRUE(read->actions[1].init_position->worked_out);
     for (auto& parameter : message["actions"][1]["actionParameters"]) {
         if (parameter["key"] == "x") parameter["value"] = "1.5";
     }

@@ -132,7 +132,8 @@ inline vda5050::InstantActionsMessage instant_actions() {
     init.type = "initPosition";
     init.id = "i-1";
     init.blocking = vda5050::BlockingType::kNone;
-    init.init_position = vda5050::InitPosition{{1.5, -2, 0.3}, "hall-1", "st01"};
+    init.init_position =
+        vda5050::InitPosition{{1.5, -2, 0.3}, "hall-1", "st01", 0.005, 0.001, true};
     return {{cancel, init}};
 }
 

@@ -295,7 +295,7 @@ TEST_F(Iso3691, ToSayWhereItStandsLetsNothingMove) {
     v1().sees_codes = false;
     v1().restart();
     world.run(2);
-    ASSERT_TRUE(world.fleet->init_position(kV1, *v1().state.pose, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {*v1().state.pose}, "op", world.now));
     world.run(30);
     EXPECT_TRUE(view().pose_known);
     EXPECT_EQ(v1().orders_received, before);

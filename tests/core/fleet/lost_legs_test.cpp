@@ -315,7 +315,7 @@ TEST(LostLegs, AVehicleThatRestartsAgainBeforeItKnowsItsPoseWaitsForAPersonAgain
     const int steps = vehicle.node_steps;
 
     restart();
-    ASSERT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {*vehicle.state.pose}, "op", world.now));
     world.run(10);
 
     EXPECT_EQ(vehicle.node_steps, steps) << "a position moves nothing";

@@ -42,7 +42,7 @@ TEST(LostPose, ALegIsKeptUntilItIsKnownWhereItsVehicleStands) {
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
 
     const Pose2 pose = *world.vehicle("V1").state.pose;
-    ASSERT_TRUE(world.fleet->init_position(kV1, pose, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {pose}, "op", world.now));
     world.run(2);
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
 }
@@ -56,7 +56,7 @@ TEST(LostPose, OnTheWayTheOrderGoesOnFromWhereAPersonSaysAndOnlyThen) {
     EXPECT_TRUE(vehicle.state.node_states.empty()) << "it has given up its way";
     EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "its base is the floor it may stand on";
 
-    ASSERT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {*vehicle.state.pose}, "op", world.now));
     world.run(2);
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
     EXPECT_EQ(world.only_order().state, JobState::kInterrupted) << "a place moves nothing";
@@ -74,7 +74,8 @@ TEST(LostPose, ACancelledOrderEndsOnceAPersonSaysWhereItsVehicleStands) {
 
     ASSERT_TRUE(world.fleet->cancel_order(world.only_order().id, {}, "op", world.now));
     world.run(2);
-    ASSERT_TRUE(world.fleet->init_position(kV1, *world.vehicle("V1").state.pose, "op", world.now));
+    ASSERT_TRUE(
+        world.fleet->init_position(kV1, {*world.vehicle("V1").state.pose}, "op", world.now));
     world.run(2);
 
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
@@ -88,7 +89,8 @@ TEST(LostPose, TheOrderGoesOnAlsoWhenTheServerWasRestartedMeanwhile) {
     world.crash_server();
     world.run(2);
     ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
-    ASSERT_TRUE(world.fleet->init_position(kV1, *world.vehicle("V1").state.pose, "op", world.now));
+    ASSERT_TRUE(
+        world.fleet->init_position(kV1, {*world.vehicle("V1").state.pose}, "op", world.now));
     world.run(2);
     find_v1(world);
     ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
@@ -107,7 +109,8 @@ TEST(LostPose, WhoIsLetGoOnBeforeItsPlaceIsSaidWaitsForThat) {
     ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
     world.run(10);
     EXPECT_EQ(world.vehicle("V1").node_steps, steps);
-    ASSERT_TRUE(world.fleet->init_position(kV1, *world.vehicle("V1").state.pose, "op", world.now));
+    ASSERT_TRUE(
+        world.fleet->init_position(kV1, {*world.vehicle("V1").state.pose}, "op", world.now));
     world.vehicle("V1").sees_codes = true;
     world.run(60);
 
@@ -150,13 +153,13 @@ TEST(LostPose, WhoSaysItsPlaceBeforeTheWayIsGivenUpIsToldToSayItAgain) {
     vehicle.state.position_initialized = false;
     for (int i = 0; i < 50 && world.fleet->vehicle(kV1, world.now)->pose_known; ++i) world.run(0.1);
 
-    const auto said = world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now);
+    const auto said = world.fleet->init_position(kV1, {*vehicle.state.pose}, "op", world.now);
 
     ASSERT_FALSE(said);
     EXPECT_EQ(said.error().reason.code, "vehicle_busy");
     EXPECT_NE(said.error().what.find("again in a moment"), std::string::npos) << said.error().what;
     world.run(2);
-    EXPECT_TRUE(world.fleet->init_position(kV1, *vehicle.state.pose, "op", world.now));
+    EXPECT_TRUE(world.fleet->init_position(kV1, {*vehicle.state.pose}, "op", world.now));
 }
 
 TEST(LostPose, TheFloorIsKeptOverARestart) {

@@ -68,7 +68,7 @@ TEST(Fleet, AVehicleThatRestartsInMidLegWaitsForPoseAndPerson) {
 
     // A person looks where it stands, says so, and lets it move.
     const Pose2 pose = *world.vehicle("V1").state.pose;
-    ASSERT_TRUE(world.fleet->init_position(kV1, pose, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {pose}, "op", world.now));
     world.run(2);
     EXPECT_EQ(world.vehicle("V1").node_steps, steps) << "a position moves nothing";
     ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));

@@ -167,7 +167,7 @@ TEST(ImpossiblePose, IsTrueWhenAPersonSaysSoAndFreesWhereItWas) {
     World world;
     world.connect_all();
     claim(world, kAside);  // carried there
-    ASSERT_TRUE(world.fleet->init_position(kV1, kAside, "op", world.now));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {kAside}, "op", world.now));
     world.run(2);
     EXPECT_FALSE(view(world).claimed_pose);
     EXPECT_EQ(view(world).pose, kAside);

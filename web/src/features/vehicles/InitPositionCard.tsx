@@ -67,6 +67,14 @@ export function InitPositionCard({
               value={draft.heading_deg}
               onChange={(heading_deg) => set({ heading_deg })}
             />
+            <div className="seg known" role="group" aria-label={t("init.known")}>
+              <button type="button" aria-pressed={!draft.measured} onClick={() => set({ measured: false })}>
+                {t("init.by_eye")}
+              </button>
+              <button type="button" aria-pressed={draft.measured} onClick={() => set({ measured: true })}>
+                {t("init.measured")}
+              </button>
+            </div>
           </>
         )}
         <CommandButton

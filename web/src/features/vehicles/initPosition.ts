@@ -1,4 +1,4 @@
-import type { Plant, Pose } from "@/shared/api/types";
+import type { Plant, Pose, StatedPose } from "@/shared/api/types";
 
 /** What a person typed to say where the vehicle stands. */
 export interface InitDraft {
@@ -7,9 +7,21 @@ export interface InitDraft {
   x_mm: string;
   y_mm: string;
   heading_deg: string;
+  /** With a tape, not by eye. Only who has measured it lets a vehicle drive that sees nothing that tells it better. */
+  measured: boolean;
 }
 
-export const emptyDraft: InitDraft = { how: "station", station: "", x_mm: "", y_mm: "", heading_deg: "" };
+/** How far off a measured place may be. */
+export const kMeasured = { within_m: 0.01, within_rad: (0.1 * Math.PI) / 180 };
+
+export const emptyDraft: InitDraft = {
+  how: "station",
+  station: "",
+  x_mm: "",
+  y_mm: "",
+  heading_deg: "",
+  measured: false,
+};
 
 /** A pose as a person would have typed it, to a tenth of a millimetre. */
 export function draftOf(pose: Pose): InitDraft {
@@ -19,11 +31,12 @@ export function draftOf(pose: Pose): InitDraft {
     x_mm: (pose.x_m * 1000).toFixed(1),
     y_mm: (pose.y_m * 1000).toFixed(1),
     heading_deg: ((pose.heading_rad * 180) / Math.PI).toFixed(3),
+    measured: false,
   };
 }
 
 export type InitResult =
-  | { kind: "pose"; pose: Pose }
+  | { kind: "pose"; pose: StatedPose }
   | { kind: "empty" }
   | { kind: "bad_station"; number: string }
   | { kind: "bad_number"; field: "x" | "y" | "heading" }
@@ -55,5 +68,6 @@ export function readDraft(draft: InitDraft, plant: Plant | undefined): InitResul
   const heading = parseNumber(draft.heading_deg);
   if (heading === undefined) return { kind: "bad_number", field: "heading" };
   if (Math.abs(heading) > 360) return { kind: "bad_heading" };
-  return { kind: "pose", pose: { x_m: x / 1000, y_m: y / 1000, heading_rad: (heading * Math.PI) / 180 } };
+  const pose = { x_m: x / 1000, y_m: y / 1000, heading_rad: (heading * Math.PI) / 180 };
+  return { kind: "pose", pose: draft.measured ? { ...pose, ...kMeasured } : pose };
 }

@@ -138,6 +138,17 @@ describe("initial position", () => {
       { how: "numbers" as const, x_mm: "1500", y_mm: "-2000", heading_deg: "180" },
       { kind: "pose", pose: { x_m: 1.5, y_m: -2, heading_rad: Math.PI } },
     ],
+    [
+      { how: "numbers" as const, x_mm: "1500", y_mm: "-2000", heading_deg: "180", measured: true },
+      {
+        kind: "pose",
+        pose: { x_m: 1.5, y_m: -2, heading_rad: Math.PI, within_m: 0.01, within_rad: Math.PI / 1800 },
+      },
+    ],
+    [
+      { station: "7", measured: true },
+      { kind: "pose", pose },
+    ],
   ])("%o", (draft, result) => expect(readDraft({ ...emptyDraft, ...draft }, plant)).toEqual(result));
 
   it("takes over a pose that the vehicle claims", () => {

@@ -7,6 +7,7 @@ export type Role = Schemas["Role"];
 export type Point = Schemas["Point"];
 export type Ring = Schemas["Ring"];
 export type Pose = Schemas["Pose"];
+export type StatedPose = Schemas["StatedPose"];
 export type MotionMode = Schemas["MotionMode"];
 export type Tolerance = Schemas["Tolerance"];
 export type Plant = Schemas["Plant"];
