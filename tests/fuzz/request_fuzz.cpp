@@ -32,7 +32,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     (void)api::read_new_order(request);
     (void)api::read_job_control(request);
     (void)api::read_new_schedule(request);
-    (void)api::read_pose(request);
+    (void)api::read_stated_pose(request);
     (void)api::read_integration(request);
     (void)api::read_resume_fleet(request);
     (void)api::read_new_closure(request);
