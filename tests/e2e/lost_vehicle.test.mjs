@@ -57,6 +57,7 @@ test("told where it stands, 0.1 m and 5 deg off, and let go on, it finds itself 
   await page.getByLabel("East x, mm").fill(String(Math.round(1e3 * (stands.x_m + 0.07))));
   await page.getByLabel("North y, mm").fill(String(Math.round(1e3 * (stands.y_m - 0.07))));
   await page.getByLabel("Heading, °").fill((stands.heading_rad / DEG + 5).toFixed(1));
+  await picture(page, "lost-numbers");
   await twice("Set position");
   await client.untilVehicle(ID, (v) => v.pose_known, "has heard it");
   assert.equal((await client.get(`/api/v1/job-orders/${order.id}`)).state, "Interrupted", "a position moves nothing");
