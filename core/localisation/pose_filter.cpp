@@ -10,10 +10,9 @@
 namespace pulseline::localisation {
 namespace {
 
-// Chi-square of 3 degrees of freedom at 1 - 1e-8. After a right code that is refused the next one
-// may not come into view, and then none: at 99.999 % twelve vehicles refused three in ten hours,
-// and one was lost by it. A wrong one is off by many times what is known.
-constexpr double kGate = 40.1;
+// Chi-square of 3 degrees of freedom at 99.999 %. After a right code that is refused the next one
+// may not come into view, and then none; a wrong one is off by many times what is known.
+constexpr double kGate = 25.9;
 
 }  // namespace
 
