@@ -108,7 +108,12 @@ Status PoseFilter::update(const Eigen::Vector3d& innovation, const Observation& 
         return fail(Errc::kConflict, "innovation_gate",
                     "The code contradicts the way driven. A code was moved or exchanged, or the "
                     "wheels slip.",
-                    {}, {{"chi2", chi2}, {"limit", kGate}});
+                    {},
+                    {{"chi2", chi2},
+                     {"limit", kGate},
+                     {"x_m", innovation.x()},
+                     {"y_m", innovation.y()},
+                     {"heading_rad", innovation.z()}});
     const Eigen::LDLT<Eigen::Matrix3d> solver(s);
     const Eigen::Matrix<double, 6, 3> gain = solver.solve(jacobian * covariance_).transpose();
     const State change = gain * innovation;

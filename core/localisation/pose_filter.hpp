@@ -35,10 +35,11 @@ public:
 
     /// A whole pose, from localisation::locate. `lasting`: the part of its covariance that later
     /// ones share, so that many of them are no better than one; it counts when the fix is checked,
-    /// and covariance() leaves it out. Fails with innovation_gate {chi2, limit}.
+    /// and covariance() leaves it out. Fails with innovation_gate {chi2, limit, x_m, y_m,
+    /// heading_rad}: the last three in the hall frame, by what it is off.
     Status correct(const PoseFix& fix, const Eigen::Matrix3d& lasting = Eigen::Matrix3d::Zero());
-    /// One code in view: its place and angle in the body frame against the survey. Fails with
-    /// innovation_gate {chi2, limit}.
+    /// One code in view: its place and angle in the body frame against the survey. Fails as
+    /// the other one.
     Status correct(const CodeObservation& seen, const SurveyedCode& code);
     /// It is here, whatever it believed. What it knows of its odometry stays.
     void restart(const Pose2& pose, const Eigen::Matrix3d& covariance);

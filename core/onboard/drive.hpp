@@ -50,6 +50,8 @@ public:
     virtual bool standing() const = 0;
     /// Standing with nothing left in the queue, nor steered.
     virtual bool idle() const = 0;
+    /// How often it has come to rest since construction, however shortly: its brakes fell in.
+    virtual std::size_t rests() const = 0;
     /// Appended segments driven to their end since construction.
     virtual std::size_t segments_done() const = 0;
     /// Way of the body left in the queue, and the share of it needed to brake now.

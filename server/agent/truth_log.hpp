@@ -14,14 +14,18 @@ namespace pulseline::agent {
 struct TruthLine {
     std::string vehicle;
     geometry::Pose2 pose;
+    geometry::Pose2 believed;  // what the vehicle knows, and its sigmas
+    double sigma_m = 0;
+    double sigma_rad = 0;
     bool moving = false;
     std::string order_id;
     std::int64_t last_node_seq = 0;
     std::int64_t base_end_seq = 0;
 };
 
-/// Appends JSON lines {t_ms, vehicle, x_m, y_m, heading_rad, moving, order_id, last_node_seq,
-/// base_end_seq}, each flushed, so that a killed process leaves all it knew.
+/// Appends JSON lines {t_ms, vehicle, x_m, y_m, heading_rad, believed {x_m, y_m, heading_rad,
+/// sigma_m, sigma_rad}, moving, order_id, last_node_seq, base_end_seq}, each flushed, so that a
+/// killed process leaves all it knew.
 class TruthLog {
 public:
     [[nodiscard]] static Result<TruthLog> open(const std::string& path);

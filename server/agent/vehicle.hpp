@@ -17,6 +17,7 @@
 #include "core/onboard/pose/pose_estimate.hpp"
 #include "core/onboard/pose/pose_guard.hpp"
 #include "core/onboard/pose/reflector_watch.hpp"
+#include "core/onboard/pose/rest_watch.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/navigation_scanner.hpp"
@@ -96,6 +97,7 @@ private:
     void drive(double dt_s);
     void know_pose(double dt_s);
     void lead_at_rest(double dt_s);
+    void log_refused() const;
     void guard_pose(double dt_s);
     void limit_speed();
     double most_step_s() const;
@@ -103,7 +105,6 @@ private:
     void write_advice(vda5050::StateMessage& state) const;
     void write_light(vda5050::StateMessage& state) const;
     void write_reflectors(vda5050::StateMessage& state) const;
-    void note_rest();
     void look_while_standing(Steady::time_point now);
     bool drives_fast() const;
     void apply_faults(double dt_s);
@@ -128,6 +129,7 @@ private:
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
     std::optional<onboard::PoseGuard> guard_;  // of those that drive by their wheels
+    onboard::RestWatch rest_watch_;
     onboard::MarkerWatch watch_;
     std::optional<simulation::SimulatedReceivers> receivers_;  // of a type that has them
     std::optional<onboard::LightWatch> light_;                 // with receivers
@@ -137,7 +139,6 @@ private:
     TruthLog* truth_;
     vda5050::HeaderSource headers_;
     Outbox outbox_;
-    double fastest_share_ = 0;  // of its full speed, since it stood last; 0: it stands
     onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
     bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;

@@ -4,13 +4,13 @@
 #include <utility>
 
 #include "server/agent/vehicle.hpp"
+#include "server/base/log.hpp"
 
 /// How a vehicle knows where it is.
 namespace pulseline::agent {
 namespace {
 
 constexpr double kOwnStep_s = 0.1;
-constexpr double kLeastShare = 1e-6;  // of the full speed: turns on the spot
 
 }  // namespace
 
@@ -20,7 +20,7 @@ double Vehicle::most_step_s() const {
 }
 
 void Vehicle::know_pose(double dt_s) {
-    note_rest();
+    rest_watch_.step();
     if (const auto fix = stop_senses_.take_fix()) {
         estimate_.take(*fix);
     } else {
@@ -32,6 +32,7 @@ void Vehicle::know_pose(double dt_s) {
     const std::size_t missed = watch_.segments().missed().size();
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
+    if (refused != watch_.refused() && !watch_.refused().empty()) log_refused();
     state_due_ |= refused != watch_.refused() || missed != watch_.segments().missed().size();
     const bool located = executor_.position_initialized();
     if (light_) {
@@ -53,6 +54,19 @@ void Vehicle::know_pose(double dt_s) {
     }
     lead_at_rest(dt_s);
     guard_pose(dt_s);
+}
+
+/// So that it can be found out later which of the two was wrong.
+void Vehicle::log_refused() const {
+    server::log::Fields fields{{"vehicle", vehicle_.id.str()},
+                               {"order", executor_.order_id()},
+                               {"code", watch_.refused()},
+                               {"sigma_m", std::to_string(estimate_.sigma_xy_m())},
+                               {"sigma_rad", std::to_string(estimate_.sigma_heading_rad())}};
+    for (const auto& [name, value] : watch_.refused_by()) {
+        fields.emplace_back(name, std::to_string(std::get<double>(value)));
+    }
+    server::log::warn("code.refused", fields);
 }
 
 /// At a stop the procedure leads.
@@ -87,16 +101,6 @@ void Vehicle::guard_pose(double dt_s) {
                          "Nothing tells the vehicle well enough where it is. Measure where it "
                          "stands and say it, or drive it by hand to a code.",
                          {}});
-}
-
-void Vehicle::note_rest() {
-    const double share =
-        std::abs(drive_->velocity_mps()) / drive_->time_factor() / type_.max_speed_mps;
-    if (!drive_->standing()) {
-        fastest_share_ = std::min(1.0, std::max({fastest_share_, share, kLeastShare}));
-    } else if (fastest_share_ > 0) {
-        estimate_.rest(std::exchange(fastest_share_, 0));
-    }
 }
 
 }  // namespace pulseline::agent

@@ -1,6 +1,7 @@
 // The twelve vehicles of the demo hall under random orders for hours of their own time: with the whole budget of errors, by their
 // own senses. Every stop has to be measured and inside, nobody may lose itself or call a person.
 // node tests/closed_loop/demo_hours.mjs [--hours 10] [--time-factor 10] [--seed 1] [--plant final-assembly] [--sensing analytic]
+//   [--vehicles DL-01,DL-02]  only these are switched on
 import { parseArgs } from "node:util";
 import { existsSync } from "node:fs";
 import { join } from "node:path";
@@ -10,7 +11,7 @@ import { pick, randomOf } from "../harness/random.mjs";
 
 const { values } = parseArgs({ options: {
   hours: { type: "string", default: "10" }, "time-factor": { type: "string", default: "10" }, seed: { type: "string", default: "1" },
-  plant: { type: "string", default: "final-assembly" }, sensing: { type: "string", default: "analytic" }, errors: { type: "string", default: "nominal" },
+  plant: { type: "string", default: "final-assembly" }, sensing: { type: "string", default: "analytic" }, errors: { type: "string", default: "nominal" }, vehicles: { type: "string" },
 } });
 const HOURS = Number(values.hours), FACTOR = Number(values["time-factor"]), SEED = Number(values.seed);
 const OPEN_EACH = 2, MOST_STEPS = 4, CANCELLED_A_LOOK = 5e-4, PATIENCE_S = 1800; // of the vehicles' time, for an order
@@ -18,7 +19,8 @@ const random = randomOf(SEED);
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
 const system = await System.create(values.plant);
-const { vehicles, stations } = system.plant.model;
+const { stations } = system.plant.model;
+const vehicles = system.plant.model.vehicles.filter(({ id }) => values.vehicles === undefined || values.vehicles.split(",").includes(id));
 const ids = vehicles.map((vehicle) => vehicle.id);
 system.prepareVehicles(ids);
 await system.startServer();
@@ -63,7 +65,7 @@ async function look() {
     }
   }
   const { items } = await client.get("/api/v1/vehicles");
-  for (const { id, needs_resume, pose_known, reason, errors, pose, navigation } of items) {
+  for (const { id, needs_resume, pose_known, reason, errors, pose, navigation } of items.filter(({ id }) => ids.includes(id))) {
     const calls = needs_resume ? `needs a person: ${reason?.code}` : pose_known ? "" : `lost its pose: ${errors.map(({ type }) => type).join(" ")}`;
     if (calls && waiting.get(id) !== calls) {
       bad(`${id} ${calls}`);

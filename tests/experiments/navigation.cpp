@@ -17,6 +17,7 @@
 #include "core/onboard/pose/light_watch.hpp"
 #include "core/onboard/pose/marker_watch.hpp"
 #include "core/onboard/pose/reflector_watch.hpp"
+#include "core/onboard/pose/rest_watch.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/navigation_scanner.hpp"
 #include "core/simulation/world/receivers.hpp"
@@ -94,6 +95,7 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
                          {0, kStart_m * kStart_m, 0},
                          {0, 0, kStart_rad * kStart_rad}}};
     estimate.take(start);
+    onboard::RestWatch rest_watch(drive, estimate);
     onboard::MarkerWatch watch(cameras, drive, estimate);
     simulation::SimulatedReceivers receivers(world, world.plant.halls.front().id, type,
                                              drive.true_pose(), seed);
@@ -126,6 +128,7 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
         const bool fine = watch.expects_soon() || light.steers();
         const double dt_s = fine ? onboard::MarkerWatch::kFineStep_s : kStep_s;
         drive.step(dt_s);
+        rest_watch.step();
         estimate.drive_to(drive.believed_pose());
         for (; done < drive.segments_done(); ++done) ahead.pop_front();
         watch.step(dt_s, ahead);
@@ -138,7 +141,6 @@ Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle,
             below.erase(watch.refused());
         }
         refused = watch.refused();
-        if (drive.idle()) estimate.rest(1);
         if (drive.true_pose().x_m >= next_m) {
             made.checkpoints.push_back(checkpoint(estimate, drive.true_pose()));
             next_m += kCheckpoint_m;

@@ -14,6 +14,7 @@
 #include "core/kinematics/motion.hpp"
 #include "core/localisation/codes_on_way.hpp"
 #include "core/onboard/pose/marker_watch.hpp"
+#include "core/onboard/pose/rest_watch.hpp"
 #include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/leg_chain.hpp"
 #include "core/simulation/machine/servo_drive.hpp"
@@ -36,7 +37,6 @@ constexpr double kMarkersBlind = 6.2;
 constexpr int kMarkers = 18;
 constexpr int kDrives = 20;
 constexpr double kStep_s = 0.05;
-constexpr double kLeastShare = 1e-6;  // of the full speed: turns on the spot
 constexpr double kStart_m = 3e-4;
 constexpr double kStart_rad = 3e-4;
 
@@ -130,6 +130,7 @@ Arrival drive_along(const simulation::World& world, const plant::VehicleType& ty
                          {0, kStart_m * kStart_m, 0},
                          {0, 0, kStart_rad * kStart_rad}}};
     estimate.take(start);
+    onboard::RestWatch rest_watch(drive, estimate);
     onboard::MarkerWatch watch(cameras, drive, estimate);
     auto ahead = agent::edges_over(world.plant, hall, plant::cameras_of(type, false), way);
     for (auto& edge : ahead) {
@@ -137,20 +138,14 @@ Arrival drive_along(const simulation::World& world, const plant::VehicleType& ty
                       [&](const auto& marker) { return !looked_for.contains(marker.payload); });
         drive.append(edge.segment);
     }
-    double fastest_share = 0;
     Arrival arrival;
     for (std::size_t done = 0; !drive.idle() || !drive.standing();) {
         const double dt_s = watch.expects_soon() ? onboard::MarkerWatch::kFineStep_s : kStep_s;
         drive.step(dt_s);
+        rest_watch.step();
         estimate.drive_to(drive.believed_pose());
         for (; done < drive.segments_done(); ++done) ahead.pop_front();
         watch.step(dt_s, ahead);
-        const double share = std::abs(drive.velocity_mps()) / type.max_speed_mps;
-        if (!drive.standing()) {
-            fastest_share = std::max({fastest_share, share, kLeastShare});
-        } else if (fastest_share > 0) {
-            estimate.rest(std::exchange(fastest_share, 0));
-        }
         arrival.time_s += dt_s;
         if (drive.stop_cause() || arrival.time_s > 3600) {
             throw std::runtime_error(

@@ -72,6 +72,7 @@ void MarkerWatch::take(const WayReading& reading) {
     read_.push_back(reading.marker.payload);
     if (reading.seen.payload != reading.marker.payload) {
         refused_ = reading.seen.payload;
+        refused_by_.clear();
         return;
     }
     const Pose2 code = trail_.now_from_then(reading.age_s) *
@@ -81,11 +82,12 @@ void MarkerWatch::take(const WayReading& reading) {
     seen.up_rad = code.heading_rad;
     const localisation::SurveyedCode survey{reading.marker.payload, reading.marker.pose,
                                             reading.marker.sigma_m, reading.marker.sigma_rad};
-    if (estimate_.see(seen, survey)) {
+    if (const Status read = estimate_.see(seen, survey); read) {
         taken_.push_back(reading.marker.payload);
         refused_.clear();
     } else {
         refused_ = reading.marker.payload;
+        refused_by_ = read.error().reason.params;
     }
 }
 

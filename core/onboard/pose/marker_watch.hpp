@@ -40,6 +40,8 @@ public:
     std::vector<std::string> take_taken() { return std::exchange(taken_, {}); }
     /// Payload of a code that was refused, as it reads, until another one is taken; empty: none.
     const std::string& refused() const { return refused_; }
+    /// By which numbers (PoseFilter::correct); none when it read as another code than expected.
+    const Params& refused_by() const { return refused_by_; }
     const OdometryTrail& trail() const { return trail_; }
     /// What its way relies on, and whether it was read.
     const SegmentWatch& segments() const { return segments_; }
@@ -58,6 +60,7 @@ private:
     std::vector<std::string> read_;  // of the codes near a camera
     std::vector<std::string> taken_;
     std::string refused_;
+    Params refused_by_;
 };
 
 }  // namespace pulseline::onboard

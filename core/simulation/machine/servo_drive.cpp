@@ -335,6 +335,7 @@ void ServoDrive::stop_for(Reason cause) {
 /// The brakes fall in, and the chassis sags.
 void ServoDrive::come_to_rest() {
     wheels_.brake();
+    ++rests_;
     const double share = std::min(1.0, std::exchange(peak_mps_, 0) / type_.max_speed_mps);
     const double settle_m = errors_.fine_m + share * errors_.settle_m;
     const double settle_rad = errors_.fine_rad + share * errors_.settle_rad;

@@ -45,6 +45,7 @@ public:
     /// True while it only steers, too.
     bool standing() const override { return phase_ <= Phase::kSteering; }
     bool idle() const override { return phase_ == Phase::kBraked && reference_.empty(); }
+    std::size_t rests() const override { return rests_; }
     std::size_t segments_done() const override { return reference_.segments_done(); }
     double remaining_m() const override { return reference_.remaining_m(); }
     double braking_m() const override { return reference_.braking_m(); }
@@ -126,6 +127,7 @@ private:
     double steerable_ = 0;     // way until then
     double pending_s_ = 0;     // own time not yet made into cycles
     double in_phase_s_ = 0;
+    std::size_t rests_ = 0;
     double peak_mps_ = 0;
     double slipping_s_ = 0;
     std::optional<Reason> cause_;

@@ -97,6 +97,7 @@ void VehicleMotion::take(const PathReference::Passed& passed) {
             true_ * (passed.on_the_spot ? Pose2{0, 0, normal(errors_.fine_rad)}
                                         : Pose2{normal(errors_.fine_m), normal(errors_.fine_m), 0});
     }
+    rests_ += passed.rests;
     const bool gentle = passed.finished && (passed.fine || passed.on_the_spot);
     if (passed.rests && !gentle) settle(passed.peak_rate);
 }

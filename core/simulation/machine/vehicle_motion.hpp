@@ -59,6 +59,7 @@ public:
 
     bool standing() const override { return reference_.standing(); }
     bool idle() const override { return reference_.standing() && reference_.empty(); }
+    std::size_t rests() const override { return rests_; }
     std::size_t segments_done() const override { return reference_.segments_done(); }
     double remaining_m() const override { return reference_.remaining_m(); }
     double braking_m() const override { return reference_.braking_m(); }
@@ -98,6 +99,7 @@ private:
 
     plant::VehicleType type_;
     double time_factor_;
+    std::size_t rests_ = 0;
     MotionErrors errors_;
     std::mt19937_64 random_;
     std::normal_distribution<double> unit_normal_;
