@@ -10,8 +10,7 @@
 namespace pulseline::localisation {
 namespace {
 
-// Chi-square of 3 degrees of freedom at 99.999 %. After a right code that is refused the next one
-// may not come into view, and then none; a wrong one is off by many times what is known.
+// Chi-square of 3 degrees of freedom at 99.999 %.
 constexpr double kGate = 25.9;
 
 }  // namespace
@@ -91,6 +90,15 @@ Status PoseFilter::correct(const CodeObservation& seen, const SurveyedCode& code
     const double place2 = square(seen.sigma_m) + square(code.sigma_m);
     const double angle2 = square(seen.sigma_up_rad) + square(code.sigma_heading_rad);
     return update(innovation, h, Eigen::Vector3d(place2, place2, angle2).asDiagonal());
+}
+
+void PoseFilter::average(const PoseFilter& other) {
+    State gap;
+    gap << other.pose_.x_m - pose_.x_m, other.pose_.y_m - pose_.y_m,
+        wrap(other.pose_.heading_rad - pose_.heading_rad), other.constants_ - constants_;
+    covariance_ = (covariance_ + other.covariance_) / 2 + gap * gap.transpose() / 4;
+    pose_ = {pose_.x_m + gap[0] / 2, pose_.y_m + gap[1] / 2, wrap(pose_.heading_rad + gap[2] / 2)};
+    constants_ += gap.tail<3>() / 2;
 }
 
 void PoseFilter::restart(const Pose2& pose, const Eigen::Matrix3d& covariance) {

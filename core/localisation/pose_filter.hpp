@@ -41,6 +41,9 @@ public:
     /// One code in view: its place and angle in the body frame against the survey. Fails as
     /// the other one.
     Status correct(const CodeObservation& seen, const SurveyedCode& code);
+    /// This one or the other is right, nobody knows which: from now on one between them whose
+    /// covariance holds both (two Gaussians merged into one by their moments).
+    void average(const PoseFilter& other);
     /// It is here, whatever it believed. What it knows of its odometry stays.
     void restart(const Pose2& pose, const Eigen::Matrix3d& covariance);
 

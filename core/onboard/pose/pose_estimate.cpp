@@ -20,6 +20,7 @@ constexpr double kStep_rad = 0.01;
 // deg.
 constexpr double kToldSigma_m = 0.05;
 constexpr double kToldSigma_rad = 0.044;
+constexpr double kDoubtSigmas = 2;  // of what the wheels are said to err by
 // Tang 2020: +-25 mm and +-0.2 deg.
 constexpr double kTolerance_m = 0.025;
 constexpr double kTolerance_rad = 0.2 * kPi / 180;
@@ -133,6 +134,10 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
+    if (other_ && other_->doubted && other_->by == code.payload) {
+        return fail(Errc::kConflict, "innovation_gate",
+                    "The code was half believed already; the same one again is no other witness.");
+    }
     localisation::PoseFilter filter = against_codes();
     const Status corrected = filter.correct(seen, code);
     if (corrected) {
@@ -146,6 +151,17 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
     return {};
 }
 
+/// A right code that is refused and no more would be the last one: the error that it has shown
+/// grows until the next one lies outside the view. Codes that are moved lie farther off.
+bool PoseEstimate::doubt(const localisation::CodeObservation& seen,
+                         const localisation::SurveyedCode& code) {
+    localisation::PoseFilter by_it = against_codes();
+    by_it.blur((square(kDoubtSigmas) - 1) * by_it.covariance());
+    if (!by_it.correct(seen, code)) return false;
+    filter_.average(by_it);
+    return true;
+}
+
 /// Two codes were moved alike less often than wheels slip.
 bool PoseEstimate::begins_by(const localisation::CodeObservation& seen,
                              const localisation::SurveyedCode& code) {
@@ -155,7 +171,7 @@ bool PoseEstimate::begins_by(const localisation::CodeObservation& seen,
         return true;
     }
     const auto [pose, covariance] = by_code(seen, code);
-    other_ = Other{filter_, code.payload};
+    other_ = Other{filter_, code.payload, doubt(seen, code)};
     other_->filter.restart(pose, covariance);
     return false;
 }

@@ -23,9 +23,11 @@ public:
     /// It has come to rest from this share of its full speed.
     void rest(double speed_share);
     /// A code seen under way, from where the vehicle is now. Fails with innovation_gate, and leaves
-    /// the pose alone, when it contradicts the way driven. When it agrees with another one that was
-    /// refused just before, and the way from there, the vehicle is where both put it: its wheels
-    /// have slipped.
+    /// the pose alone, when it contradicts the way driven. One that wheels which err twice as much
+    /// as is stated could explain fails, too, but is half believed: the vehicle goes between both
+    /// ways, so that the next code comes into view by either, and knows its place as badly. When it
+    /// agrees with another one that was refused just before, and the way from there, the vehicle is
+    /// where both put it: its wheels have slipped.
     Status see(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
     /// A pose by beacons, of where the vehicle is now; seen some centimetres ago, which the wheels
     /// have told since with errors of `since`. The filter's own way has the same errors, so that
@@ -68,6 +70,7 @@ private:
     void note(PoseSource source);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
+    bool doubt(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
     bool begins_by(const localisation::CodeObservation& seen,
                    const localisation::SurveyedCode& code);
 
@@ -75,6 +78,7 @@ private:
     struct Other {
         localisation::PoseFilter filter;
         std::string by;
+        bool doubted = false;  // half believed
     };
 
     localisation::OdometryNoise noise_;

@@ -110,6 +110,35 @@ TEST(PoseEstimate, TwoCodesInARowThatAgreeAreBelievedAgainstTheWheels) {
     EXPECT_TRUE(vehicle.estimate.see(seen_ahead(), code_ahead_of(third, "3")));
 }
 
+/// It has settled by six sigma of its heading, which the first code shows by some centimetres. Were
+/// that one only refused, the next one would lie outside the view.
+TEST(PoseEstimate, BetweenACodeAndTheWheelsItFindsTheNextCode) {
+    constexpr double kHalfView_m = 0.048;
+    for (const double turned_rad : {-6.2e-3, -5.5e-3, 5.5e-3, 6.2e-3}) {
+        PoseEstimate estimate({0, 0, 0});
+        estimate.take(fix_at({0, 0, 0}));
+        estimate.rest(0.5);  // one sigma is 1 mrad
+        // Where it truly goes: the drive steers by the estimate, as MarkerWatch leads it.
+        const auto truth = [&](double x_m) { return Pose2{0, 0, turned_rad} * Pose2{x_m, 0, 0}; };
+        const auto drive_to = [&](double x_m) { estimate.drive_to({x_m, 0, 0}); };
+        drive_to(4);
+        ASSERT_FALSE(estimate.see(seen_ahead(), code_ahead_of(truth(4), "1")));
+        const Pose2 between = estimate.pose();
+        EXPECT_NEAR(between.y_m, truth(4).y_m / 2, 0.1 * std::abs(truth(4).y_m));
+        EXPECT_NEAR(between.heading_rad, turned_rad / 2, 0.1 * std::abs(turned_rad));
+        EXPECT_GT(3 * estimate.sigma_xy_m(), std::abs(truth(4).y_m));
+        EXPECT_FALSE(estimate.see(seen_ahead(), code_ahead_of(truth(4), "1")));
+        EXPECT_EQ(estimate.pose(), between) << "the same one again says nothing more";
+        drive_to(14);
+        const double off_m = std::abs(estimate.pose().y_m - truth(14).y_m);
+        EXPECT_GT(std::abs(truth(14.9).y_m), kHalfView_m);
+        EXPECT_LT(off_m, kHalfView_m);
+        EXPECT_GT(3 * estimate.sigma_xy_m(), off_m);
+        EXPECT_TRUE(estimate.see(seen_ahead(), code_ahead_of(truth(14), "2")));
+        EXPECT_LT(distance(estimate.pose().position(), truth(14).position()), 0.003);
+    }
+}
+
 TEST(PoseEstimate, CodesThatWereMovedEachItsOwnWayAreRefused) {
     PoseEstimate estimate({0, 0, 0});
     estimate.take(fix_at({0, 0, 0}));
