@@ -16,6 +16,7 @@ const { values } = parseArgs({ options: {
 const HOURS = Number(values.hours), FACTOR = Number(values["time-factor"]), SEED = Number(values.seed);
 const OPEN_EACH = 2, MOST_STEPS = 4, CANCELLED_A_LOOK = 5e-4, PATIENCE_S = 1800; // of the vehicles' time, for an order
 const random = randomOf(SEED);
+const turn = (rad) => Math.atan2(Math.sin(rad), Math.cos(rad));
 const sleep = (ms) => new Promise((done) => setTimeout(done, ms));
 
 const system = await System.create(values.plant);
@@ -101,6 +102,26 @@ const off = stops.flatMap(({ arrival }) => (arrival ? [Math.hypot(arrival.dx_m, 
 const at = (share) => off[Math.floor(share * (off.length - 1))]?.toFixed(1);
 console.log(`${HOURS} h of ${ids.length} vehicles' time, seed ${SEED}: ${ended} orders ended, ${cancelled} cancelled; ${stops.length} stops measured, ${unmeasured.length} not, ${outside.length} outside at last; `
   + `drives ended ${at(0.5)} mm off in the middle, ${at(0.95)} mm at 95 %, ${at(1)} mm at most; ${searched} first approaches without a look at where the drive had ended`);
+
+// What each believed on its way, beside where it truly was: no point of it may have been off by more than is held around it.
+const HELD_M = 0.1;
+const beyond = { lines: 0, place: 0, heading: 0, most_m: 0 };
+for (const { id, type } of vehicles) {
+  const radius_m = Math.max(...system.plant.model.vehicle_types.find((one) => one.id === type).footprint.map(({ x_m, y_m }) => Math.hypot(x_m, y_m)));
+  for (const { x_m, y_m, heading_rad, believed, moving, order_id } of system.truth(id)) {
+    if (!moving || order_id === "") continue;
+    const off_m = Math.hypot(x_m - believed.x_m, y_m - believed.y_m);
+    const turned_rad = Math.abs(turn(heading_rad - believed.heading_rad));
+    ++beyond.lines;
+    beyond.place += off_m > 3 * believed.sigma_m;
+    beyond.heading += turned_rad > 3 * believed.sigma_rad;
+    const most_m = off_m + radius_m * turned_rad;
+    if (most_m > beyond.most_m) beyond.most_m = most_m;
+    if (most_m > HELD_M) bad(`${id} drove more than ${1e3 * HELD_M} mm from where it believed to be`);
+  }
+}
+const share = (count) => `${(100 * count / beyond.lines).toFixed(2)} %`;
+console.log(`  on their way ${(1e3 * beyond.most_m).toFixed(1)} mm at most between where a point of a vehicle was and was believed; beyond three of its sigma: ${share(beyond.place)} in place, ${share(beyond.heading)} in heading`);
 for (const [what, count] of faults) console.log(`  ${count} x ${what}`);
 await system.stop();
 const good = faults.size === 0 && outside.length === 0 && ended > 0;

@@ -39,6 +39,15 @@ localisation::Odometry odometry_of(const Pose2& way) {
     return {chord.x_m, chord.y_m, way.heading_rad};
 }
 
+/// What is wrong by so much where the body was, it is by so much after this motion in the hall: a
+/// heading that is wrong leads beside the way.
+Eigen::Matrix3d moved_on(const Eigen::Matrix3d& covariance, const Pose2& from, const Pose2& to) {
+    Eigen::Matrix3d motion = Eigen::Matrix3d::Identity();
+    motion(0, 2) = from.y_m - to.y_m;
+    motion(1, 2) = to.x_m - from.x_m;
+    return motion * covariance * motion.transpose();
+}
+
 /// Of the part that fixes had in common, what the next one does not share: directions that it tells
 /// nothing of. From one fix to the next of the same kind it changes by less than half.
 Eigen::Matrix3d no_more_shared(const Eigen::Matrix3d& before, const Eigen::Matrix3d& now) {
@@ -89,7 +98,9 @@ void PoseEstimate::drive_to(const Pose2& believed) {
 
 void PoseEstimate::catch_up() {
     const Pose2 way = inverse(driven_) * now_;
+    const Pose2 from = filter_.pose();
     filter_.drive(odometry_of(way));
+    lasting_ = moved_on(lasting_, from, filter_.pose());
     if (other_) other_->filter.drive(odometry_of(way));
     since_m_ += norm(way.position());
     driven_ = now_;
@@ -232,7 +243,7 @@ void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_h
 Eigen::Matrix3d PoseEstimate::covariance() const {
     localisation::PoseFilter now = filter_;
     now.drive(odometry_of(inverse(driven_) * now_));
-    return now.covariance() + lasting_;
+    return now.covariance() + moved_on(lasting_, filter_.pose(), now.pose());
 }
 
 double PoseEstimate::sigma_xy_m() const { return localisation::worse_axis_m(covariance()); }

@@ -68,6 +68,26 @@ TEST(PoseEstimate, AFixThatContradictsTheWayIsANewBeginning) {
     EXPECT_NEAR(estimate.sigma_xy_m(), 0.05, 1e-9) << "a person's word";
 }
 
+/// What all fixes by beacons have in common is a heading, too, and that leads beside the way when
+/// no more of them come.
+TEST(PoseEstimate, WhatBeaconsShareGrowsWithTheWay) {
+    constexpr double kShared_rad = 2e-3;
+    PoseEstimate estimate({0, 0, 0});
+    localisation::BeaconFix seen;
+    seen.fix = fix_at({0, 0, 0});
+    seen.lasting = {{{0, 0, 0}, {0, 0, 0}, {0, 0, kShared_rad * kShared_rad}}};
+    seen.fix.covariance[2][2] += kShared_rad * kShared_rad;
+    ASSERT_TRUE(estimate.see(seen));
+    EXPECT_LT(estimate.sigma_xy_m(), 1e-3);
+    for (int i = 1; i <= 100; ++i) estimate.drive_to({0.1 * i, 0, 0});
+    EXPECT_GT(estimate.sigma_xy_m(), 10 * kShared_rad);
+    // A code that lies where that may have led to is no contradiction.
+    localisation::CodeObservation code;
+    code.sigma_m = 3e-4;
+    code.sigma_up_rad = 3e-4;
+    EXPECT_TRUE(estimate.see(code, {"1", {10, 20 * kShared_rad, 2 * kShared_rad}, 1e-4, 5e-4}));
+}
+
 /// A code 0.9 m ahead of the body.
 localisation::CodeObservation seen_ahead() {
     localisation::CodeObservation seen;
