@@ -10,17 +10,22 @@
 
 namespace pulseline::agent {
 
+/// Where a vehicle knows itself to be.
+struct BelievedPose {
+    geometry::Pose2 pose;
+    double sigma_m = 0;  // the worse direction
+    double sigma_rad = 0;
+};
+
 /// One line of the true movement of a vehicle, for comparison; never sent over the link.
 struct TruthLine {
     std::string vehicle;
     geometry::Pose2 pose;
-    geometry::Pose2 believed;  // what the vehicle knows, and its sigmas
-    double sigma_m = 0;
-    double sigma_rad = 0;
     bool moving = false;
     std::string order_id;
     std::int64_t last_node_seq = 0;
     std::int64_t base_end_seq = 0;
+    BelievedPose believed{};
 };
 
 /// Appends JSON lines {t_ms, vehicle, x_m, y_m, heading_rad, believed {x_m, y_m, heading_rad,

@@ -292,13 +292,11 @@ void Vehicle::write_truth(Steady::time_point now) {
     if (truth_ == nullptr) return;
     TruthLine line{vehicle_.id.str(),
                    drive_->true_pose(),
-                   estimate_.pose(),
-                   estimate_.sigma_xy_m(),
-                   estimate_.sigma_heading_rad(),
                    !drive_->standing(),
                    executor_.order_id(),
                    executor_.last_node_sequence_id(),
-                   executor_.base_end_sequence_id()};
+                   executor_.base_end_sequence_id(),
+                   {estimate_.pose(), estimate_.sigma_xy_m(), estimate_.sigma_heading_rad()}};
     const TruthLine& last = last_truth_line_;
     const bool told = line.moving == last.moving && line.order_id == last.order_id &&
                       line.last_node_seq == last.last_node_seq &&
