@@ -193,13 +193,6 @@ private:
             const JobOrder& order = store_.orders.at(id);
             if (order.state == JobState::kInterrupted)
                 static_cast<void>(fleet_->resume_order(id, std::nullopt, "person", now()));
-            if (order.reason.code != "codes_not_seen") continue;
-            // Too far beside its station to see the codes: it is put there by hand.
-            const auto& record = store_.vehicles.at(order.assigned_vehicle);
-            const auto* station = plant::find_station(plant_, record.at_station);
-            if (!station) continue;
-            vehicles_.at(order.assigned_vehicle).push(station->pose);
-            say_where(order.assigned_vehicle);
         }
         for (const auto& [id, record] : store_.vehicles) {
             if (record.claim) say_where(id);

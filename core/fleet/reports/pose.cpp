@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/floor/grants.hpp"
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
@@ -271,6 +272,21 @@ void keep_doubt(FleetState& fleet, LiveVehicle& live, Time now) {
     if (live.has_leg() && !live.delivery.lost()) cancel_leg(fleet, live, now);
 }
 
+namespace {
+
+/// What has moved stands as it was measured no more, even where it stops at once, its leg given up:
+/// its station is not ready, and off its stop it need not see the codes there to drive on.
+void leave_stop(FleetState& fleet, LiveVehicle& live) {
+    VehicleRecord& record = live.record;
+    const bool at_stop = live.has_leg() && stands_at_stop(fleet, live);
+    if (!record.last_stop_inside && (at_stop || record.last_stop_station.empty())) return;
+    record.last_stop_inside = false;
+    if (!at_stop) record.last_stop_station = {};
+    fleet.store(live);
+}
+
+}  // namespace
+
 void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& before,
                  Time now) {
     vda5050::StateMessage& state = live.state;
@@ -296,6 +312,7 @@ void handle_pose(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessa
             doubt(fleet, live, where, now);
         }
     }
+    if (state.driving) leave_stop(fleet, live);
     if (is_in_doubt(live) || !(told || state.driving)) return;
     const plant::StationId station =
         told && !state.driving && live.record.integration >= Integration::kRespect

@@ -127,5 +127,37 @@ TEST_F(Interlocks, AtAMeasuredStationBothCamerasHaveToSeeTheirCodes) {
         << world.stored(next->order.id).reason.code;
 }
 
+/// Its way is given up when it has hardly left: it stands beside its codes, in no tolerance that
+/// anybody has measured, and nothing would ever bring it back over them.
+TEST_F(Interlocks, WhatHasDrivenOffIsMeasuredNoMoreAndMayDriveOn) {
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(120);
+    const auto& record = world.store.vehicles.at(kV1);
+    const geometry::Point2 stop = record.pose.position();
+    ASSERT_TRUE(world.fleet->stations()[1].ready);
+    const auto left = world.order("V1", {1});
+    ASSERT_TRUE(left);
+    world.vehicles_move = false;
+    world.run(1);
+    FakeVehicle& vehicle = world.vehicle("V1");
+    vehicle.state.driving = true;
+    vehicle.state.pose->x_m += 0.13;
+    world.run(1);
+    ASSERT_TRUE(world.fleet->cancel_order(left->order.id, std::nullopt, "op", world.now));
+    vehicle.state.driving = false;
+    vehicle.sees_codes = false;
+    world.vehicles_move = true;
+    world.run(10);
+    ASSERT_FALSE(record.has_leg);
+    ASSERT_EQ(record.at_station.str(), "s2");
+    ASSERT_GT(distance(record.pose.position(), stop), 0.1);
+    EXPECT_FALSE(world.fleet->stations()[1].ready);
+    const auto next = world.order("V1", {1});
+    ASSERT_TRUE(next) << next.error().what;
+    world.run(120);
+    EXPECT_EQ(world.stored(next->order.id).state, JobState::kEnded)
+        << world.stored(next->order.id).reason.code;
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing
