@@ -56,8 +56,8 @@ void Vehicle::know_pose(double dt_s) {
     guard_pose(dt_s);
 }
 
-/// So that it can be found out later which of the two was wrong. The sigmas are those after it, with
-/// what a half believed code has added.
+/// So that it can be found out later which of the two was wrong. The sigmas are those after it,
+/// with what a half believed code has added.
 void Vehicle::log_refused() const {
     server::log::Fields fields{{"vehicle", vehicle_.id.str()},
                                {"order", executor_.order_id()},
