@@ -5,6 +5,8 @@
 #include <set>
 
 #include "core/kinematics/primitives.hpp"
+#include "core/planning/legs/blind_way.hpp"
+#include "core/planning/legs/road_entry.hpp"
 #include "core/planning/roads/road_alternatives.hpp"
 
 namespace pulseline::planning {
@@ -16,106 +18,9 @@ using kinematics::append_straight;
 using kinematics::append_turn;
 using kinematics::shortest_turn_rad;
 using Segments = std::vector<kinematics::Segment>;
+using Entries = std::vector<RoadEntry>;
 
-constexpr double kAtNode_m = 0.5;    // a vehicle this near to a node stands at it
-constexpr double kConnect_m = 30.0;  // how far a vehicle off the roadmap looks for a node
-constexpr std::size_t kConnections = 6;
 constexpr double kMostAlternativeCost = 3;  // a hall has few ways: the long one counts, too
-
-/// How the vehicle gets from where it stands onto an arc.
-struct Entry {
-    FirstArc first;
-    Segments segments;  // up to the arc's first node; empty when it stands there
-    int turns = 0;      // on those
-};
-
-double turned(const Segments& segments) {
-    double sum = 0;
-    for (const auto& segment : segments) sum += std::abs(segment.turn_rad);
-    return sum;
-}
-
-bool is_free(const LegTask& task, const Segments& segments) {
-    return task.obstacles.keeps(kinematics::sweep(task.passage.body.pieces, segments), task.limits);
-}
-
-bool free_turn(const LegTask& task, const Pose2& from, double to_rad) {
-    Segments turn;
-    append_turn(turn, from, shortest_turn_rad(from.heading_rad, to_rad));
-    return is_free(task, turn);
-}
-
-/// The body's heading on an arc that is driven from `start` instead of its first node.
-double heading_from(const RoadGraph& graph, const RoadArc& arc, Point2 start) {
-    const Point2 way = graph.nodes[static_cast<std::size_t>(arc.to)] - start;
-    const bool backwards = std::abs(wrap(arc.body_rad - arc.heading_rad)) > kPi / 2;
-    return wrap(std::atan2(way.y_m, way.x_m) + (backwards ? kPi : 0));
-}
-
-/// Arcs out of the node at which the vehicle stands.
-void enter_at(const LegTask& task, int node, std::vector<Entry>& entries) {
-    const RoadGraph& graph = task.roads.graph();
-    const Pose2& start = task.request.start;
-    for (const int index : graph.out[static_cast<std::size_t>(node)]) {
-        if (!task.roads.usable(task.passage, index)) continue;
-        const RoadArc& arc = graph.arcs[static_cast<std::size_t>(index)];
-        const double heading = heading_from(graph, arc, start.position());
-        if (!free_turn(task, start, heading)) continue;
-        const double turn = std::abs(shortest_turn_rad(start.heading_rad, heading));
-        entries.push_back({{index, 0, turn > task.cost.turn_threshold_rad, turn}, {}, 0});
-    }
-}
-
-/// Straight to a node first, forwards or backwards, then onto its arcs.
-void connect_to(const LegTask& task, int node, std::vector<Entry>& entries) {
-    const RoadGraph& graph = task.roads.graph();
-    const Pose2& start = task.request.start;
-    const Point2 at = graph.nodes[static_cast<std::size_t>(node)];
-    const Point2 way = at - start.position();
-    const double travel = std::atan2(way.y_m, way.x_m);
-    for (const bool backwards : {false, true}) {
-        const double heading = wrap(travel + (backwards ? kPi : 0));
-        Segments segments;
-        append_turn(segments, start, shortest_turn_rad(start.heading_rad, heading));
-        append_straight(segments, {start.x_m, start.y_m, heading}, at);
-        if (!is_free(task, segments)) continue;
-        const bool first_turn = is_turn(task.cost, start.heading_rad, heading);
-        const double cost = edge_cost(task.cost, norm(way), first_turn);
-        for (const int index : graph.out[static_cast<std::size_t>(node)]) {
-            if (!task.roads.usable(task.passage, index)) continue;
-            const RoadArc& arc = graph.arcs[static_cast<std::size_t>(index)];
-            const Pose2 there{at.x_m, at.y_m, heading};
-            if (!free_turn(task, there, arc.body_rad)) continue;
-            const double burden = turned(segments) + std::abs(wrap(arc.body_rad - heading));
-            entries.push_back({{index, cost, is_turn(task.cost, travel, arc.heading_rad), burden},
-                               segments,
-                               first_turn ? 1 : 0});
-        }
-    }
-}
-
-std::vector<Entry> entries_of(const LegTask& task) {
-    const RoadGraph& graph = task.roads.graph();
-    const Point2 start = task.request.start.position();
-    std::vector<std::pair<double, int>> near;
-    for (std::size_t i = 0; i < graph.nodes.size(); ++i) {
-        if (task.roads.node(static_cast<int>(i)).hall != task.request.hall) continue;
-        const double away = geometry::distance(graph.nodes[i], start);
-        if (away <= kConnect_m) near.push_back({away, static_cast<int>(i)});
-    }
-    std::sort(near.begin(), near.end());
-    std::vector<Entry> entries;
-    if (!near.empty() && near.front().first <= kAtNode_m) {
-        enter_at(task, near.front().second, entries);
-        return entries;
-    }
-    for (std::size_t i = 0, used = 0; i < near.size() && used < kConnections; ++i) {
-        const std::size_t before = entries.size();
-        connect_to(task, near[i].second, entries);
-        used += entries.size() > before ? 1 : 0;
-    }
-    return entries;
-}
 
 /// Where the last lane ends: at the station itself when its node lies there.
 Point2 last_point(const LegTask& task, int goal) {
@@ -136,7 +41,7 @@ double accuracy_cost(const LegTask& task, int arc) {
     return task.cost.accuracy_k * task.passage.sigma_m(arc) * length_m;
 }
 
-LegDraft drive(const LegTask& task, const Entry& entry, const RoadPath& path, int goal) {
+LegDraft drive(const LegTask& task, const RoadEntry& entry, const RoadPath& path, int goal) {
     const RoadGraph& graph = task.roads.graph();
     LegDraft draft;
     Segments& segments = draft.segments;
@@ -176,10 +81,10 @@ LegDraft drive(const LegTask& task, const Entry& entry, const RoadPath& path, in
     return draft;
 }
 
-RoadQuery query_of(const LegTask& task, const std::vector<Entry>& entries, int goal) {
+RoadQuery query_of(const LegTask& task, const Entries& entries, int goal) {
     RoadQuery query;
     query.goal = goal;
-    for (const Entry& entry : entries) query.first.push_back(entry.first);
+    for (const RoadEntry& entry : entries) query.first.push_back(entry.first);
     query.may_follow = [&task](int arc, int next) {
         return task.roads.may_follow(task.passage, arc, next);
     };
@@ -187,7 +92,7 @@ RoadQuery query_of(const LegTask& task, const std::vector<Entry>& entries, int g
     query.ending = [&task, goal](int arc) -> std::optional<double> {
         const double body = task.roads.graph().arcs[static_cast<std::size_t>(arc)].body_rad;
         const Point2 at = last_point(task, goal);
-        if (!free_turn(task, {at.x_m, at.y_m, body}, task.station.pose.heading_rad)) {
+        if (!is_free_turn(task, {at.x_m, at.y_m, body}, task.station.pose.heading_rad)) {
             return std::nullopt;
         }
         return std::abs(wrap(task.station.pose.heading_rad - body));
@@ -255,7 +160,7 @@ Error no_route(const LegTask& task, int goal, bool entered) {
 using Open = std::function<bool(int arc)>;
 
 /// The least-cost leg over usable arcs that are open. `left` is REQUIRED to hold for these.
-std::optional<LegDraft> draft_over(const LegTask& task, const std::vector<Entry>& entries, int goal,
+std::optional<LegDraft> draft_over(const LegTask& task, const Entries& entries, int goal,
                                    const Open& open, const LegRoads::Left* left) {
     RoadQuery query = query_of(task, entries, goal);
     query.usable = [&](int arc) { return task.roads.usable(task.passage, arc) && open(arc); };
@@ -263,23 +168,36 @@ std::optional<LegDraft> draft_over(const LegTask& task, const std::vector<Entry>
     const auto path = search_road(task.roads.graph(), task.cost, query);
     if (!path) return std::nullopt;
     // Several entries may lead onto the first arc: the search took the cheapest.
-    const auto rank = [&](const Entry& entry) {
+    const auto rank = [&](const RoadEntry& entry) {
         const double length =
             task.roads.graph().arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
         return std::pair(entry.first.cost + edge_cost(task.cost, length, entry.first.turn),
                          entry.first.burden);
     };
-    const Entry* chosen = nullptr;
-    for (const Entry& entry : entries) {
+    const RoadEntry* chosen = nullptr;
+    for (const RoadEntry& entry : entries) {
         if (entry.first.arc != path->arcs.front()) continue;
         if (!chosen || rank(entry) < rank(*chosen)) chosen = &entry;
     }
     return drive(task, *chosen, *path, goal);
 }
 
+/// The least-cost leg that leads by a node near the vehicle first and on which it does not lose
+/// itself. From beside a lane the shortest way onto the roadmap misses its codes.
+std::optional<LegDraft> draft_past_codes(const LegTask& task, int goal, const Open& open,
+                                         const LegRoads::Left& left) {
+    std::optional<LegDraft> best;
+    for (const Entries& entries : road_entries_by_node(task)) {
+        auto leg = draft_over(task, entries, goal, open, &left);
+        if (!leg || (best && best->cost <= leg->cost)) continue;
+        if (!blind_way(task, leg->segments).loses_itself()) best = std::move(leg);
+    }
+    return best;
+}
+
 /// The leg when some closures are reopened.
-std::optional<LegDraft> draft_reopened(const LegTask& task, const std::vector<Entry>& entries,
-                                       int goal, const std::set<std::size_t>& reopened) {
+std::optional<LegDraft> draft_reopened(const LegTask& task, const Entries& entries, int goal,
+                                       const std::set<std::size_t>& reopened) {
     auto leg = draft_over(
         task, entries, goal,
         [&](int arc) {
@@ -294,8 +212,8 @@ std::optional<LegDraft> draft_reopened(const LegTask& task, const std::vector<En
 
 /// A leg for which as little as possible has to be reopened: one closure, the one that leaves the
 /// least cost; else a set of which none may be left out.
-std::optional<LegDraft> draft_over_closed_floor(const LegTask& task,
-                                                const std::vector<Entry>& entries, int goal) {
+std::optional<LegDraft> draft_over_closed_floor(const LegTask& task, const Entries& entries,
+                                                int goal) {
     std::set<std::size_t> in_the_way;
     for (int arc = 0; arc < static_cast<int>(task.roads.graph().arcs.size()); ++arc) {
         const auto& over = task.lanes.closures_on(arc);
@@ -343,10 +261,14 @@ Result<LegDraft> draft_road_leg(const LegTask& task) {
     if (const auto ok = check(task.cost); !ok) return fail(ok.error());
     const int goal = task.roads.node(task.station.node);
     if (goal < 0) return fail(no_route(task, goal, false));
-    const auto entries = entries_of(task);
+    const auto entries = road_entries(task);
     const auto left = task.lanes.left(goal);
     const auto open = [&](int arc) { return !task.lanes.closed(arc); };
-    if (auto leg = draft_over(task, entries, goal, open, &left)) return std::move(*leg);
+    if (auto leg = draft_over(task, entries, goal, open, &left)) {
+        if (!blind_way(task, leg->segments).loses_itself()) return std::move(*leg);
+        if (auto surer = draft_past_codes(task, goal, open, left)) return std::move(*surer);
+        return std::move(*leg);
+    }
     if (auto leg = draft_over_closed_floor(task, entries, goal)) return std::move(*leg);
     return fail(no_route(task, goal, !entries.empty()));
 }
@@ -356,9 +278,9 @@ std::vector<LegDraft> draft_other_road_legs(const LegTask& task,
     const int goal = task.roads.node(task.station.node);
     if (!check(task.cost) || goal < 0) return {};
     const RoadGraph& graph = task.roads.graph();
-    const auto entries = entries_of(task);
+    const auto entries = road_entries(task);
     std::vector<RoadSeed> seeds;
-    for (const Entry& entry : entries) {
+    for (const RoadEntry& entry : entries) {
         const double length = graph.arcs[static_cast<std::size_t>(entry.first.arc)].length_m;
         seeds.push_back(
             {entry.first.arc,

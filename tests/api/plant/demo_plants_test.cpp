@@ -7,6 +7,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/layout.hpp"
+#include "core/kinematics/primitives.hpp"
 #include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/validate.hpp"
@@ -164,6 +165,45 @@ TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
         "[ chains   ] %s: %d ways, at most %zu markers, sigma %.1f mm, on arrival %.1f mm\n",
         GetParam(), figures.ways, figures.most_markers, 1e3 * figures.worst_m,
         1e3 * figures.arrival_m);
+}
+
+/// An order is given up anywhere and the next one begins there, on a lane or beside it.
+TEST_P(DemoPlant, NoVehicleLosesItselfFromWhereItGaveUpAnOrder) {
+    const Plant plant = demo(GetParam());
+    const planning::LegPlanner planner(plant);
+    const auto serves = [](const Station& station, const VehicleType& type) {
+        const auto& types = station.vehicle_types;
+        return types.empty() || std::find(types.begin(), types.end(), type.id) != types.end();
+    };
+    int ways = 0;
+    for (const VehicleType& type : plant.vehicle_types) {
+        const auto vehicle = std::ranges::find(plant.vehicles, type.id, &Vehicle::type);
+        if (vehicle == plant.vehicles.end()) continue;
+        for (const Station& from : plant.stations) {
+            for (const Station& to : plant.stations) {
+                if (from.number >= to.number || !serves(from, type) || !serves(to, type)) continue;
+                const auto drive =
+                    planner.plan_leg(leg(plant, *vehicle, from, to, MotionMode::kAuto));
+                if (!drive) continue;
+                for (const auto& segment : drive->segments) {
+                    auto back = leg(plant, *vehicle, to, from, MotionMode::kAuto);
+                    back.start = kinematics::pose_at(segment, 0.4);
+                    if (ways % 2 == 1) back.start = back.start * Pose2{0, 0.3, 0.1};
+                    back.from_station = {};
+                    const auto plan = planner.plan_leg(back);
+                    if (!plan) continue;
+                    ++ways;
+                    EXPECT_FALSE(plan->blind.loses_itself())
+                        << type.id.str() << " on its way from " << from.number << " to "
+                        << to.number << ", back from " << back.start.x_m << ", " << back.start.y_m
+                        << ", " << back.start.heading_rad << ": " << plan->blind.way_m
+                        << " m without a code, " << plan->blind.at_most_m << " m are sure";
+                }
+            }
+        }
+    }
+    EXPECT_GT(ways, 10);
+    std::printf("[ given up ] %s: %d ways back\n", GetParam(), ways);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shipped, DemoPlant,
