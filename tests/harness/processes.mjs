@@ -1,6 +1,6 @@
 // Starts the real programs for tests: server and agents as child processes, each test in a directory of its own.
 import { execFileSync, spawn } from "node:child_process";
-import { closeSync, existsSync, fstatSync, mkdtempSync, openSync, readFileSync, readSync } from "node:fs";
+import { closeSync, existsSync, fstatSync, mkdtempSync, openSync, readFileSync, readSync, writeFileSync } from "node:fs";
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
@@ -118,6 +118,16 @@ export class System {
     const agent = this.start(program, [...before, "--server", this.url.replace("http", "ws"), "--vehicle", `${manufacturer}/${serial_number}`, "--token", this.tokenOf(id),
       "--world", world, "--seed", String(seed), "--truth-log", `${this.truthLog}.${id}`, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], `agent-${id}`);
     this.agents.set(id, agent);
+    return agent;
+  }
+
+  /** All in one program: they stand in one world and see each other, and write one truth log. */
+  startAgents(ids, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
+    const list = join(this.directory, "vehicles");
+    writeFileSync(list, ids.map((id) => { const { manufacturer, serial_number } = this.plant.vehicle(id); return `${manufacturer}/${serial_number} ${this.tokenOf(id)}\n`; }).join(""), { mode: 0o600 });
+    const agent = this.start(AGENT, ["--server", this.url.replace("http", "ws"), "--vehicles", list, "--world", this.plant.file, "--seed", String(seed),
+      "--truth-log", this.truthLog, "--time-factor", String(timeFactor), "--sensing", sensing, ...extra], "agents");
+    for (const id of ids) this.agents.set(id, agent);
     return agent;
   }
 
