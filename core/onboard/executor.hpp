@@ -27,6 +27,8 @@ public:
     Executor(Drive& motion, StopSensing& sensing, std::string map_id,
              Equipment* equipment = nullptr, control::MotionCompensation compensation = {});
 
+    /// As StopProcedure::see, which see.
+    void see(const std::vector<control::Scan>& seen) { procedure_.see(seen); }
     void handle(const vda5050::OrderMessage& order);
     void handle(const vda5050::InstantActionsMessage& message);
     /// A message that could not be understood, or a fault of the vehicle; reported until the next

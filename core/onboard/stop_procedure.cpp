@@ -195,7 +195,7 @@ bool StopProcedure::begin_approach(const Pose2& body_from_target) {
     ++approaches_;
     looked_at_m_ = norm(body_from_target.position());
     settling_s_ = kSettle_s / motion_.time_factor();
-    approach_.emplace(motion_, target_.target, target_limits_);
+    approach_.emplace(motion_, target_.target, target_limits_, seen_);
     return true;
 }
 

@@ -33,6 +33,9 @@ public:
     StopProcedure(Drive& motion, StopSensing& sensing, const control::AdjustmentLimits& limits = {},
                   control::MotionCompensation compensation = {});
 
+    /// What the scanners see, kept up to date by who owns it, which must outlive this: approaches
+    /// keep away from it.
+    void see(const std::vector<control::Scan>& seen) { seen_ = &seen; }
     /// REQUIRES: the motion is idle.
     void start(const vda5050::StopTarget& target, bool correct);
     /// The outcome once it is over.
@@ -60,6 +63,7 @@ private:
 
     Drive& motion_;
     StopSensing& sensing_;
+    const std::vector<control::Scan>* seen_ = nullptr;
     control::AdjustmentLimits limits_;
     control::AdjustmentLimits target_limits_;  // of this stop
     control::MotionCompensation compensation_;

@@ -8,6 +8,7 @@
 namespace pulseline::onboard {
 namespace {
 
+using geometry::Point2;
 using kinematics::Twist;
 
 constexpr double kEndsWithin_m = 0.001;  // 0.4 to 0.7 mm off, as it truly is
@@ -51,11 +52,27 @@ bool WindowApproach::helps(const plant::VehicleType& type, const Pose2& body_fro
 }
 
 WindowApproach::WindowApproach(Drive& motion, const Pose2& hall_from_target,
-                               const control::AdjustmentLimits& limits)
+                               const control::AdjustmentLimits& limits,
+                               const std::vector<control::Scan>* seen)
     : motion_(motion),
       hall_from_target_(hall_from_target),
       limits_(limits),
-      window_(gentle(motion.type()), options_for(limits)) {}
+      window_(gentle(motion.type()), options_for(limits)),
+      seen_(seen) {}
+
+void WindowApproach::gather_things() {
+    things_.clear();
+    if (seen_ == nullptr) return;
+    for (const control::Scan& scan : *seen_) {
+        for (std::size_t ray = 0; ray < scan.ranges_m.size(); ++ray) {
+            const double range_m = scan.ranges_m[ray];
+            if (!(std::isfinite(range_m) && range_m > 0)) continue;
+            const double bearing_rad = scan.first_rad + static_cast<double>(ray) * scan.step_rad;
+            things_.push_back(scan.body_from_sensor * Point2{range_m * std::cos(bearing_rad),
+                                                             range_m * std::sin(bearing_rad)});
+        }
+    }
+}
 
 WindowApproach::State WindowApproach::step(double dt_s) {
     const double own_s = dt_s * motion_.time_factor();
@@ -72,8 +89,9 @@ WindowApproach::State WindowApproach::step(double dt_s) {
         std::abs(left.heading_rad) > kOutside * limits_.reach_rad) {
         return end(State::kStopped);
     }
+    gather_things();
     const auto command =
-        window_.step({asked_, motion_.believed_pose(), hall_from_target_, step_s, {}});
+        window_.step({asked_, motion_.believed_pose(), hall_from_target_, step_s, things_});
     if (command.state == control::WindowCommand::State::kReached) return end(State::kReached);
     if (command.state == control::WindowCommand::State::kBlocked) return end(State::kStopped);
     asked_ = command.twist;

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "core/control/adjustment.hpp"
 #include "core/control/dynamic_window.hpp"
+#include "core/control/scan.hpp"
 #include "core/onboard/drive.hpp"
 
 namespace pulseline::onboard {
@@ -44,23 +47,28 @@ public:
     static bool helps(const plant::VehicleType& type, const Pose2& body_from_target,
                       const control::AdjustmentLimits& limits, double tick_s);
 
-    /// `limits`: ends well inside what is good and stays within reach of the target. `motion` must
-    /// outlive it and be idle.
+    /// `limits`: ends well inside what is good and stays within reach of the target. `seen`: what
+    /// the scanners see, kept up to date by who owns it: it keeps away from that (eq. 11's
+    /// distance); null: nothing is seen. `motion` must outlive it and be idle.
     WindowApproach(Drive& motion, const Pose2& hall_from_target,
-                   const control::AdjustmentLimits& limits);
+                   const control::AdjustmentLimits& limits,
+                   const std::vector<control::Scan>* seen = nullptr);
 
     /// After each step of the motion by `dt_s`. Once it is not kDriving the vehicle brakes.
     State step(double dt_s);
 
 private:
     State end(State state);
+    void gather_things();
 
     Drive& motion_;
     Pose2 hall_from_target_;
     control::AdjustmentLimits limits_;
     control::DynamicWindow window_;
-    kinematics::Twist asked_;  // in the vehicle's own time
-    double until_step_s_ = 0;  // own time, as the next two
+    const std::vector<control::Scan>* seen_;
+    std::vector<geometry::Point2> things_;  // body frame
+    kinematics::Twist asked_;               // in the vehicle's own time
+    double until_step_s_ = 0;               // own time, as the next two
     double driven_s_ = 0;
 };
 

@@ -134,6 +134,7 @@ Vehicle::Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
         scanners_.emplace(world, hall_, type_, drive_->true_pose(),
                           simulation::seed_for(settings.seed, "scanners " + vehicle.id.str()));
         look_out_.emplace(*scanners_, vehicle, *drive_);
+        executor_.see(look_out_->scans());
         going_round_.emplace(type_, plant::is_loaded(vehicle), *drive_, *look_out_, executor_);
         if (settings.map) {
             contours_.emplace(*scanners_, *drive_, estimate_, watch_.trail(), settings.map,
