@@ -64,17 +64,6 @@ async function watchGrants(seconds) {
   }
 }
 
-/** Where odometry alone has brought a vehicle beside its codes, a person measures where it stands, to a centimetre, and lets the order
- *  go on: what the link does is tested here, not how vehicles find their way. */
-async function findItsCodes(order) {
-  const done = await client.untilOrder(order.id, (o) => ["Ended", "Aborted"].includes(o.state) || o.reason?.code === "stop_not_measured", "ended or does not find its codes", 120);
-  if (done.state !== "Interrupted") return;
-  const { x_m, y_m, heading_rad } = system.lastTruth(done.vehicle);
-  await client.post(`/api/v1/vehicles/${done.vehicle}/init-position`, { x_m: x_m + 0.01, y_m: y_m - 0.01, heading_rad, within_m: 0.02, within_rad: 0.002 });
-  await client.untilVehicle(done.vehicle, (v) => v.pose_known && Math.hypot(v.pose.x_m - x_m, v.pose.y_m - y_m) < 0.02, "knows where it stands");
-  await client.post(`/api/v1/job-orders/${order.id}/resume`);
-}
-
 /** A person lets those go on that were lost; then both orders end. */
 async function comeToAnEnd(orders) {
   await Promise.all(["V1", "V2"].map((id) => client.untilVehicle(id, (v) => v.link === "live", "is heard again", 60)));
@@ -88,7 +77,6 @@ async function comeToAnEnd(orders) {
     });
   }
   for (const order of orders) {
-    await findItsCodes(order);
     const ended = await client.untilEnded(order.id, 120);
     assert.equal(ended.state, "Ended", JSON.stringify(ended.reason));
     assert.deepEqual((await client.stops(order.id)).map((stop) => stop.inside), [true]);

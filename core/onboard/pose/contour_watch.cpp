@@ -12,8 +12,12 @@ namespace {
 
 using geometry::Pose2;
 
-constexpr double kEvery_m = 0.15;
-constexpr double kEvery_rad = 0.05;
+// Driving it looks twenty times a second. What a look has in common with the one before is said by
+// kLasting, but one that stands where that one was has seen nothing new.
+constexpr double kEvery_s = 0.05;
+constexpr double kRounding_s = 1e-9;
+constexpr double kLeast_m = 0.01;
+constexpr double kLeast_rad = 0.003;
 constexpr int kLooksStanding = 12;
 constexpr double kStillThere_s = 2;  // then it looks whether it is still there
 // Around where it holds itself to be it looks a little wider: something may have moved it.
@@ -22,8 +26,11 @@ constexpr double kAround_rad = 0.01;
 // A map is no better than the poses that it was made with.
 constexpr double kMap_m = 0.003;
 constexpr double kMap_rad = 0.0003;
-// Looks one after the other have nearly all in common.
+// Looks one after the other have nearly all in common, and more the nearer they are to each other:
+// so much is new after this way.
 constexpr double kLasting = 0.9;
+constexpr double kNews_m = 0.15;
+constexpr double kNews_rad = 0.05;
 // Of what scanners meet, vehicles and people are not in the map.
 constexpr double kExplained = 0.5;
 constexpr int kFewestReturns = 12;
@@ -31,7 +38,11 @@ constexpr int kFewestReturns = 12;
 constexpr double kThrough = 0.2;
 // Where codes have told since the map was right last, the map is old; but not for longer than that.
 constexpr double kWithoutCodes_m = 5;
-// Looks in a row that contradict. At its full speed a vehicle drives as far again while it brakes.
+// Looks in a row that contradict, each from another place while it drives: what somebody hides for
+// a moment says nothing yet.
+constexpr double kElsewhere_m = 0.15;
+constexpr double kElsewhere_rad = 0.05;
+// At its full speed a vehicle drives as far again while it brakes.
 constexpr int kDoubtsAfter = 4;
 constexpr int kLostAfter = 12;
 
@@ -84,8 +95,11 @@ void ContourWatch::step(double dt_s, bool located) {
 
 bool ContourWatch::is_due(double dt_s) {
     const Pose2 way = inverse(looked_from_) * trail_.driven();
-    if (norm(way.position()) >= kEvery_m || std::abs(way.heading_rad) >= kEvery_rad) {
+    const bool moved = norm(way.position()) >= kLeast_m || std::abs(way.heading_rad) >= kLeast_rad;
+    since_look_s_ += dt_s * drive_.time_factor();
+    if (moved && !drive_.standing() && since_look_s_ >= kEvery_s - kRounding_s) {
         looks_standing_ = 0;
+        since_look_s_ = std::min(since_look_s_ - kEvery_s, kEvery_s);  // steps need not divide it
         return true;
     }
     stood_s_ = drive_.standing() ? stood_s_ + dt_s * drive_.time_factor() : 0;
@@ -106,6 +120,10 @@ void ContourWatch::begin() {
 }
 
 void ContourWatch::look() {
+    const Pose2 way = inverse(looked_from_) * trail_.driven();
+    news_share_ =
+        std::clamp(std::max(norm(way.position()) / kNews_m, std::abs(way.heading_rad) / kNews_rad),
+                   kLeast_m / kNews_m, 1.0);
     looked_from_ = trail_.driven();
     stood_s_ = 0;
     scanners_.scan(scans_);
@@ -143,7 +161,13 @@ void ContourWatch::contradict() {
     looks_standing_ = 0;
     const bool codes_tell =
         by_codes_ != estimate_.by_codes() && estimate_.driven_since_m() < kWithoutCodes_m;
-    ++contradicted_;
+    const Pose2 way = inverse(contradicted_from_) * looked_from_;
+    const bool elsewhere =
+        norm(way.position()) >= kElsewhere_m || std::abs(way.heading_rad) >= kElsewhere_rad;
+    if (contradicted_ == 0 || elsewhere || drive_.standing()) {
+        ++contradicted_;
+        contradicted_from_ = looked_from_;
+    }
     doubts_ = contradicted_ >= kDoubtsAfter && !codes_tell;
     lost_ |= contradicted_ >= kLostAfter && !codes_tell;
 }
@@ -155,7 +179,9 @@ void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
     localisation::BeaconFix fix;
     fix.fix.pose = told.pose;
     fix.fix.method = localisation::Method::kContours;
-    set_covariance(fix.fix, told.covariance);
+    const double driven_share = drive_.standing() ? 1 : news_share_;
+    const Eigen::Matrix3d chance = (1 - kLasting) / driven_share * told.of_told;
+    set_covariance(fix.fix, told.covariance + chance - (1 - kLasting) * told.of_told);
     fix.lasting = localisation::rows(kLasting * told.of_told);
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();

@@ -24,7 +24,8 @@ Eigen::Matrix3d way_covariance(const geometry::Pose2& way,
 /// none. No clock: time passes by step().
 class ContourWatch {
 public:
-    /// Standing it looks as often until it has seen all that there is to see.
+    /// Driving it looks 20 times a second, where the steps are that short. Standing it looks as
+    /// often as this until it has seen all that there is to see.
     static constexpr double kStanding_s = 0.3;
 
     /// All must outlive it.
@@ -67,10 +68,13 @@ private:
     std::vector<control::Scan> scans_;
     std::optional<int> begun_;     // of the estimate; nothing: it has no pose
     geometry::Pose2 looked_from_;  // by the trail
+    double news_share_ = 1;        // of what the newest look saw, against one farther away
+    double since_look_s_ = 0;      // own time, as the next
     double stood_s_ = 0;           // since the last look
     int looks_standing_ = 0;
-    int contradicted_ = 0;  // looks in a row
-    int by_codes_ = 0;      // of the estimate, when the map was right last
+    int contradicted_ = 0;               // looks in a row
+    geometry::Pose2 contradicted_from_;  // where the newest of them was counted, by the trail
+    int by_codes_ = 0;                   // of the estimate, when the map was right last
     bool doubts_ = false;
     bool lost_ = false;
     std::optional<localisation::BeaconFix> newest_;
