@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "api/vda5050/limits.hpp"
+#include "core/geometry/bearing.hpp"
 
 namespace pulseline::vda5050 {
 namespace {
@@ -119,23 +120,21 @@ Segment combined(const Pose2& from, const Pose2& to) {
     move.kind = Kind::kCombined;
     move.start = from;
     move.end = to;
-    const Point2 way = to.position() - from.position();
-    move.length_m = norm(way);
+    move.length_m = distance(from.position(), to.position());
     move.turn_rad = wrap(to.heading_rad - from.heading_rad);
-    move.direction_rad = wrap(std::atan2(way.y_m, way.x_m) - from.heading_rad);
+    move.direction_rad = move_direction_rad(from, to.position());
     return move;
 }
 
 Segment straight_on(const OrderNode& from, const OrderNode& to, double orientation, bool global) {
     Segment straight;
     straight.kind = Kind::kStraight;
-    const Point2 way = to.pose.position() - from.pose.position();
-    const double tangent = std::atan2(way.y_m, way.x_m);
+    const double tangent = bearing_rad(from.pose.position(), to.pose.position());
     const double heading = wrap(global ? orientation : tangent + orientation);
     straight.start = {from.pose.x_m, from.pose.y_m, heading};
     straight.end = {to.pose.x_m, to.pose.y_m, heading};
-    straight.length_m = norm(way);
-    straight.direction_rad = wrap(tangent - heading);
+    straight.length_m = distance(from.pose.position(), to.pose.position());
+    straight.direction_rad = move_direction_rad(straight.start, to.pose.position());
     return straight;
 }
 

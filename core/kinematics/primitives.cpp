@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/bearing.hpp"
+
 namespace pulseline::kinematics {
 namespace {
 
@@ -99,7 +101,7 @@ void append_straight(std::vector<Segment>& segments, const Pose2& from, Point2 t
     if (length < kNothing) return;
     Segment segment =
         segment_of(Segment::Kind::kStraight, from, {target.x_m, target.y_m, from.heading_rad});
-    segment.direction_rad = wrap(std::atan2(way.y_m, way.x_m) - from.heading_rad);
+    segment.direction_rad = geometry::move_direction_rad(from, target);
     segment.length_m = std::abs(segment.direction_rad) > kPi * 3 / 4 ? -length : length;
     segments.push_back(segment);
 }
@@ -133,7 +135,7 @@ void append_combined(std::vector<Segment>& segments, const Pose2& from, Point2 t
                                {target.x_m, target.y_m, wrap(from.heading_rad + turn_rad)});
     whole.turn_rad = turn_rad;
     whole.length_m = norm(way);
-    whole.direction_rad = wrap(std::atan2(way.y_m, way.x_m) - from.heading_rad);
+    whole.direction_rad = geometry::move_direction_rad(from, target);
     const int pieces =
         std::max(1, static_cast<int>(std::ceil(std::abs(turn_rad) / kArcPiece_rad - 1e-9)));
     for (int i = 0; i < pieces; ++i) {

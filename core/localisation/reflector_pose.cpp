@@ -166,18 +166,6 @@ Result<BeaconFix> fix_of(std::vector<Match> pairs, const Pose2& start,
     return found;
 }
 
-/// From two sights and the reflectors that they may be.
-Pose2 pose_by(Point2 first, Point2 second, Point2 first_at, Point2 second_at) {
-    const Point2 way = second - first;
-    const Point2 placed = second_at - first_at;
-    const double heading_rad =
-        wrap(std::atan2(placed.y_m, placed.x_m) - std::atan2(way.y_m, way.x_m));
-    const Point2 middle = 0.5 * (first + second);
-    const Point2 turned = Pose2{0, 0, heading_rad} * middle;
-    const Point2 at = 0.5 * (first_at + second_at) - turned;
-    return {at.x_m, at.y_m, heading_rad};
-}
-
 double sigma_of(const SeenReflector& seen) { return std::sqrt(seen.covariance.trace()); }
 
 /// A place that two sights suggest, and what else is then where it is seen.
@@ -252,8 +240,8 @@ std::optional<std::vector<Place>> places_of(std::span<const SeenReflector> seen,
                     const double survey_m = kFindSigmas * std::hypot(first.sigma_m, second.sigma_m);
                     if (std::abs(apart_m - base_m) > within_m + survey_m) continue;
                     if (++tried > kMostPlaces) return std::nullopt;
-                    const Pose2 pose =
-                        pose_by(seen[a].in_body, seen[b].in_body, first.position, second.position);
+                    const Pose2 pose = pose_by_two({seen[a].in_body, first.position},
+                                                   {seen[b].in_body, second.position});
                     keep(places, place_by(seen, reflectors, a, b, pose));
                 }
             }

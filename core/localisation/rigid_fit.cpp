@@ -4,11 +4,20 @@
 #include <cmath>
 
 #include "core/base/square.hpp"
+#include "core/geometry/bearing.hpp"
 
 namespace pulseline::localisation {
 
 using geometry::Point2;
 using geometry::Pose2;
+
+Pose2 pose_by_two(const PlacedPoint& rear, const PlacedPoint& front) {
+    const double heading_rad =
+        wrap(bearing_rad(rear.in_hall, front.in_hall) - bearing_rad(rear.in_body, front.in_body));
+    const Point2 middle = Pose2{0, 0, heading_rad} * (0.5 * (rear.in_body + front.in_body));
+    const Point2 at = 0.5 * (rear.in_hall + front.in_hall) - middle;
+    return {at.x_m, at.y_m, heading_rad};
+}
 
 RigidFit rigid_fit(std::span<const PlacedPoint> points) {
     const auto weight = [](const PlacedPoint& point) { return 1 / square(point.sigma_m); };

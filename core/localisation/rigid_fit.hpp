@@ -25,6 +25,13 @@ struct RigidFit {
     bool agrees() const;
 };
 
+/// By two points: the heading turns the line between them in the body into the one in the hall, and
+/// their middles coincide. With receivers 4 (rear) and 1 (front) of one side, whose line is the
+/// body's own x, that is Wang's pose angle beta (4.2, four cases, right but undefined for y1 = y4)
+/// plus pi/2; with two of a diagonal the middle is his eq. 1 and 2. REQUIRES: two different points.
+geometry::Pose2 pose_by_two(const PlacedPoint& rear, const PlacedPoint& front);
+
+/// By two points or more; of two the heading is pose_by_two's.
 /// REQUIRES: two points at least that do not coincide in the body, sigmas above 0.
 RigidFit rigid_fit(std::span<const PlacedPoint> points);
 

@@ -9,10 +9,12 @@ import { BUILD, System } from "../harness/processes.mjs";
 
 const SECONDS = Number(process.argv.slice(2).find((argument) => /^\d+$/.test(argument)) ?? 60);
 const FOLDER = join(BUILD, "bench"), TICKS = 100; // of a second, as /proc counts
-// All in milliseconds, but the last two.
+// All in milliseconds, but the last two. Cameras take 60 pictures a second, of codes that are driven over: half of them are read in a
+// tenth of that time, and nearly all before the next one.
+const FRAME_MS = 1000 / 60;
 const LIMITS = {
   "step of the filter": 0.05, "fix by iGPS": 0.05, "look at the walls": 10, "look at the walls after a person's word": 10,
-  "code under way, QR": 100 / 60, "code under way, AprilTag": 100 / 60, "code under way, landmark": 100 / 60,
+  ...Object.fromEntries(["QR", "AprilTag", "landmark"].flatMap((kind) => [[`code under way, ${kind}, p50`, FRAME_MS / 10], [`code under way, ${kind}, p99`, FRAME_MS]])),
   "route over free floor, final assembly, p99": 2, "route over free floor, measuring hall, p99": 2,
   "an agent, share of a core": 0.15, "an agent, MB": 300,
 };
@@ -31,9 +33,10 @@ figures["fix by iGPS"] = ms("igps_fix");
 figures["look at the walls"] = ms("contours_look/0");
 figures["look at the walls after a person's word"] = ms("contours_look/1");
 
-for (const read of run("bench_vision", "navigation-codes", "--own", "nominal", "200")) {
+for (const read of run("bench_vision", "navigation-codes", "--own", "driving", "1000")) {
   const kind = { qr: "QR", apriltag: "AprilTag", landmark: "landmark" }[read.kind];
-  figures[`code under way, ${kind}`] = read.methods["pulseline, expected"].ms_median;
+  figures[`code under way, ${kind}, p50`] = read.methods["pulseline, expected"].ms_median;
+  figures[`code under way, ${kind}, p99`] = read.methods["pulseline, expected"].ms_p99;
 }
 for (const leg of run("bench_planning", "navigation-routes", "--only", "legs", "--benchmark_filter=^floor_leg").benchmarks) {
   const hall = leg.name.includes("measuring") ? "measuring hall" : "final assembly";

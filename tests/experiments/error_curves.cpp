@@ -6,8 +6,15 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <stdexcept>
 
 namespace pulseline::experiments {
+
+double quantile(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    std::ranges::sort(values);
+    return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
 
 void plot(const std::string& file, const std::vector<Curve>& curves, double every_m) {
     constexpr double kWidth = 900;
@@ -46,11 +53,13 @@ void plot(const std::string& file, const std::vector<Curve>& curves, double ever
         for (std::size_t i = 0; i < curves[c].off_mm.size(); ++i)
             points += fmt::format("{:.1f},{:.1f} ", x(i), y(curves[c].off_mm[i]));
         svg << fmt::format(
-            "<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n"
-            "<text x=\"645\" y=\"{}\" fill=\"{}\">{}</text>\n",
-            points, colour, 50 + 22 * c, colour, curves[c].name);
+            "<polyline points=\"{0}\" fill=\"none\" stroke=\"{1}\" stroke-width=\"2\">"
+            "<title>{3}</title></polyline>\n<text x=\"645\" y=\"{2}\" fill=\"{1}\">{3}</text>\n",
+            points, colour, 50 + 22 * c, curves[c].name);
     }
     svg << "</svg>\n";
+    if (!svg.flush()) throw std::runtime_error("cannot write " + file);
+    fmt::print("drawn in {}\n", file);
 }
 
 }  // namespace pulseline::experiments

@@ -3,6 +3,7 @@
 #include "tests/experiments/experiments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <opencv2/core/utility.hpp>
 
 int main(int argc, char** argv) {
@@ -17,14 +18,17 @@ int main(int argc, char** argv) {
     app.add_option("--seed", options.seed);
     app.add_option("--runs", options.runs)->check(CLI::Range(1, 100'000));
     app.add_option("--stretch", options.stretch,
-                   "of the navigation: codes so many times farther apart than computed");
-    app.add_option(
-        "--plot", options.plot,
-        "SVG file of the navigation's errors over distance, or of the light in the cell");
+                   "of the navigation: codes so many times farther apart than computed")
+        ->check(CLI::Range(1.0, 100.0));
     app.add_option("--errors", options.errors, "of stops and navigation: nominal, kind, harsh")
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
     app.add_option("--spoil", options.spoil_mm, "mm that each measured stop is off unnoticed");
     CLI11_PARSE(app, argc, argv);
+    // Beside the program, which lies in the build tree.
+    const auto plots =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path() / "experiments-plots";
+    std::filesystem::create_directories(plots);
+    options.plots = plots.string();
     cv::setNumThreads(1);
     bool good = true;
     if (name == "all" || name == "igps") good &= igps(options);

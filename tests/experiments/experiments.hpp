@@ -13,7 +13,7 @@ struct Options {
     std::string errors = "nominal";  // of the stops: nominal, kind, harsh
     double spoil_mm = 0;  // of the stops: measurements that are off by so much without knowing it
     double stretch = 1;   // of the navigation: codes so many times farther apart than computed
-    std::string plot;     // of navigation and igps: SVG file, none without a name
+    std::string plots;    // folder of the drawings of navigation and igps
     std::string folder;   // of the experiments' own files
 };
 
@@ -25,9 +25,10 @@ bool landmark_accuracy(const Options& options);
 /// not read or the compensated loop is not ten times better than the paper's.
 bool stop_adjustment(const Options& options);
 
-/// Li 2022, eq. 4 and 5: drives of 200 m by odometry alone, over codes at the spacing that is
-/// computed for the type, by iGPS and by reflectors. False when a code is missed, or a drive ends
-/// too far off.
+/// Li 2022, eq. 4 and 5: eq. 5 as printed and as corrected; drives of 200 m by odometry alone, over
+/// codes at the spacing that is computed for the type, by iGPS, by reflectors and by contours,
+/// drawn in navigation.svg. False when a code is missed, or a drive ends too far off. With a
+/// `stretch` above 1 the counter-test: drives over codes only, and false when a family misses none.
 bool navigation(const Options& options);
 
 /// Li 2022, section 5.1, Table 1: where a measuring vehicle believes to stand over four markers, by
@@ -40,8 +41,8 @@ bool self_positioning(const Options& options);
 bool segments(const Options& options);
 
 /// Wang, section 5: stops at one place of the iGPS cell, steered and measured by light alone; what
-/// is left when transmitters fail; how well the light tells a pose over the whole cell. False when
-/// a stop is more than 0.5 mm off, or a stated sigma does not hold.
+/// is left when transmitters fail; how well the light tells a pose over the whole cell, drawn in
+/// igps.svg. False when a stop is more than 0.5 mm off, or a stated sigma does not hold.
 bool igps(const Options& options);
 
 /// Stops of each family by the true pose: Tang 2020 (platform), Wang (Mecanum, iGPS), Li 2020

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "api/plant/plant_file.hpp"
 #include "core/localisation/igps_pose.hpp"
+#include "tests/experiments/error_curves.hpp"
 #include "tests/experiments/experiments.hpp"
 #include "tests/experiments/stop_runs.hpp"
 
@@ -117,6 +119,31 @@ bool print_stops(const Options& options) {
     return good;
 }
 
+/// The map's colours: the darker the better, red where too few receivers see light.
+std::string colour_of(std::optional<double> sigma_mm) {
+    if (!sigma_mm) return "#b91c1c";
+    const int shade = std::clamp(static_cast<int>(30 + 1000 * *sigma_mm), 30, 240);
+    return fmt::format("rgb({0},{0},255)", shade);
+}
+
+/// What the colours mean, from (0, `top`) on.
+std::string legend(double top) {
+    std::string legend;
+    double left = 10;
+    const auto add = [&](std::optional<double> sigma_mm, const std::string& text) {
+        legend += fmt::format(
+            "<rect x=\"{}\" y=\"{}\" width=\"16\" height=\"16\" fill=\"{}\"/>"
+            "<text x=\"{}\" y=\"{}\">{}</text>\n",
+            left, top + 8, colour_of(sigma_mm), left + 20, top + 21, text);
+        left += 110;
+    };
+    for (const double sigma_mm : {0.05, 0.1, 0.15, 0.2}) {
+        add(sigma_mm, fmt::format("{} mm", sigma_mm));
+    }
+    add(std::nullopt, "too little light");
+    return legend;
+}
+
 /// How well the light tells a pose, over the cell.
 void print_map(const Options& options) {
     const plant::Plant plant = cell_of(options);
@@ -130,35 +157,33 @@ void print_map(const Options& options) {
     for (double y_m = box.min.y_m + kCell_m / 2; y_m < box.max.y_m; y_m += kCell_m) {
         for (double x_m = box.min.x_m + kCell_m / 2; x_m < box.max.x_m; x_m += kCell_m) {
             const auto fix = localisation::expected_fix(plant, hall.id, type, {x_m, y_m, 0});
-            const double sigma_mm = fix ? 1e3 * fix->fix.sigma_xy_m : 0;
-            fix ? sigmas_mm.push_back(sigma_mm) : void(++dark);
-            const int shade =
-                fix ? std::clamp(static_cast<int>(255 - 1000 * sigma_mm), 30, 240) : 0;
+            std::optional<double> sigma_mm;
+            if (fix) sigma_mm = 1e3 * fix->fix.sigma_xy_m;
+            sigma_mm ? sigmas_mm.push_back(*sigma_mm) : void(++dark);
             cells += fmt::format(
                 "<rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n",
                 (x_m - box.min.x_m) / kCell_m * kPixel, (box.max.y_m - y_m) / kCell_m * kPixel,
-                kPixel, kPixel,
-                fix ? fmt::format("rgb({},{},255)", shade, shade) : std::string("#b91c1c"));
+                kPixel, kPixel, colour_of(sigma_mm));
         }
     }
-    std::ranges::sort(sigmas_mm);
-    const auto at = [&](double share) {
-        return sigmas_mm[static_cast<std::size_t>(share *
-                                                  static_cast<double>(sigmas_mm.size() - 1))];
-    };
+    const auto at = [&](double share) { return quantile(sigmas_mm, share); };
     fmt::print(
         "\nlight over the cell, {} places {} m apart: sigma {:.3f} mm at best, {:.3f} half of "
         "them, {:.3f} 95 %, {:.3f} at worst; {} places dark\n",
         sigmas_mm.size() + static_cast<std::size_t>(dark), kCell_m, at(0), at(0.5), at(0.95), at(1),
         dark);
-    if (options.plot.empty()) return;
-    std::ofstream svg(options.plot);
+    const double high = (box.max.y_m - box.min.y_m) / kCell_m * kPixel + kPixel;
+    const std::string file = options.plots + "/igps.svg";
+    std::ofstream svg(file);
     svg << fmt::format(
-               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\">\n"
-               "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-               (box.max.x_m - box.min.x_m) / kCell_m * kPixel,
-               (box.max.y_m - box.min.y_m) / kCell_m * kPixel + kPixel)
-        << cells << "</svg>\n";
+               "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" "
+               "font-family=\"sans-serif\" font-size=\"13\">\n"
+               "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n<g id=\"cell\">\n",
+               (box.max.x_m - box.min.x_m) / kCell_m * kPixel, high + 32)
+        << cells << "</g>\n"
+        << legend(high) << "</svg>\n";
+    if (!svg.flush()) throw std::runtime_error("cannot write " + file);
+    fmt::print("drawn in {}\n", file);
 }
 
 }  // namespace

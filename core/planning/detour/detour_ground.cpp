@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/bearing.hpp"
 #include "core/planning/detour/seen_things.hpp"
 
 namespace pulseline::planning {
@@ -17,10 +18,6 @@ using geometry::Pose2;
 constexpr double kFarAhead_m = 40;      // of the start: no detour is that long
 constexpr double kUnseenDepth_m = 0.5;  // of a thing of which only the front is seen
 constexpr double kStep_m = 0.1;         // along the line, looking for what bars it
-
-double heading_along(Point2 from, Point2 to) {
-    return std::atan2(to.y_m - from.y_m, to.x_m - from.x_m);
-}
 
 plant::VehicleType careful(const plant::VehicleType& type) {
     plant::VehicleType result = type;
@@ -97,8 +94,7 @@ plant::Hall DetourGround::make_hall(const DetourRequest& request) {
     const auto& stretch = request.stretch;
     assert(!stretch.empty());
     const Point2 origin = stretch.front().start.position();
-    hall_from_line_ = {origin.x_m, origin.y_m,
-                       heading_along(origin, stretch.front().end.position())};
+    hall_from_line_ = {origin.x_m, origin.y_m, bearing_rad(origin, stretch.front().end.position())};
     const Pose2 line_from_hall = inverse(hall_from_line_);
     heading_rad_ = (line_from_hall * stretch.front().start).heading_rad;
     start_ = line_from_hall * request.start;

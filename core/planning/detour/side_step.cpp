@@ -4,6 +4,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/geometry/bearing.hpp"
+
 namespace pulseline::planning {
 namespace {
 
@@ -86,9 +88,9 @@ private:
         return {{.kind = kinematics::Segment::Kind::kRotate, .amount = turn_rad}};
     }
     Move move(Point2 from, Point2 to) const {
-        const Point2 way = to - from;
-        return {.amount = norm(way),
-                .direction_rad = wrap(std::atan2(way.y_m, way.x_m) - aligned_.heading_rad)};
+        return {.amount = distance(from, to),
+                .direction_rad =
+                    geometry::move_direction_rad({from.x_m, from.y_m, aligned_.heading_rad}, to)};
     }
     bool is_free(Point2 from, Point2 to) const {
         if (geometry::distance(from, to) < kNoMove_m) return true;

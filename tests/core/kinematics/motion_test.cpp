@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/geometry/bearing.hpp"
 #include "core/kinematics/primitives.hpp"
 #include "tests/core/kinematics/vehicle_types.hpp"
 
@@ -297,6 +298,56 @@ TEST(Part, PiecesMeetAndAddUp) {
         const Pose2 middle = pose_at(whole, 0.3 + 0.7 * 0.5);
         EXPECT_LT(geometry::distance(pose_at(b, 0.5).position(), middle.position()), 1e-9);
     }
+}
+
+/// Wang, 4.3: from +Y in [0, 2 pi).
+double gamma_rad(Point2 from, Point2 target) {
+    const double angle_rad = geometry::bearing_rad(from, target) - kPi / 2;
+    return angle_rad < 0 ? angle_rad + 2 * kPi : angle_rad;
+}
+
+/// His cases as printed, theta being arctan |(x0 - xaim) / (y0 - yaim)|; `y_m`: the one whose sign
+/// chooses among them, y1 in print.
+double printed_gamma_rad(Point2 from, Point2 target, double y_m) {
+    const double theta = std::atan(std::abs((from.x_m - target.x_m) / (from.y_m - target.y_m)));
+    if (from.x_m > target.x_m) return y_m < target.y_m ? theta : kPi - theta;  // a, d
+    return y_m > target.y_m ? kPi + theta : 2 * kPi - theta;                   // b, c
+}
+
+TEST(MoveDirection, IsWangsTargetAngleInAllQuadrants) {
+    const Pose2 pose{10, 20, 0.4};
+    const double beta_rad = pose.heading_rad - kPi / 2;
+    for (const Point2 way : {Point2{-3, 4}, Point2{3, -4}, Point2{4, 3}, Point2{-4, -3}}) {
+        const Point2 target = pose.position() + way;
+        const double gamma = gamma_rad(pose.position(), target);
+        EXPECT_NEAR(gamma, printed_gamma_rad(pose.position(), target, pose.y_m), 1e-12);
+        EXPECT_NEAR(wrap(geometry::move_direction_rad(pose, target) - (gamma - beta_rad)), 0,
+                    1e-12);
+        const Pose2 there =
+            pose * Pose2{5 * std::cos(geometry::move_direction_rad(pose, target)),
+                         5 * std::sin(geometry::move_direction_rad(pose, target)), 0};
+        EXPECT_LT(distance(there.position(), target), 1e-9);
+    }
+}
+
+// Which his cases leave out: they divide by y0 - yaim, and none has x0 = xaim.
+TEST(MoveDirection, KnowsTheTargetsOnTheAxes) {
+    const Pose2 pose{10, 20, kPi / 2};
+    EXPECT_NEAR(geometry::move_direction_rad(pose, {10, 21}), 0, 1e-12);
+    EXPECT_NEAR(geometry::move_direction_rad(pose, {9, 20}), kPi / 2, 1e-12);
+    EXPECT_NEAR(geometry::move_direction_rad(pose, {11, 20}), -kPi / 2, 1e-12);
+    EXPECT_NEAR(std::abs(geometry::move_direction_rad(pose, {10, 19})), kPi, 1e-12);
+}
+
+// The print compares yaim with y1, receiver 1's, where y0 is meant: a target between the two is
+// taken for one on the other side of the vehicle.
+TEST(MoveDirection, WangsCasesAsPrintedTakeTheWrongQuadrantBesideTheVehicle) {
+    const Point2 centre{10, 20};
+    const double y1_m = 20.6;
+    const Point2 target{9, 20.3};
+    const double right_rad = gamma_rad(centre, target);
+    EXPECT_NEAR(printed_gamma_rad(centre, target, centre.y_m), right_rad, 1e-12);
+    EXPECT_NEAR(printed_gamma_rad(centre, target, y1_m) - right_rad, 2 * std::atan(0.3), 1e-12);
 }
 
 }  // namespace

@@ -7,7 +7,9 @@
 #include <random>
 
 #include "core/base/angle.hpp"
+#include "core/geometry/bearing.hpp"
 #include "core/localisation/igps_pose.hpp"
+#include "core/localisation/rigid_fit.hpp"
 
 namespace pulseline::localisation {
 namespace {
@@ -324,10 +326,9 @@ TEST(LocateByLight, ReceiversThatAllMovedTellNothing) {
     EXPECT_EQ(found.error().reason.code, "receivers_disagree");
 }
 
-// Wang, 4.2 and 4.3 as corrected: beta and gamma from +Y, counter-clockwise, in [0, 2 pi). The
-// receivers 1 (front) and 4 (rear) lie on one side.
-double beta_rad(Point2 front, Point2 rear) {
-    const double angle_rad = std::atan2(-(front.x_m - rear.x_m), front.y_m - rear.y_m);
+/// Of receivers 4 (rear) and 1 (front) of one side: Wang's pose angle, from +Y in [0, 2 pi).
+double beta_rad(Point2 rear, Point2 front) {
+    const double angle_rad = geometry::bearing_rad(rear, front) - kPi / 2;
     return angle_rad < 0 ? angle_rad + 2 * kPi : angle_rad;
 }
 
@@ -337,6 +338,7 @@ struct WangCase {
     double (*printed)(double alpha_rad);
 };
 
+// All four printed cases are right.
 TEST(LocateByLight, ItsHeadingIsWangsPoseAngle) {
     const auto all = corners();
     const std::vector<WangCase> cases{
@@ -345,21 +347,48 @@ TEST(LocateByLight, ItsHeadingIsWangsPoseAngle) {
         {"c", -0.8, -0.6, [](double alpha) { return kPi - alpha; }},
         {"d", 0.8, 0.6, [](double alpha) { return 2 * kPi - alpha; }}};
     for (const WangCase& wang : cases) {
-        const double heading_rad = std::atan2(wang.dy_m, wang.dx_m);
-        const Pose2 pose{9, 4.5, heading_rad};
-        const auto found = locate_by_light(light_at(all, four(), pose), all, four());
-        ASSERT_TRUE(found);
-        const Point2 front = pose * four()[0].position;
-        const Point2 rear = pose * four()[2].position;
+        const Pose2 pose{9, 4.5, std::atan2(wang.dy_m, wang.dx_m)};
+        const PlacedPoint front{four()[0].position, pose * four()[0].position, 1e-4};
+        const PlacedPoint rear{four()[2].position, pose * four()[2].position, 2e-4};
         const double alpha_rad = std::atan(std::abs(wang.dx_m / wang.dy_m));
-        EXPECT_NEAR(beta_rad(front, rear), wang.printed(alpha_rad), 1e-9) << wang.figure;
-        EXPECT_NEAR(wrap(beta_rad(front, rear) + kPi / 2 - found->fix.pose.heading_rad), 0, 1e-9)
+        const double beta = beta_rad(rear.in_hall, front.in_hall);
+        EXPECT_NEAR(beta, wang.printed(alpha_rad), 1e-12) << wang.figure;
+        EXPECT_NEAR(wrap(beta + kPi / 2 - pose_by_two(rear, front).heading_rad), 0, 1e-12)
             << wang.figure;
-        // Eq. 1 and 2: the middle of a diagonal.
-        const Point2 right = pose * four()[1].position;
-        const Point2 middle = right + 0.5 * (rear - right);
-        EXPECT_LT(distance(middle, found->fix.pose.position()), 1e-9) << wang.figure;
+        const RigidFit fit = rigid_fit(std::vector{rear, front});
+        EXPECT_NEAR(wrap(fit.pose.heading_rad - pose_by_two(rear, front).heading_rad), 0, 1e-12)
+            << wang.figure;
+
+        auto light = light_at(all, four(), pose);
+        for (const bool two_only : {false, true}) {
+            if (two_only) light = {light[0], light[2]};
+            const auto found = locate_by_light(light, all, four());
+            ASSERT_TRUE(found);
+            EXPECT_NEAR(wrap(beta + kPi / 2 - found->fix.pose.heading_rad), 0, 1e-9) << wang.figure;
+        }
     }
+}
+
+// Printed, beta has no value for y1 = y4, and no case for x1 = x4.
+TEST(PoseByTwo, KnowsTheHeadingsThatWangsCasesLeaveOut) {
+    for (const double heading_rad : {0.0, kPi / 2, kPi, -kPi / 2}) {
+        const Pose2 pose{9, 4.5, heading_rad};
+        const PlacedPoint front{four()[0].position, pose * four()[0].position};
+        const PlacedPoint rear{four()[2].position, pose * four()[2].position};
+        EXPECT_NEAR(wrap(pose_by_two(rear, front).heading_rad - heading_rad), 0, 1e-12);
+        EXPECT_LT(distance(pose_by_two(rear, front).position(), pose.position()), 1e-12);
+    }
+}
+
+// Eq. 1 and 2: of a diagonal the middle is the vehicle's, which no heading is needed for.
+TEST(PoseByTwo, OfADiagonalItIsTheMiddle) {
+    const Pose2 pose{9, 4.5, 2.2};
+    const PlacedPoint two{four()[1].position, pose * four()[1].position};
+    const PlacedPoint four_th{four()[2].position, pose * four()[2].position};
+    const Point2 middle = two.in_hall + 0.5 * (four_th.in_hall - two.in_hall);
+    const Pose2 found = pose_by_two(four_th, two);
+    EXPECT_LT(distance(middle, found.position()), 1e-12);
+    EXPECT_NEAR(wrap(found.heading_rad - pose.heading_rad), 0, 1e-12);
 }
 
 TEST(ExpectedFix, IsWorseWhereFewerTransmittersAreSeen) {
