@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace pulseline::agent {
@@ -158,21 +159,22 @@ Result<Fault> parse_fault(const std::string& text) {
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
                 "camera-dark, transmitter-dark=NAME, scanner-covered, look-out-covered, "
-                "obstacle=X,Y, way-free, "
-                "carried=AHEAD,LEFT,DEGREES or carried-driving=AHEAD,LEFT,DEGREES, "
-                "each with @SECONDS "
-                "or without");
+                "obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, each with @SECONDS or "
+                "without, and behind driving: or not");
     };
     Fault fault;
     std::string what = text;
     if (const auto at = text.rfind('@'); at != std::string::npos) {
-        what = text.substr(0, at);
+        what.resize(at);
         const auto [end, error] =
             std::from_chars(text.data() + at + 1, text.data() + text.size(), fault.after_s);
         if (error != std::errc{} || end != text.data() + text.size() || !(fault.after_s >= 0)) {
             return bad();
         }
     }
+    constexpr std::string_view kDriving = "driving:";
+    fault.driving = what.starts_with(kDriving);
+    if (fault.driving) what.erase(0, kDriving.size());
     for (const auto& [name, kind] : {std::pair{"marker-lost", Fault::Kind::kMarkerLost},
                                      std::pair{"camera-dark", Fault::Kind::kDark},
                                      std::pair{"scanner-covered", Fault::Kind::kScannerCovered},
@@ -199,8 +201,8 @@ Result<Fault> parse_fault(const std::string& text) {
         const auto place = read_numbers(std::exchange(fault.part, {}), 2);
         if (place.empty()) return bad();
         fault.place = {place[0], place[1]};
-    } else if (kind == "carried" || kind == "carried-driving") {
-        fault.kind = kind == "carried" ? Fault::Kind::kCarried : Fault::Kind::kCarriedDriving;
+    } else if (kind == "carried") {
+        fault.kind = Fault::Kind::kCarried;
         const auto by = read_numbers(std::exchange(fault.part, {}), 3);
         if (by.empty()) return bad();
         fault.carried = {by[0], by[1], wrap(radians(by[2]))};
@@ -285,12 +287,13 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "folder in which vehicles keep what they learn of their small moves");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
-    app.add_option("--fault", raw.faults,
-                   "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
-                   "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
-                   "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
-                   "way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS, "
-                   "carried-driving=AHEAD,LEFT,DEGREES@SECONDS (the next time it drives fast)");
+    app.add_option(
+        "--fault", raw.faults,
+        "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
+        "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
+        "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
+        "look-out-covered@SECONDS, way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS; "
+        "behind driving: each waits until it drives fast the next time");
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

@@ -35,14 +35,14 @@ struct Fault {
         kTransmitterDark,
         kScannerCovered,
         kLookOutCovered,
-        kCarried,
-        kCarriedDriving
+        kCarried
     };
     Kind kind = Kind::kWheel;
     std::string part;        // the wheel, or the transmitter
     double share = 0;        // of the rim's speed that slips
     geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     double after_s = 0;
+    bool driving = false;          // after that, the next time it drives fast
     geometry::Pose2 carried = {};  // to where, seen from where it was
 };
 

@@ -209,7 +209,7 @@ bool Vehicle::drives_fast() const {
 void Vehicle::apply_faults(double dt_s) {
     age_s_ += dt_s;
     std::erase_if(settings_.faults, [&](const Fault& fault) {
-        const bool waits = fault.kind == Fault::Kind::kCarriedDriving && !drives_fast();
+        const bool waits = fault.driving && !drives_fast();
         if (age_s_ < fault.after_s || waits) return false;
         apply(fault);
         state_due_ = true;
@@ -239,7 +239,6 @@ void Vehicle::apply(const Fault& fault) {
             if (receivers_) receivers_->cover(plant::TransmitterId(fault.part));
             return;
         case Fault::Kind::kCarried:
-        case Fault::Kind::kCarriedDriving:
             return drive_->carry(fault.carried);
         case Fault::Kind::kScannerCovered:
             if (navigation_scanner_) navigation_scanner_->cover();

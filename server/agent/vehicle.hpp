@@ -103,6 +103,8 @@ private:
     double most_step_s() const;
     void write_navigation(vda5050::NavigationStatus& status) const;
     void write_advice(vda5050::StateMessage& state) const;
+    bool lacks_pose() const;
+    void write_codes(vda5050::StateMessage& state) const;
     void write_light(vda5050::StateMessage& state) const;
     void write_reflectors(vda5050::StateMessage& state) const;
     void look_while_standing(Steady::time_point now);
@@ -140,6 +142,7 @@ private:
     vda5050::HeaderSource headers_;
     Outbox outbox_;
     onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
+    bool lost_ = false;      // on its way, and nothing has told it since
     bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;

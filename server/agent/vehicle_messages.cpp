@@ -40,6 +40,7 @@ vda5050::StateMessage Vehicle::state() {
                                 {{"marker", code}}});
     }
     watch_.segments().write_state(state);
+    write_codes(state);
     if (light_) write_light(state);
     if (reflectors_) write_reflectors(state);
     if (executor_.position_initialized()) write_navigation(state.navigation);
@@ -111,10 +112,20 @@ void Vehicle::write_advice(vda5050::StateMessage& state) const {
     }
 }
 
+/// It drives slowly, looks around or asks: each sense that tells nothing is named then.
+bool Vehicle::lacks_pose() const { return lost_ || advice_ != onboard::PoseGuard::Advice::kDrive; }
+
+void Vehicle::write_codes(vda5050::StateMessage& state) const {
+    if (type_.cameras.empty() || !lacks_pose()) return;
+    if (std::ranges::any_of(sensing_.readings(), &vda5050::CameraReading::found)) return;
+    state.errors.push_back({"codesNoneInView", false, "No camera sees a code.", {}});
+}
+
 void Vehicle::write_light(vda5050::StateMessage& state) const {
     state.receivers = light_->readings();
-    // Who has cameras, too, is not lost without light.
-    if (const auto& why_not = light_->why_not(); why_not && type_.cameras.empty()) {
+    // Who has cameras, too, is not lost without light alone.
+    const bool misses_it = type_.cameras.empty() || lacks_pose();
+    if (const auto& why_not = light_->why_not(); why_not && misses_it) {
         state.errors.push_back(
             {"lightLost", false, why_not->what, {{"why", why_not->reason.code}}});
     }
@@ -130,9 +141,16 @@ void Vehicle::write_light(vda5050::StateMessage& state) const {
 void Vehicle::write_reflectors(vda5050::StateMessage& state) const {
     state.reflectors = reflectors_->sights();
     const auto& why_not = reflectors_->why_not();
-    if (why_not && type_.cameras.empty() && !light_) {
+    if (why_not && ((type_.cameras.empty() && !light_) || lacks_pose())) {
         state.errors.push_back(
             {"reflectorsLost", false, why_not->what, {{"why", why_not->reason.code}}});
+    } else if (lost_) {  // where it does not know where it is, no reflector can be told from
+                         // another
+        state.errors.push_back({"reflectorsLost",
+                                false,
+                                "The scanner sees " + std::to_string(state.reflectors.size()) +
+                                    " reflectors, and they do not tell where the vehicle is.",
+                                {}});
     }
     if (!reflectors_->newest()) return;
     for (const auto& out : reflectors_->newest()->left_out) {

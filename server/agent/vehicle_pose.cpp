@@ -35,6 +35,7 @@ void Vehicle::know_pose(double dt_s) {
     if (refused != watch_.refused() && !watch_.refused().empty()) log_refused();
     state_due_ |= refused != watch_.refused() || missed != watch_.segments().missed().size();
     const bool located = executor_.position_initialized();
+    if (located) lost_ = false;
     if (light_) {
         const bool lit = light_->newest().has_value();
         light_->step(dt_s, executor_.transmitters(), located);
@@ -50,6 +51,7 @@ void Vehicle::know_pose(double dt_s) {
                                  "The scanners see through what the map has where the vehicle "
                                  "believes to stand. Say where it stands.",
                                  {}});
+            lost_ = true;
         }
     }
     lead_at_rest(dt_s);
@@ -102,6 +104,7 @@ void Vehicle::guard_pose(double dt_s) {
                          "Nothing tells the vehicle well enough where it is. Measure where it "
                          "stands and say it, or drive it by hand to a code.",
                          {}});
+    lost_ = true;
 }
 
 }  // namespace pulseline::agent

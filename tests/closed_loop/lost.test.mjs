@@ -69,7 +69,7 @@ test("carried off while it stands, it knows that it is lost before anybody sends
 
 test("carried off while it drives, it stops within three metres and asks", async () => {
   await system.kill(system.agents.get(ID));
-  startAgent("carried-driving=1,1.5,-60@10"); // at its full speed: it needs two metres to brake
+  startAgent("driving:carried=1,1.5,-60@10"); // at its full speed: it needs two metres to brake
   await isFound();
   const orders = [];
   await until(async () => `it to be lost on a drive; ${JSON.stringify([await vehicle(), truthNow()])}`, async () => {

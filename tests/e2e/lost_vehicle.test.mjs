@@ -13,7 +13,7 @@ before(async () => {
   system.prepareVehicles([ID]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  system.startAgent(ID, { seed: 71, timeFactor: 4, sensing: "analytic", extra: ["--drive", "servo", "--maps", MAPS, "--fault", "carried-driving=1,-1.5,-60@1"] }); // near a corner: half way its walls look alike all along
+  system.startAgent(ID, { seed: 71, timeFactor: 4, sensing: "analytic", extra: ["--drive", "servo", "--maps", MAPS, "--fault", "driving:carried=1,-1.5,-60@1"] }); // near a corner: half way its walls look alike all along
   await client.untilReady(ID);
   browser = await startBrowser();
   for (let i = 0; (await client.get(`/api/v1/vehicles/${ID}`)).pose_known; ++i) {

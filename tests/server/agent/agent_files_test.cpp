@@ -65,7 +65,10 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_fault("encoder=FL")->kind, Fault::Kind::kEncoder);
     EXPECT_EQ(parse_fault("bearing=FL@5")->kind, Fault::Kind::kBearing);
     EXPECT_EQ(parse_fault("obstacle=1,-2.5@3")->place, (geometry::Point2{1, -2.5}));
-    EXPECT_EQ(parse_fault("carried-driving=1,2,3")->kind, Fault::Kind::kCarriedDriving);
+    EXPECT_FALSE(parse_fault("carried=1,2,3@5")->driving);
+    const auto driving = parse_fault("driving:carried=1,2,3@5");
+    EXPECT_TRUE(driving->driving && driving->kind == Fault::Kind::kCarried);
+    EXPECT_EQ(driving->after_s, 5);
     EXPECT_EQ(parse_fault("carried=1,-2.5,90@3")->carried,
               (geometry::Pose2{1, -2.5, radians(90.0)}));
     EXPECT_EQ(parse_fault("scanner-covered@5")->kind, Fault::Kind::kScannerCovered);
@@ -74,7 +77,7 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     for (const char* bad :
          {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
           "encoder=", "marker-lost@soon", "obstacle=1", "obstacle=1,2,3", "carried=1,2",
-          "carried=1,2,nan", "carried=1,2,3,", "wheel=FL@-1"}) {
+          "driving:", "driving:fire", "carried=1,2,nan", "carried=1,2,3,", "wheel=FL@-1"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;
     }
     const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");
