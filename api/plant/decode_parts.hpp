@@ -32,6 +32,12 @@ K decode_key(ObjectReader& in, const char* name) {
     return K(in.text(name, kId));
 }
 
+/// The empty key where the field is absent.
+template <class K>
+K decode_key_or_none(ObjectReader& in, const char* name) {
+    return K(in.text_or(name, {}, kId));
+}
+
 template <class T, class Decode>
 void decode_all(ObjectReader& in, const char* name, CountLimits limits, std::vector<T>& to,
                 Decode decode, bool required = true) {

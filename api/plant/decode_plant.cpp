@@ -57,7 +57,7 @@ Station decode_station(ObjectReader& in) {
         station.tolerance = decode_tolerance(*tolerance);
     }
     station.markers = decode_keys<MarkerId>(in, "markers");
-    station.node = decode_key<NodeId>(in, "node");
+    station.node = decode_key_or_none<NodeId>(in, "node");
     station.resting_place = in.boolean_or("resting_place", false);
     station.charger = in.boolean_or("charger", false);
     station.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");

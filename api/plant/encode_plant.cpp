@@ -57,10 +57,10 @@ Json encode(const Station& s) {
                    {"dy_m", s.tolerance.dy_m},
                    {"dheading_rad", s.tolerance.dheading_rad}}},
                  {"markers", encode(s.markers)},
-                 {"node", s.node.str()},
                  {"resting_place", s.resting_place},
                  {"charger", s.charger},
                  {"vehicle_types", encode(s.vehicle_types)}};
+    if (!s.node.empty()) json["node"] = s.node.str();
     put_names(json, s.names);
     return json;
 }

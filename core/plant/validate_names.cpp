@@ -2,6 +2,7 @@
 #include <map>
 #include <set>
 
+#include "core/plant/free_floor.hpp"
 #include "core/plant/validate_parts.hpp"
 
 namespace pulseline::plant::detail {
@@ -42,6 +43,20 @@ void check_types_of(const std::vector<VehicleTypeId>& types, const std::string& 
     }
 }
 
+/// No lane leads there: whoever serves it has to find its way over free floor.
+void check_free_floor(const Plant& plant, const Station& station, const std::string& element,
+                      Faults& faults) {
+    for (const VehicleType& type : plant.vehicle_types) {
+        const auto& served = station.vehicle_types;
+        if (!served.empty() && std::ranges::find(served, type.id) == served.end()) continue;
+        if (drives_over_free_floor(type)) continue;
+        faults.add(element, "node_missing",
+                   "It has no node, and vehicles of type " + quoted(type.id.str()) +
+                       " cannot drive over free floor.",
+                   "Name a node, or list only types that drive 'linear' and 'free'.");
+    }
+}
+
 void check_station_names(const Plant& plant, const Index& index, Faults& faults) {
     std::map<int, std::size_t> numbers;
     for (std::size_t i = 0; i < plant.stations.size(); ++i) {
@@ -54,7 +69,11 @@ void check_station_names(const Plant& plant, const Index& index, Faults& faults)
                        "Give each station its own number: people and codes say it.");
         }
         check_reference(index.halls, s.hall, at("stations", i, "/hall"), "hall", faults);
-        check_reference(index.nodes, s.node, at("stations", i, "/node"), "node", faults);
+        if (s.node.empty()) {
+            check_free_floor(plant, s, at("stations", i, "/node"), faults);
+        } else {
+            check_reference(index.nodes, s.node, at("stations", i, "/node"), "node", faults);
+        }
         for (std::size_t m = 0; m < s.markers.size(); ++m) {
             const std::string element = at("stations", i, "/markers/" + std::to_string(m));
             check_reference(index.markers, s.markers[m], element, "marker", faults);

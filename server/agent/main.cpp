@@ -31,6 +31,7 @@ constexpr int kExitTrouble = 1;
 constexpr int kExitReplaced = 3;
 constexpr auto kTick = 20ms;
 constexpr double kLongestStep_s = 0.2;  // after a stall the vehicle must not leap
+constexpr auto kTellLostTime = 1s;
 
 struct Unit {
     std::unique_ptr<Vehicle> vehicle;
@@ -119,11 +120,19 @@ void let_see(const std::vector<Unit>& units) {
 net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
     net::steady_timer timer(co_await net::this_coro::executor);
     auto last = Vehicle::Steady::now();
+    auto told = last - kTellLostTime;
+    double lost_s = 0;
     while (running) {
         const auto now = Vehicle::Steady::now();
-        const double dt_s =
-            std::min(kLongestStep_s, std::chrono::duration<double>(now - last).count());
+        const double passed_s = std::chrono::duration<double>(now - last).count();
+        const double dt_s = std::min(kLongestStep_s, passed_s);
         last = now;
+        lost_s += passed_s - dt_s;
+        if (lost_s > 0 && now - told >= kTellLostTime) {
+            server::log::warn("time.lost", {{"seconds", std::to_string(lost_s)}});
+            told = now;
+            lost_s = 0;
+        }
         for (auto& unit : units) unit.vehicle->step(dt_s, now);
         timer.expires_after(kTick);
         server::error_code ec;

@@ -9,14 +9,14 @@ import { BUILD, System } from "../harness/processes.mjs";
 
 const SECONDS = Number(process.argv.slice(2).find((argument) => /^\d+$/.test(argument)) ?? 60);
 const FOLDER = join(BUILD, "bench"), TICKS = 100; // of a second, as /proc counts
-// All in milliseconds, but the last two. Cameras take 60 pictures a second, of codes that are driven over: half of them are read in a
+// All in milliseconds, but the last four. Cameras take 60 pictures a second, of codes that are driven over: half of them are read in a
 // tenth of that time, and nearly all before the next one.
 const FRAME_MS = 1000 / 60;
 const LIMITS = {
   "step of the filter": 0.05, "fix by iGPS": 0.05, "look at the walls": 10, "look at the walls after a person's word": 10,
   ...Object.fromEntries(["QR", "AprilTag", "landmark"].flatMap((kind) => [[`code under way, ${kind}, p50`, FRAME_MS / 10], [`code under way, ${kind}, p99`, FRAME_MS]])),
   "route over free floor, final assembly, p99": 2, "route over free floor, measuring hall, p99": 2,
-  "an agent, share of a core": 0.15, "an agent, MB": 300,
+  "an agent, share of a core": 0.15, "an agent, MB": 300, "agents and server, cores": 2, "own time lost, share": 0.005,
 };
 mkdirSync(FOLDER, { recursive: true });
 const run = (program, name, ...args) => {
@@ -68,7 +68,10 @@ const shares = agents.map((agent, i) => (used_s(agent) - before[i]) / passed_s);
 const server_share = (used_s(system.server) - server_before) / passed_s;
 figures["an agent, share of a core"] = shares.reduce((sum, share) => sum + share, 0) / shares.length;
 figures["an agent, MB"] = Math.max(...agents.map(rss_mb));
+figures["agents and server, cores"] = shares.reduce((sum, share) => sum + share, 0) + server_share;
 await system.stop();
+const lostTime_s = (id) => [...readFileSync(join(system.directory, `agent-${id}.log`), "utf8").matchAll(/time\.lost seconds="?([\d.]+)/g)].reduce((sum, [, seconds]) => sum + Number(seconds), 0);
+figures["own time lost, share"] = Math.max(...ids.map(lostTime_s)) / passed_s;
 
 writeFileSync(join(FOLDER, "navigation.json"), JSON.stringify({ date: new Date().toISOString(), seconds: SECONDS, limits: LIMITS, figures, agents: Object.fromEntries(ids.map((id, i) => [id, shares[i]])), server: server_share }, null, 2));
 let good = true;

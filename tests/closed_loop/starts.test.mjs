@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { test } from "node:test";
-import { Client } from "../harness/client.mjs";
+import { Client, angleBetween } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
 import { pick, randomOf } from "../harness/random.mjs";
 
@@ -56,13 +56,16 @@ function starts(model, random) {
   });
 }
 
-const done = { itself: 0, asked: 0, byWalls: 0 };
+const done = { itself: 0, asked: 0, byWalls: 0, families: new Map() };
 
-/** What it says of its place, against where it is: three sigma. */
-function holds(said, truth) {
+/** What it says of its place, and what it believes of its heading, against how it stands: three sigma. */
+function holds(system, said, truth) {
   assert.equal(said.claimed_pose, undefined, `${said.id} says that it stands where it cannot`);
   const off_m = wayBetween(said.pose, truth);
   assert.ok(off_m <= said.pose_deviation_m, `${said.id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`);
+  const { believed } = system.lastTruth(said.id);
+  const turned_rad = Math.abs(angleBetween(believed.heading_rad, truth.heading_rad));
+  assert.ok(turned_rad <= 3 * believed.sigma_rad, `${said.id} is turned by ${turned_rad} rad and holds it for ${3 * believed.sigma_rad} rad at most, by ${said.navigation?.by}`);
 }
 
 for (let round = 1; round <= ROUNDS; ++round) {
@@ -81,14 +84,18 @@ for (let round = 1; round <= ROUNDS; ++round) {
     }
     const lookedAround = (since_ms) => Date.now() - since_ms > LOOKS_S / FACTOR * 1e3;
     const begun_ms = Date.now(), told = [];
-    for (const { vehicle: { id }, at } of all) {
+    for (const { vehicle: { id, type }, at } of all) {
+      if (!done.families.has(type)) done.families.set(type, new Set());
+      const how = done.families.get(type);
       const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && lookedAround(begun_ms))), "finds itself or asks");
       if (first.pose_known) {
-        holds(first, at);
+        holds(system, first, at);
         ++done.itself;
+        how.add("itself");
         continue;
       }
       ++done.asked;
+      how.add("asked");
       const away = random() * 2 * Math.PI, turned = (random() < 0.5 ? 1 : -1) * PERSON_DEG * DEG;
       await client.post(`/api/v1/vehicles/${id}/init-position`, { x_m: at.x_m + PERSON_M * Math.cos(away), y_m: at.y_m + PERSON_M * Math.sin(away), heading_rad: at.heading_rad + turned });
       await client.untilVehicle(id, (v) => v.pose_known, "knows what it was told");
@@ -99,14 +106,15 @@ for (let round = 1; round <= ROUNDS; ++round) {
     for (const { id, at } of told) {
       const said = await client.get(`/api/v1/vehicles/${id}`);
       if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
-      holds(said, at);
+      holds(system, said, at);
       done.byWalls += said.navigation?.by === "contours" && said.pose_deviation_m < PERSON_M;
     }
   });
 }
 
 test("of them some found themselves, some asked, and of these some were found by the walls", () => {
-  console.log(`# ${JSON.stringify(done)}`);
+  console.log(`# ${JSON.stringify({ ...done, families: Object.fromEntries([...done.families].map(([type, how]) => [type, [...how]])) })}`);
   assert.ok(done.itself > 0 && done.asked > 0 && done.byWalls > 0, JSON.stringify(done));
   assert.equal(done.itself + done.asked, 12 * ROUNDS);
+  assert.equal(done.families.size, 4, "a start of each family");
 });

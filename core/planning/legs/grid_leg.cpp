@@ -117,13 +117,6 @@ std::optional<LegDraft> smoothed(const LegTask& task, const GridFloor& floor,
 
 }  // namespace
 
-bool may_drive_on_free_floor(const plant::VehicleType& type) {
-    const auto lists = [&](plant::MotionMode mode) {
-        return std::ranges::find(type.motion_modes, mode) != type.motion_modes.end();
-    };
-    return lists(plant::MotionMode::kFree) && lists(plant::MotionMode::kLinear);
-}
-
 std::shared_ptr<const GridFloor> GridFloors::find(const Of& of) {
     const std::lock_guard lock(mutex_);
     const auto found = std::ranges::find(known_, of, &Known::of);

@@ -11,10 +11,6 @@
 
 namespace pulseline::planning {
 
-/// Whether a vehicle may leave the lanes for free floor: its type lists free manoeuvres, and linear
-/// motion, of which such a leg consists.
-bool may_drive_on_free_floor(const plant::VehicleType& type);
-
 /// Floors that were looked at before, for all planners of a plant. What is kept is what would be
 /// worked out again, so no answer depends on it.
 /// Thread safety: every function.

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/planning/legs/leg_assessment.hpp"
+#include "core/plant/free_floor.hpp"
 
 namespace pulseline::planning {
 namespace {
@@ -65,7 +66,7 @@ void suggest(const LegTask& task, std::vector<ModeOption>& options) {
 void add_way_over_floor(const LegTask& task, GridLegs& grid, bool for_people,
                         std::vector<ModeOption>& options) {
     const auto linear = std::ranges::find(options, plant::MotionMode::kLinear, &ModeOption::mode);
-    if (linear == options.end() || !may_drive_on_free_floor(*task.request.type)) return;
+    if (linear == options.end() || !plant::drives_over_free_floor(*task.request.type)) return;
     const auto suggested = std::ranges::find_if(options, &ModeOption::suggested);
     const bool none = suggested == options.end();
     const bool barred = !none && is_barred_without_lanes(task, *suggested->plan);

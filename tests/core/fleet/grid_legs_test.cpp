@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/fleet/tables/layout.hpp"
 #include "tests/core/fleet/traffic_halls.hpp"
 
 // Drives over free floor where no lane leads: ordinary legs, which hold their floor.
@@ -131,6 +132,16 @@ TEST(GridLegs, WaitForClosedFloorThatHasNoWayRound) {
     ASSERT_TRUE(world.fleet->reopen_floor(closed->id, "op", world.now));
     world.run(300);
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+}
+
+TEST(GridLegs, TheLayoutIsCheckedForStationsThatTheyDoNotLeadTo) {
+    const auto unreachable = [](const plant::Plant& plant) {
+        return std::ranges::count(check_layout(plant), "unreachable", &Reason::code);
+    };
+    plant::Plant plant = hall_without_lanes();
+    EXPECT_EQ(unreachable(plant), 0);
+    plant.areas.back().outline = {{17, 0}, {19, 0}, {19, 40}, {17, 40}};
+    EXPECT_GT(unreachable(plant), 0);
 }
 
 TEST(GridLegs, AreRefusedWithAReasonWhereTheFloorIsCutOff) {

@@ -123,6 +123,8 @@ const Case kCases[] = {
      "/stations/0/markers/0", "unknown_marker"},
     {"UnknownNode", [](Plant& p) { p.stations[0].node = NodeId("x"); }, "/stations/0/node",
      "unknown_node"},
+    {"OnFreeFloorOfVehiclesThatNeedLanes", [](Plant& p) { p.stations[0].node = {}; },
+     "/stations/0/node", "node_missing"},
     {"UnknownTypeAtStation", [](Plant& p) { p.stations[0].vehicle_types.emplace_back("x"); },
      "/stations/0/vehicle_types/1", "unknown_vehicle_type"},
     {"UnknownTypeOfVehicle", [](Plant& p) { p.vehicles[0].type = VehicleTypeId("x"); },
@@ -345,6 +347,17 @@ const Case kCases[] = {
     {"NoWayBack", [](Plant& p) { p.edges.erase(p.edges.begin() + 3); }, "/stations/1/node",
      "unreachable"},
 };
+
+TEST(Validate, StationsOnFreeFloorServeWhoeverDrivesThere) {
+    Plant plant = sound_plant();
+    for (Station& station : plant.stations) station.node = {};
+    plant.nodes.clear();
+    plant.edges.clear();
+    for (VehicleType& type : plant.vehicle_types) {
+        type.motion_modes = {MotionMode::kLinear, MotionMode::kFree};
+    }
+    for (const Fault& fault : validate(plant)) ADD_FAILURE() << fault.element << " " << fault.code;
+}
 
 TEST(Validate, SoundPlantHasNoFault) {
     for (const Fault& fault : validate(sound_plant())) {
