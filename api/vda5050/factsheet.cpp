@@ -50,6 +50,10 @@ Json parameters_of(const std::string& action) {
                             parameter("segmentMarkers", "ARRAY", true),
                             parameter("boundaryMarker", "STRING", true)});
     }
+    if (action == kFinePositioning) {
+        return Json::array(
+            {parameter("stationType", "STRING", true), parameter("stationName", "STRING", true)});
+    }
     if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});
     if (action == kSetTransmitters) return Json::array({parameter("transmitters", "ARRAY")});
     if (action == kSetBracketHeight) {

@@ -95,9 +95,6 @@ OrderEdge decode_edge(const Json& value, const std::string& pointer, const Order
     edge.corridor = decode_corridor(in);
     in.items("actions", {0, 100}, [&](const Json& item, const std::string& at) {
         edge.actions.push_back(decode_action(item, at, errors));
-        if (edge.actions.back().type == kObserveMarkers) return;
-        errors.add(at, {"action_not_supported", {}},
-                   "observeMarkers is the only action on an edge; put others on a node");
     });
     if (errors.empty()) edge.segment = decode_motion(in, from, to);
     return edge;

@@ -13,7 +13,10 @@ public:
     void add(const geometry::Pose2& pose, double passed_s, double kept_s);
     void clear() { past_.clear(); }
 
-    bool reach_back(double age_s) const { return !past_.empty() && age_s <= past_.back().age_s; }
+    /// Not into the future either.
+    bool reach_back(double age_s) const {
+        return !past_.empty() && age_s >= 0 && age_s <= past_.back().age_s;
+    }
     /// Between two of them as on an even way; the oldest where none is so old. REQUIRES: one was
     /// added.
     geometry::Pose2 at(double age_s) const;

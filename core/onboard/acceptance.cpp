@@ -55,6 +55,29 @@ std::optional<VehicleError> malformed(const OrderMessage& order) {
     return std::nullopt;
 }
 
+/// What an order asks for on an edge goes on while that is driven: who is to stand meanwhile (SOFT,
+/// HARD) cannot do it.
+std::optional<VehicleError> unusable_on_edges(const OrderMessage& order) {
+    for (const auto& edge : order.edges) {
+        for (const auto& action : edge.actions) {
+            std::string why_not;
+            if (!is_edge_action(action.type)) {
+                why_not = "is not supported on an edge";
+            } else if (action.blocking != vda5050::BlockingType::kNone) {
+                why_not = "is done driving; on an edge its blockingType must be NONE";
+            } else if (action.id.empty()) {
+                why_not = "lacks its actionId";
+            } else {
+                continue;
+            }
+            auto error = order_error("orderError", "action " + action.type + " " + why_not, order);
+            error.references.emplace_back("actionId", action.id);
+            return error;
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<VehicleError> unusable(const OrderMessage& order, const OrderContext& context) {
     const auto has = [](const std::vector<std::string>& types, const std::string& type) {
         return std::find(types.begin(), types.end(), type) != types.end();
@@ -80,7 +103,7 @@ std::optional<VehicleError> unusable(const OrderMessage& order, const OrderConte
             return error;
         }
     }
-    return std::nullopt;
+    return unusable_on_edges(order);
 }
 
 OrderDecision rejected(VehicleError error) {
@@ -178,8 +201,13 @@ const std::vector<std::string>& stop_action_types() {
 }
 
 const std::vector<std::string>& edge_action_types() {
-    static const std::vector<std::string> types{vda5050::kObserveMarkers};
+    static const std::vector<std::string> types{vda5050::kObserveMarkers,
+                                                vda5050::kFinePositioning};
     return types;
+}
+
+bool is_edge_action(const std::string& type) {
+    return std::ranges::find(edge_action_types(), type) != edge_action_types().end();
 }
 
 std::vector<std::string> instant_action_types(const plant::VehicleType& type) {

@@ -38,6 +38,7 @@ OrderDecision decide_order(const vda5050::OrderMessage& order, const OrderContex
 /// target.
 const std::vector<std::string>& stop_action_types();
 const std::vector<std::string>& edge_action_types();
+bool is_edge_action(const std::string& type);
 std::vector<std::string> instant_action_types(const plant::VehicleType& type);
 
 vda5050::VehicleError order_error(std::string type, std::string description,

@@ -162,12 +162,18 @@ std::string Executor::take_codes_read_on(const vda5050::Action& action) {
     return text;
 }
 
+/// The edge is left, and what was to be done on it ends.
+void Executor::finish_on_edge(const Action& action) {
+    if (action.type != vda5050::kObserveMarkers) {
+        return set_action(action.id, ActionStatus::kFinished);
+    }
+    set_action(action.id, ActionStatus::kFinished, take_codes_read_on(action));
+    edge_passed_ = action;
+}
+
 void Executor::take_traversals() {
     for (const auto& hop : way_.take_passed()) {
-        for (const auto& action : hop.on_edge) {
-            set_action(action.id, ActionStatus::kFinished, take_codes_read_on(action));
-            edge_passed_ = action;
-        }
+        for (const auto& action : hop.on_edge) finish_on_edge(action);
         traverse(hop.node);
     }
     if (way_.empty() || motion_.standing()) return;

@@ -87,6 +87,7 @@ private:
     void append(const vda5050::OrderMessage& order);
     void traverse(const vda5050::OrderNode& node);
     void take_traversals();
+    void finish_on_edge(const vda5050::Action& action);
     std::string take_codes_read_on(const vda5050::Action& action);
     void queue_edges();
     void run_actions(double dt_s);

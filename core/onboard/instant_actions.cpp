@@ -124,7 +124,7 @@ void Executor::cancel_order(const Action& action) {
 
 void Executor::abort_actions(const char* why) {
     for (auto& state : order_actions_) {
-        const bool on_edge = state.type == vda5050::kObserveMarkers && !is_final(state.status);
+        const bool on_edge = is_edge_action(state.type) && !is_final(state.status);
         if (state.status != ActionStatus::kWaiting && !on_edge) continue;
         state.status = ActionStatus::kFailed;
         state.result_description = why;

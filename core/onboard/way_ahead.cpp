@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/onboard/pose/segment_watch.hpp"
+
 namespace pulseline::onboard {
 namespace {
 
@@ -19,6 +21,12 @@ constexpr double kGoingRound_mps = 0.5;
 geometry::Point2 direction_of(const Segment& segment) {
     const double rad = segment.start.heading_rad + segment.direction_rad;
     return {std::cos(rad), std::sin(rad)};
+}
+
+bool is_precise(const vda5050::OrderEdge& edge) {
+    return std::ranges::any_of(edge.actions, [](const vda5050::Action& action) {
+        return action.type == vda5050::kFinePositioning;
+    });
 }
 
 bool may_be_left(const vda5050::OrderEdge& edge) {
@@ -52,12 +60,19 @@ void WayAhead::clear() {
     skip();
 }
 
+/// The drive brakes for it before the edge, so that the whole edge is driven so. 0: none.
+double WayAhead::limit_mps(const vda5050::OrderEdge& edge) const {
+    if (!is_precise(edge)) return edge.max_speed_mps;
+    const double precise_mps = SegmentWatch::kPrecise_mps * drive_.time_factor();
+    return edge.max_speed_mps > 0 ? std::min(edge.max_speed_mps, precise_mps) : precise_mps;
+}
+
 void WayAhead::hand_over() {
     const auto stops_at = [&](std::size_t i) { return !nodes_[i].actions.empty(); };
     if (handed_edges_ > 0 && stops_at(handed_edges_ - 1)) return;
     while (!base_handed_over()) {
         const auto& edge = edges_[handed_edges_];
-        drive_.append(edge.segment, edge.max_speed_mps);
+        drive_.append(edge.segment, limit_mps(edge));
         passing_.push_back(1);
         ++handed_edges_;
         if (stops_at(handed_edges_ - 1)) return;
@@ -133,8 +148,8 @@ void WayAhead::go_round(const planning::Detour& detour) {
     assert(detour.edges <= edges_.size());
     double speed_mps = kGoingRound_mps * drive_.time_factor();
     for (std::size_t i = 0; i < detour.edges; ++i) {
-        const double limit_mps = edges_[i].max_speed_mps;
-        if (limit_mps > 0) speed_mps = std::min(speed_mps, limit_mps);
+        const double edge_mps = limit_mps(edges_[i]);
+        if (edge_mps > 0) speed_mps = std::min(speed_mps, edge_mps);
     }
     drive_.clear();
     passing_.clear();

@@ -61,6 +61,7 @@ public:
     std::vector<kinematics::Segment> detour_ahead() const;
 
 private:
+    double limit_mps(const vda5050::OrderEdge& edge) const;
     bool continues_line(std::size_t edge) const;
     bool may_be_passed_beside(std::size_t edge) const;
 

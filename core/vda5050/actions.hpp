@@ -29,7 +29,8 @@ inline constexpr const char* kRaiseParking = "raiseParking";
 inline constexpr const char* kLowerParking = "lowerParking";
 inline constexpr const char* kSetBracketHeight = "setBracketHeight";
 
-// On an edge.
+// On an edge, while it is driven: look for these codes; go slowly enough to arrive precisely.
 inline constexpr const char* kObserveMarkers = "observeMarkers";
+inline constexpr const char* kFinePositioning = "finePositioning";
 
 }  // namespace pulseline::vda5050

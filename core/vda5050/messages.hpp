@@ -89,8 +89,8 @@ struct OrderEdge {
     double max_speed_mps = 0;  // 0: vehicle's own limit
     /// Room to go round something, on straight edges; none: the vehicle keeps to its path.
     std::optional<plant::Corridor> corridor = {};
-    /// While it is driven: observeMarkers only. Made when the order is sent, of the survey as it is
-    /// then; a stored leg has none.
+    /// From entering the edge to leaving it, at the latest. Our fleet asks for observeMarkers only,
+    /// of the survey as it is when the order is sent; a stored leg has none.
     std::vector<Action> actions = {};
 };
 

@@ -39,6 +39,13 @@ vda5050::StateMessage Vehicle::state() {
                                 "Code " + code + " does not lie where the survey says.",
                                 {{"marker", code}}});
     }
+    if (const std::string& code = watch_.mistimed(); !code.empty()) {
+        state.errors.push_back({"codeMistimed",
+                                false,
+                                "The picture of code " + code +
+                                    " is stamped in the future or too long ago: a clock is wrong.",
+                                {{"marker", code}}});
+    }
     watch_.segments().write_state(state);
     write_codes(state);
     if (light_) write_light(state);

@@ -29,10 +29,12 @@ void Vehicle::know_pose(double dt_s) {
     static const std::deque<vda5050::OrderEdge> kNone;
     const bool on_way = !executor_.acting() && !executor_.in_hand();
     const std::string refused = watch_.refused();
+    const std::string mistimed = watch_.mistimed();
     const std::size_t missed = watch_.segments().missed().size();
     watch_.step(dt_s, on_way ? executor_.way_ahead().edges() : kNone);
     executor_.note_codes(watch_.take_taken());
     if (refused != watch_.refused() && !watch_.refused().empty()) log_refused();
+    state_due_ |= mistimed != watch_.mistimed();
     state_due_ |= refused != watch_.refused() || missed != watch_.segments().missed().size();
     const bool located = executor_.position_initialized();
     if (located) lost_ = false;

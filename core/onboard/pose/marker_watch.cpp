@@ -67,7 +67,11 @@ void MarkerWatch::expect(const std::deque<vda5050::OrderEdge>& ahead) {
 
 /// Where the code lies seen from the body now: the vehicle has driven on since the exposure.
 void MarkerWatch::take(const WayReading& reading) {
-    if (!trail_.remembers(reading.age_s)) return;
+    if (!(reading.age_s >= 0 && reading.age_s <= OdometryTrail::kRemembered_s)) {
+        mistimed_ = reading.marker.payload;
+        return;
+    }
+    if (!trail_.remembers(reading.age_s)) return;  // it has stood since, or was told its place
     if (std::ranges::find(read_, reading.marker.payload) != read_.end()) return;
     read_.push_back(reading.marker.payload);
     if (reading.seen.payload != reading.marker.payload) {
@@ -85,6 +89,7 @@ void MarkerWatch::take(const WayReading& reading) {
     if (const Status read = estimate_.see(seen, survey); read) {
         taken_.push_back(reading.marker.payload);
         refused_.clear();
+        mistimed_.clear();
     } else {
         refused_ = reading.marker.payload;
         refused_by_ = read.error().reason.params;

@@ -40,6 +40,10 @@ public:
     std::vector<std::string> take_taken() { return std::exchange(taken_, {}); }
     /// Payload of a code that was refused, as it reads, until another one is taken; empty: none.
     const std::string& refused() const { return refused_; }
+    /// Payload of a code whose picture was stamped in the future, or longer ago than any camera
+    /// takes, until another one is taken; empty: none. Nothing is corrected by it: a clock is
+    /// wrong.
+    const std::string& mistimed() const { return mistimed_; }
     /// By which numbers (PoseFilter::correct); none when it read as another code than expected.
     const Params& refused_by() const { return refused_by_; }
     const OdometryTrail& trail() const { return trail_; }
@@ -60,6 +64,7 @@ private:
     std::vector<std::string> read_;  // of the codes near a camera
     std::vector<std::string> taken_;
     std::string refused_;
+    std::string mistimed_;
     Params refused_by_;
 };
 

@@ -1,13 +1,6 @@
 #include "core/onboard/pose/odometry_trail.hpp"
 
 namespace pulseline::onboard {
-namespace {
-
-// No camera and no receiver takes longer.
-constexpr double kRemembered_s = 0.5;
-
-}  // namespace
-
 void OdometryTrail::step(double own_s) {
     const Pose2 now = drive_.believed_pose();
     const Pose2 way = inverse(believed_) * now;

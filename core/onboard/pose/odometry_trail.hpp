@@ -9,6 +9,9 @@ namespace pulseline::onboard {
 /// later, and the vehicle has driven on meanwhile.
 class OdometryTrail {
 public:
+    /// No camera and no receiver takes longer.
+    static constexpr double kRemembered_s = 0.5;
+
     explicit OdometryTrail(const Drive& drive) : drive_(drive), believed_(drive.believed_pose()) {}
 
     /// After each step of the drive. A pose told or measured meanwhile looks like a jump in the

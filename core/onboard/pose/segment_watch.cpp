@@ -10,7 +10,6 @@ namespace {
 
 // A code at the end of an edge is read behind it, of a picture taken before.
 constexpr double kBehind_m = 0.5;
-constexpr double kSlow_mps = 0.3;
 constexpr double kSurely = 3;  // sigmas
 
 bool has(const std::vector<std::string>& payloads, const std::string& payload) {
@@ -95,7 +94,7 @@ void SegmentWatch::enter_precise(const Awaited& boundary) {
 
 double SegmentWatch::speed_share() const {
     const bool slowly = !missed_.empty() || unsure_;
-    return slowly && type_.max_speed_mps > kSlow_mps ? kSlow_mps / type_.max_speed_mps : 1;
+    return slowly && type_.max_speed_mps > kPrecise_mps ? kPrecise_mps / type_.max_speed_mps : 1;
 }
 
 void SegmentWatch::write_state(vda5050::StateMessage& state) const {

@@ -20,6 +20,9 @@ namespace pulseline::onboard {
 class SegmentWatch {
 public:
     static constexpr const char* kMissed = "segmentMarkerMissed";  // type of the error it reports
+    /// In the vehicle's own time: what knows too little, or is told to go precisely, goes no
+    /// faster.
+    static constexpr double kPrecise_mps = 0.3;
 
     explicit SegmentWatch(plant::VehicleType type) : type_(std::move(type)) {}
 

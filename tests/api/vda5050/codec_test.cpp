@@ -61,8 +61,8 @@ TEST(Order, RoundTripKeepsNodesAndActions) {
     EXPECT_EQ(action.stop_target->markers[1].sigma_rad, expected.markers[1].sigma_rad);
 }
 
-TEST(Order, AnEdgeMayAskToObserveMarkersAndForNothingElse) {
-    auto message = parsed(encode_order(testing::order(), header()));
+TEST(Order, AnEdgeMayAskToObserveMarkers) {
+    const auto message = parsed(encode_order(testing::order(), header()));
     const auto read = decode_order(message);
     ASSERT_TRUE(read) << read.error().what;
     ASSERT_EQ(read->edges[0].actions.size(), 1u);
@@ -78,12 +78,40 @@ TEST(Order, AnEdgeMayAskToObserveMarkersAndForNothingElse) {
     EXPECT_EQ(action.segment_markers, expected.segment_markers);
     EXPECT_EQ(action.boundary_marker, expected.boundary_marker);
     EXPECT_TRUE(read->edges[1].actions.empty());
+}
 
-    message["edges"][0]["actions"][0]["actionType"] = "beep";
-    const auto refused = decode_order(message);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().reason.code, "action_not_supported");
-    EXPECT_EQ(refused.error().field, "/edges/0/actions/0");
+/// Whether the vehicle can do it is the vehicle's to say.
+TEST(Order, AnEdgeMayAskForAnyActionThatIsWellFormed) {
+    auto sent = testing::order();
+    Action beep;
+    beep.type = "beep";
+    beep.id = "leg-1-e1-beep";
+    beep.blocking = BlockingType::kSoft;
+    beep.params = {{"loud", true}, {"times", std::int64_t{3}}};
+    sent.edges[1].actions = {beep};
+    auto message = parsed(encode_order(sent, header()));
+    const auto read = decode_order(message);
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->edges[1].actions.size(), 1u);
+    const auto& action = read->edges[1].actions[0];
+    EXPECT_EQ(action.type, "beep");
+    EXPECT_EQ(action.id, beep.id);
+    EXPECT_EQ(action.blocking, BlockingType::kSoft);
+    ASSERT_EQ(action.params.size(), 2u);
+    EXPECT_EQ(std::get<bool>(action.params[0].value), true);
+    EXPECT_EQ(std::get<std::int64_t>(action.params[1].value), 3);
+    EXPECT_EQ(read->edges[0].actions.size(), 1u) << "each edge keeps its own";
+
+    auto& actions = message["edges"][1]["actions"];
+    actions[0]["blockingType"] = "LATER";
+    EXPECT_EQ(decode_order(message).error().field, "/edges/1/actions/0/blockingType");
+    actions[0]["blockingType"] = "NONE";
+    actions[0].erase("actionId");
+    EXPECT_EQ(decode_order(message).error().field, "/edges/1/actions/0/actionId");
+    actions[0]["actionId"] = "again";
+    const Json one = actions[0];
+    while (actions.size() <= 100) actions.push_back(one);
+    EXPECT_EQ(decode_order(message).error().field, "/edges/1/actions");
 }
 
 TEST(Order, NamesOfMarkersThatTheWayReliesOnAreOptional) {

@@ -2,126 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <optional>
-#include <string>
+#include "tests/core/onboard/executor_rig.hpp"
 
-#include "tests/core/simulation/platform.hpp"
-
-namespace pulseline::onboard {
+namespace pulseline::onboard::testing {
 namespace {
-
-using namespace simulation;
-
-using simulation::testing::exact;
-using simulation::testing::platform_type;
-using simulation::testing::straight;
-using vda5050::ActionStatus;
-using vda5050::OrderMessage;
-using vda5050::StateMessage;
-
-constexpr double kStep_s = 0.05;
-
-/// Measures the true pose, or nothing while `covered` or out of sight of the code.
-class TrueSensing : public StopSensing {
-public:
-    explicit TrueSensing(const VehicleMotion& motion) : motion_(motion) {}
-    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget&) override {
-        const bool far = code && distance(motion_.true_pose().position(), *code) > kSight_m;
-        if (covered || far) return fail(Errc::kNotFound, "no_marker_in_view", "no code in view");
-        return vda5050::StopMeasurement{motion_.true_pose(), 1e-4, 1e-4, "test", {"ST01-F"}};
-    }
-    bool covered = false;
-    std::optional<geometry::Point2> code;
-
-private:
-    static constexpr double kSight_m = 0.04;
-    const VehicleMotion& motion_;
-};
-
-/// Nodes 2 m apart along x; the first `released` of `count` released.
-OrderMessage order(const std::string& id, int count, int released, double from_x = 0) {
-    OrderMessage message;
-    message.order_id = id;
-    for (int i = 0; i < count; ++i) {
-        vda5050::OrderNode node;
-        node.node_id = "n" + std::to_string(i);
-        node.sequence_id = 2 * i;
-        node.released = i < released;
-        node.pose = {from_x + 2.0 * i, 0, 0};
-        node.map_id = "hall";
-        message.nodes.push_back(node);
-        if (i == 0) continue;
-        vda5050::OrderEdge edge;
-        edge.edge_id = "e" + std::to_string(i);
-        edge.sequence_id = 2 * i - 1;
-        edge.released = i < released;
-        edge.segment = straight({from_x + 2.0 * (i - 1), 0, 0}, 2);
-        message.edges.push_back(edge);
-    }
-    return message;
-}
-
-/// Update number `update` of order(id, count, released), sent from its node `from` on.
-OrderMessage update(const std::string& id, int number, int from, int count, int released) {
-    OrderMessage message = order(id, count, released);
-    message.order_update_id = number;
-    message.nodes.erase(message.nodes.begin(), message.nodes.begin() + from);
-    message.edges.erase(message.edges.begin(), message.edges.begin() + from);
-    return message;
-}
-
-vda5050::Action stop_action(const std::string& type, const Pose2& target) {
-    vda5050::Action action;
-    action.type = type;
-    action.id = "id-" + type;
-    action.stop_target = vda5050::StopTarget{"st01", 1, target, 0.025, 0.025, 0.0035, {}};
-    return action;
-}
-
-class ExecutorTest : public ::testing::Test {
-protected:
-    ExecutorTest() { instant("initPosition", "init"); }
-
-    void instant(const std::string& type, const std::string& id) {
-        vda5050::Action action;
-        action.type = type;
-        action.id = id;
-        if (type == "initPosition") action.init_position = vda5050::InitPosition{{}, "hall", ""};
-        executor.handle(vda5050::InstantActionsMessage{{action}});
-    }
-    void run(double seconds) {
-        for (double t = 0; t < seconds; t += kStep_s) {
-            executor.step(kStep_s);
-            furthest_x = std::max(furthest_x, motion.true_pose().x_m);
-        }
-    }
-    StateMessage state() const {
-        StateMessage state;
-        executor.write_state(state);
-        return state;
-    }
-    std::optional<ActionStatus> status(const std::string& id) const {
-        for (const auto& action : state().action_states) {
-            if (action.id == id) return action.status;
-        }
-        return std::nullopt;
-    }
-    std::string result(const std::string& id) const {
-        for (const auto& action : state().action_states) {
-            if (action.id == id) return action.result_description;
-        }
-        return "no such action";
-    }
-    std::string last_error() const {
-        const auto now = state();
-        return now.errors.empty() ? "" : now.errors.back().type;
-    }
-
-    VehicleMotion motion{platform_type(), {}, 1, 1, exact()};
-    TrueSensing sensing{motion};
-    Executor executor{motion, sensing, "hall"};
-    double furthest_x = 0;
-};
 
 TEST_F(ExecutorTest, StopsAtTheEndOfTheBaseAndAsksForMore) {
     executor.handle(order("a", 4, 2));
@@ -258,57 +142,6 @@ TEST_F(ExecutorTest, CancelInMidEdgeBrakesEmptiesTheOrderAndFinishesStanding) {
     executor.handle(order("b", 2, 2, here));
     run(60);
     EXPECT_NEAR(motion.true_pose().x_m, here + 2, 1e-4);
-}
-
-OrderMessage observing(int count, int released) {
-    OrderMessage message = order("a", count, released);
-    for (auto& edge : message.edges) {
-        vda5050::Action action;
-        action.type = "observeMarkers";
-        action.id = "observe-" + edge.edge_id;
-        const char* payload = edge.edge_id == "e3" ? "10" : "7";
-        action.markers = {{payload, "apriltag", 0.05, edge.segment.end, 1e-4, 5e-4}};
-        edge.actions = {action};
-    }
-    return message;
-}
-
-TEST_F(ExecutorTest, AnEdgesActionRunsWhileItIsDriven) {
-    executor.handle(observing(4, 3));
-    EXPECT_EQ(status("observe-e1"), ActionStatus::kWaiting);
-    run(1);
-    EXPECT_EQ(status("observe-e1"), ActionStatus::kRunning);
-    EXPECT_EQ(status("observe-e2"), ActionStatus::kWaiting);
-    run(60);
-    EXPECT_EQ(status("observe-e1"), ActionStatus::kFinished);
-    EXPECT_EQ(status("observe-e2"), ActionStatus::kFinished);
-    EXPECT_EQ(status("observe-e3"), ActionStatus::kWaiting);
-    EXPECT_NEAR(motion.true_pose().x_m, 4, 0.05) << "it stops for none of them";
-}
-
-TEST_F(ExecutorTest, AnEdgesActionTellsTheCodesThatWereReadThere) {
-    executor.handle(observing(4, 4));
-    run(1);
-    executor.note_codes({"7"});
-    executor.note_codes({"8", "9", "7"});
-    run(60);
-    EXPECT_EQ(result("observe-e1"), "7, 8, 9");
-    EXPECT_EQ(result("observe-e2"), "7") << "it lies where both meet";
-    EXPECT_EQ(result("observe-e3"), "") << "passed unread";
-    executor.note_codes({"7"});
-    EXPECT_EQ(result("observe-e3"), "") << "that is another one";
-    executor.note_codes({"10"});
-    EXPECT_EQ(result("observe-e3"), "10") << "of a picture taken before the node";
-}
-
-TEST_F(ExecutorTest, AnEdgesActionEndsWithItsOrderOrItsHorizon) {
-    executor.handle(observing(4, 3));
-    executor.handle(update("a", 1, 2, 3, 3));
-    EXPECT_EQ(status("observe-e3"), std::nullopt) << "taken back";
-    run(1);
-    instant("cancelOrder", "c");
-    EXPECT_EQ(status("observe-e1"), ActionStatus::kFailed);
-    EXPECT_EQ(status("observe-e2"), ActionStatus::kFailed);
 }
 
 TEST_F(ExecutorTest, CancelWithoutAnOrderFails) {
@@ -523,4 +356,4 @@ TEST_F(ExecutorTest, DrivenByHandAndGivenBackItWaitsForAnOrder) {
 }
 
 }  // namespace
-}  // namespace pulseline::onboard
+}  // namespace pulseline::onboard::testing

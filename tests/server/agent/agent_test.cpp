@@ -157,6 +157,55 @@ vda5050::OrderMessage straight_order(const geometry::Pose2& from, double length_
     return order;
 }
 
+/// Through the link: what the factsheet announces for edges it does, and nothing else.
+TEST_F(VehicleTest, DrivesAnEdgePreciselyWhenItIsAskedTo) {
+    vehicle.link_up();
+    std::vector<std::string> for_edges;
+    while (auto frame = vehicle.outbox().take()) {
+        const auto read = vda5050::decode_frame(frame->bytes);
+        if (!read || read->topic != vda5050::Topic::kFactsheet) continue;
+        for (const auto& action : read->payload["protocolFeatures"]["agvActions"]) {
+            for (const auto& scope : action["actionScopes"]) {
+                if (scope == "EDGE") for_edges.push_back(action["actionType"]);
+            }
+        }
+    }
+    EXPECT_EQ(for_edges, (std::vector<std::string>{"observeMarkers", "finePositioning"}));
+
+    instant("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", ""});
+    auto order = straight_order({20, 10, 0}, 12);
+    vda5050::Action action;
+    action.type = "beep";
+    action.id = "on-e";
+    action.blocking = vda5050::BlockingType::kNone;
+    order.edges[0].actions = {action};
+    const auto send_order = [&] {
+        send(vda5050::Topic::kOrder,
+             vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {})));
+    };
+    send_order();
+    run(100ms);
+    ASSERT_EQ(state.errors.size(), 1u);
+    EXPECT_EQ(state.errors[0].type, "orderError");
+    EXPECT_EQ(state.errors[0].references.back().second, "on-e");
+    EXPECT_FALSE(state.driving);
+
+    order.edges[0].actions[0].type = "finePositioning";
+    send_order();
+    run(100ms);
+    ASSERT_EQ(state.action_states.size(), 2u) << "and initPosition";
+    EXPECT_EQ(state.action_states[0].id, "on-e");
+    EXPECT_EQ(state.action_states[0].status, vda5050::ActionStatus::kRunning);
+    double fastest_mps = 0;
+    for (int i = 0; i < 100 && state.driving; ++i) {
+        run(100ms);
+        fastest_mps = std::max(fastest_mps, state.velocity_mps);
+    }
+    EXPECT_NEAR(fastest_mps, 0.3 * 10, 1e-6) << "its time runs ten times as fast";
+    EXPECT_EQ(state.action_states[0].status, vda5050::ActionStatus::kFinished);
+    EXPECT_EQ(state.last_node_id, "n1");
+}
+
 /// The same vehicle on a drive with wheels.
 class ServoVehicleTest : public VehicleTest {
 protected:

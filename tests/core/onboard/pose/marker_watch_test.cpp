@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
+#include <string>
 
 #include "core/simulation/machine/servo_drive.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
@@ -28,23 +30,26 @@ public:
     std::vector<WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
                                        const Pose2&, double own_s) override {
         std::vector<WayReading> ready;
-        for (auto& reading : coming_) reading.age_s += own_s;
+        for (auto& [reading, passed_s] : coming_) {
+            reading.age_s += own_s;
+            passed_s += own_s;
+        }
         for (const auto& marker : expected) {
             const Pose2 truth = marker.pose.x_m < 10 ? marker.pose * moved : marker.pose;
             const Pose2 code = inverse(drive_.true_pose()) * truth;
             if (norm(code.position()) > 0.04) continue;
             const double noise = 1e-4;
-            coming_.push_back(
-                {marker,
-                 {marker.pose.x_m < 10 && !other.empty() ? other : marker.payload,
-                  {code.x_m + noise * normal_(random_), code.y_m + noise * normal_(random_)},
-                  code.heading_rad + noise * normal_(random_),
-                  noise,
-                  noise},
-                 0});
+            const bool first = marker.pose.x_m < 10;
+            const localisation::CodeObservation seen{
+                first && !other.empty() ? other : marker.payload,
+                {code.x_m + noise * normal_(random_), code.y_m + noise * normal_(random_)},
+                code.heading_rad + noise * normal_(random_),
+                noise,
+                noise};
+            coming_.push_back({{marker, seen, clock_s}, 0});
         }
-        while (!coming_.empty() && coming_.front().age_s >= late_s) {
-            ready.push_back(coming_.front());
+        while (!coming_.empty() && coming_.front().passed_s >= late_s) {
+            ready.push_back(coming_.front().reading);
             coming_.erase(coming_.begin());
         }
         return ready;
@@ -53,10 +58,15 @@ public:
     Pose2 moved;
     std::string other;
     double late_s = 0.08;
+    double clock_s = 0;  // by which its stamps are too old
 
 private:
     const SimulatedDrive& drive_;
-    std::vector<WayReading> coming_;
+    struct Coming {
+        WayReading reading;
+        double passed_s = 0;
+    };
+    std::vector<Coming> coming_;
     std::mt19937_64 random_{7};
     std::normal_distribution<double> normal_;
 };
@@ -249,6 +259,66 @@ TEST(MarkerWatch, WhatIsReadLateCountsForWhereItWasExposed) {
         way.run();
         EXPECT_GE(way.taken.size(), 5U) << late_s;
         EXPECT_LT(way.off_m(50), 0.006) << late_s;
+    }
+}
+
+/// In the future, beyond what is remembered, and nowhere at all: it drives on as if there were no
+/// codes, knows its place as badly as that, and says why.
+TEST(MarkerWatch, AStampThatCannotBeTrueCorrectsNothing) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double clock_s : {-0.1, -30.0, 0.5, 3600.0, nan}) {
+        Way way(mecanum(), 3, 20, 9.3);
+        way.estimate.take(known({}));
+        way.floor.clock_s = clock_s;
+        way.run([&] {
+            const double off_m =
+                distance(way.estimate.pose().position(), way.drive.true_pose().position());
+            ASSERT_LT(off_m, 3 * way.estimate.sigma_xy_m() + 1e-3) << clock_s;
+        });
+        EXPECT_TRUE(way.taken.empty()) << clock_s;
+        EXPECT_EQ(way.watch.mistimed(), std::to_string(18.6)) << clock_s;
+        EXPECT_GT(way.estimate.sigma_xy_m(), 2e-3) << clock_s;
+    }
+}
+
+TEST(MarkerWatch, AClockThatIsSetRightIsBelievedAgain) {
+    Way way(mecanum(), 3, 20, 9.3);
+    way.estimate.take(known({}));
+    way.floor.clock_s = -0.2;
+    std::string said;
+    way.run([&] {
+        if (!way.watch.mistimed().empty()) said = way.watch.mistimed();
+        if (way.drive.true_pose().x_m > 15) way.floor.clock_s = 0;
+    });
+    EXPECT_EQ(said, std::to_string(9.3));
+    EXPECT_EQ(way.taken, std::vector<std::string>{std::to_string(18.6)});
+    EXPECT_EQ(way.watch.mistimed(), "") << "another one was taken since";
+}
+
+/// Codes lie farther on or back by what it drives meanwhile. The first one contradicts the way and
+/// is refused; several agree, as they would behind wheels that have slipped. What it believes is
+/// off by no more than that all the time, which stays on the floor held around it.
+TEST(MarkerWatch, AClockThatIsWrongByFiftyMillisecondsShiftsThePoseByNoMoreThanThat) {
+    constexpr double kHeld_m = 0.1;
+    for (const auto& type : families()) {
+        for (const double clock_s : {-0.05, 0.05}) {
+            Way way(type, 3, 50, 4.1);
+            way.estimate.take(known({}));
+            way.floor.clock_s = clock_s;
+            const double shift_m = std::abs(clock_s) * type.max_speed_mps;
+            double most_m = 0;
+            way.run([&] {
+                const double off_m =
+                    distance(way.estimate.pose().position(), way.drive.true_pose().position());
+                most_m = std::max(most_m, off_m);
+            });
+            std::printf("[ clock    ] %s, %+.0f ms: %.1f mm off at most, %.1f mm shifted\n",
+                        type.name.c_str(), 1e3 * clock_s, 1e3 * most_m, 1e3 * shift_m);
+            ASSERT_FALSE(way.refused.empty()) << type.name;
+            EXPECT_EQ(way.refused.front(), std::to_string(4.1)) << type.name;
+            EXPECT_LT(most_m, shift_m + 3e-3) << type.name;
+            EXPECT_LT(most_m, kHeld_m) << type.name;
+        }
     }
 }
 
