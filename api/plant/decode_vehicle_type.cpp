@@ -25,6 +25,10 @@ CameraMounting decode_mounting(ObjectReader& in) {
             in.number_or("tilt_u_rad", 0, kTilt), in.number_or("tilt_v_rad", 0, kTilt)};
 }
 
+// Wider than any camera for machines.
+constexpr json::NumberLimits kFrameRate_hz{0.1, 1e4};
+constexpr json::NumberLimits kExposure_s{1e-7, 1};
+
 Camera decode_camera(ObjectReader& in) {
     Camera camera;
     static_cast<CameraMounting&>(camera) = decode_mounting(in);
@@ -35,6 +39,8 @@ Camera decode_camera(ObjectReader& in) {
     camera.cu_px = in.number("cu_px", kQuantity);
     camera.cv_px = in.number("cv_px", kQuantity);
     camera.k1 = in.number_or("k1", 0, kQuantity);
+    camera.frame_rate_hz = in.number_or("frame_rate_hz", camera.frame_rate_hz, kFrameRate_hz);
+    camera.exposure_s = in.number_or("exposure_s", camera.exposure_s, kExposure_s);
     if (auto loaded = in.object_if_any("loaded")) {
         camera.loaded = decode_mounting(*loaded);
         loaded->refuse_unknown();

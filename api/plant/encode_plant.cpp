@@ -132,7 +132,9 @@ Json encode(const Camera& c) {
                  {"height_px", c.height_px},
                  {"cu_px", c.cu_px},
                  {"cv_px", c.cv_px},
-                 {"k1", c.k1}});
+                 {"k1", c.k1},
+                 {"frame_rate_hz", c.frame_rate_hz},
+                 {"exposure_s", c.exposure_s}});
     if (c.loaded) json["loaded"] = encode(*c.loaded);
     return json;
 }

@@ -179,6 +179,9 @@ struct Camera : CameraMounting {
     double cu_px = 639.5;
     double cv_px = 511.5;
     double k1 = 0;
+    // While it drives: pictures a second, and how long each is exposed, by the light of a flash.
+    double frame_rate_hz = 30;
+    double exposure_s = 2e-4;
     /// When the vehicle carries its load, under which the body gives; none: as without.
     std::optional<CameraMounting> loaded = {};
 };

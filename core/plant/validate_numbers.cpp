@@ -52,6 +52,8 @@ void check_camera(const Camera& c, Numbers n) {
     n.finite("/cu_px", c.cu_px);
     n.finite("/cv_px", c.cv_px);
     n.finite("/k1", c.k1);
+    n.positive("/frame_rate_hz", c.frame_rate_hz);
+    n.positive("/exposure_s", c.exposure_s);
     if (!c.loaded) return;
     n.pose("/loaded/body_from_camera", c.loaded->body_from_camera);
     n.positive("/loaded/height_m", c.loaded->height_m);

@@ -92,7 +92,9 @@ std::string cameras_to_json(const std::vector<plant::Camera>& cameras) {
                      {"height_px", c.height_px},
                      {"cu_px", number(c.cu_px)},
                      {"cv_px", number(c.cv_px)},
-                     {"k1", number(c.k1)}});
+                     {"k1", number(c.k1)},
+                     {"frame_rate_hz", number(c.frame_rate_hz)},
+                     {"exposure_s", number(c.exposure_s)}});
         if (c.loaded) json["loaded"] = mounting_to_json(*c.loaded);
         return json;
     });
@@ -107,6 +109,9 @@ std::vector<plant::Camera> cameras_from_json(const std::string& text) {
                              j.at("cu_px"),
                              j.at("cv_px"),
                              j.at("k1")};
+        // Stored before cameras had them, they are what they were then for all.
+        camera.frame_rate_hz = j.value("frame_rate_hz", camera.frame_rate_hz);
+        camera.exposure_s = j.value("exposure_s", camera.exposure_s);
         if (j.contains("loaded")) camera.loaded = mounting_from_json(j.at("loaded"));
         return camera;
     });

@@ -1,6 +1,7 @@
 #include "server/agent/camera_sensing.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/localisation/codes_on_way.hpp"
@@ -15,10 +16,8 @@ using simulation::FloorCode;
 
 constexpr double kAround_m = 20;      // farther codes are no camera's business
 constexpr std::size_t kQrBytes = 11;  // of a version 1 symbol, level Q
-// Under way: a flash lights the floor, pictures are taken 30 times a second, read within the time
-// that bench_vision measures and a bus adds, and stamped by a clock that is not the wheels'.
-constexpr double kFrame_s = 1.0 / 30;
-constexpr double kExposure_s = 2e-4;
+// Under way: pictures are read within the time that bench_vision measures and a bus adds, and
+// stamped by a clock that is not the wheels'.
 constexpr double kReadSoonest_s = 0.02;
 constexpr double kReadLatest_s = 0.08;
 constexpr double kClockSigma_s = 5e-4;
@@ -33,12 +32,30 @@ geometry::Point2 velocity_at(const onboard::Drive& drive, geometry::Point2 point
             share * (twist.vy_mps + twist.turn_radps * point.x_m)};
 }
 
+/// The vehicle's motion in so much of its own time, as it takes it to be; 0 is where it is.
+geometry::Pose2 driven_in(const onboard::Drive& drive, double own_s) {
+    const kinematics::Twist twist = drive.twist();
+    const double share = own_s / drive.time_factor();
+    return {share * twist.vx_mps, share * twist.vy_mps, share * twist.turn_radps};
+}
+
+geometry::Pose2 part_way(const geometry::Pose2& from, const geometry::Pose2& to, double share) {
+    const geometry::Pose2 step = inverse(from) * to;
+    return from * geometry::Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
+}
+
 }  // namespace
 
 CameraSensing::CameraSensing(const simulation::World& world, const plant::HallId& hall,
                              const simulation::SimulatedDrive& motion, bool rendered,
                              std::uint64_t seed, bool loaded)
-    : world_(world), hall_(hall), motion_(motion), random_(seed), actual_(motion.type().cameras) {
+    : world_(world),
+      hall_(hall),
+      motion_(motion),
+      random_(seed),
+      actual_(motion.type().cameras),
+      since_frame_s_(actual_.size()),
+      true_at_look_(motion.true_pose()) {
     options_.mode = rendered ? simulation::Sensing::kRendered : simulation::Sensing::kAnalytic;
     options_.errors = world.errors;
     options_.loaded = loaded;
@@ -112,20 +129,18 @@ std::vector<onboard::WayReading> CameraSensing::look_below(
     std::span<const vda5050::SurveyedMarker> expected, const geometry::Pose2& hall_from_body,
     double own_s) {
     for (OnTheWay& reading : on_the_way_) reading.reading.age_s += own_s;
-    until_frame_s_ -= own_s;
-    if (until_frame_s_ <= 0 && !expected.empty()) {
-        until_frame_s_ = kFrame_s;
-        const auto& cameras = motion_.type().cameras;
-        for (std::size_t i = 0; i < cameras.size(); ++i) {
-            const auto foot = hall_from_body * cameras[i].body_from_camera.position();
-            const auto off_m = [&](const vda5050::SurveyedMarker& marker) {
-                return distance(foot, marker.pose.position());
-            };
-            const auto& nearest = *std::ranges::min_element(expected, {}, off_m);
-            const double within_m =
-                localisation::view_radius_m(cameras[i], nearest.size_m) + kBeside_m;
-            if (off_m(nearest) <= within_m) expose(i, nearest, hall_from_body);
-        }
+    const auto true_before = std::exchange(true_at_look_, motion_.true_pose());
+    const auto& cameras = motion_.type().cameras;
+    for (std::size_t i = 0; i < cameras.size(); ++i) {
+        // A camera's clock runs on whatever steps the vehicle's time goes in.
+        const double frame_s = 1 / cameras[i].frame_rate_hz;
+        since_frame_s_[i] += own_s;
+        if (since_frame_s_[i] < frame_s) continue;
+        const double late_s = since_frame_s_[i] = std::fmod(since_frame_s_[i], frame_s);
+        if (expected.empty() || late_s > own_s) continue;
+        expose(i, expected,
+               {late_s, part_way(motion_.true_pose(), true_before, late_s / own_s),
+                hall_from_body * driven_in(motion_, -late_s)});
     }
     std::vector<onboard::WayReading> ready;
     std::erase_if(on_the_way_, [&](OnTheWay& reading) {
@@ -136,30 +151,37 @@ std::vector<onboard::WayReading> CameraSensing::look_below(
     return ready;
 }
 
-void CameraSensing::expose(std::size_t camera, const vda5050::SurveyedMarker& marker,
-                           const geometry::Pose2& hall_from_body) {
-    const auto kind = plant::parse_marker_kind(marker.kind);
-    if (!kind) return;
+void CameraSensing::expose(std::size_t camera, std::span<const vda5050::SurveyedMarker> expected,
+                           const Exposure& at) {
     const plant::Camera& calibrated = motion_.type().cameras[camera];
+    const auto foot = at.believed * calibrated.body_from_camera.position();
+    const auto off_m = [&](const vda5050::SurveyedMarker& marker) {
+        return distance(foot, marker.pose.position());
+    };
+    const auto& marker = *std::ranges::min_element(expected, {}, off_m);
+    const double within_m = localisation::view_radius_m(calibrated, marker.size_m) + kBeside_m;
+    const auto kind = plant::parse_marker_kind(marker.kind);
+    if (!kind || off_m(marker) > within_m) return;
     const auto velocity = velocity_at(motion_, calibrated.body_from_camera.position());
+    const double exposure_s = calibrated.exposure_s;
     simulation::SensingOptions options = options_;
     options.dark = dark_;
-    options.known = simulation::KnownFloor{hall_from_body, {{marker.pose, {*kind, marker.size_m}}}};
+    options.known = simulation::KnownFloor{at.believed, {{marker.pose, {*kind, marker.size_m}}}};
     options.smear_m =
-        geometry::Pose2{0, 0, -calibrated.body_from_camera.heading_rad} * (kExposure_s * velocity);
+        geometry::Pose2{0, 0, -calibrated.body_from_camera.heading_rad} * (exposure_s * velocity);
     const auto codes = codes_around();
     const auto view =
         simulation::sense_stop(std::span(&actual_[camera], 1), std::span(&calibrated, 1),
-                               motion_.true_pose(), codes, options, random_);
+                               at.true_pose, codes, options, random_);
     const auto& seen = view.readings.front();
     if (!seen.found) return;
     std::normal_distribution<double> clock(0, kClockSigma_s);
-    const double smear_m = norm(velocity) * std::hypot(kExposure_s, kClockSigma_s);
+    const double smear_m = norm(velocity) * std::hypot(exposure_s, kClockSigma_s);
     OnTheWay read;
     read.reading.marker = marker;
     read.reading.seen = {seen.payload, seen.code, seen.angle_rad, std::hypot(seen.sigma_m, smear_m),
                          localisation::code_sigma_rad(options_.errors, 0)};
-    read.reading.age_s = clock(random_);
+    read.reading.age_s = at.ago_s + clock(random_);
     read.ready_s = std::uniform_real_distribution<double>(kReadSoonest_s, kReadLatest_s)(random_);
     on_the_way_.push_back(std::move(read));
 }

@@ -56,8 +56,15 @@ public:
 private:
     std::vector<simulation::FloorCode> codes_around() const;
     void look_expecting(std::optional<simulation::KnownFloor> known);
-    void expose(std::size_t camera, const vda5050::SurveyedMarker& marker,
-                const geometry::Pose2& hall_from_body);
+    /// When a picture is taken between two steps of the vehicle.
+    struct Exposure {
+        double ago_s = 0;
+        geometry::Pose2 true_pose;
+        geometry::Pose2 believed;
+    };
+    /// The nearest of the expected codes, if it is in view as far as the vehicle knows.
+    void expose(std::size_t camera, std::span<const vda5050::SurveyedMarker> expected,
+                const Exposure& at);
 
     const simulation::World& world_;
     plant::HallId hall_;
@@ -74,8 +81,9 @@ private:
         onboard::WayReading reading;
         double ready_s = 0;  // age at which the vehicle's program gets it
     };
-    std::vector<OnTheWay> on_the_way_;  // exposed, not yet read
-    double until_frame_s_ = 0;
+    std::vector<OnTheWay> on_the_way_;   // exposed, not yet read
+    std::vector<double> since_frame_s_;  // of each camera
+    geometry::Pose2 true_at_look_;       // when it was last asked for what is below
     bool fresh_ = false;
     bool covered_ = false;
     bool dark_ = false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/fleet/tables/code_gaps.hpp"
+#include "core/fleet/tables/code_speeds.hpp"
 #include "core/fleet/tables/layout.hpp"
 #include "core/fleet/tables/light_gaps.hpp"
 #include "core/traffic/layout_check.hpp"
@@ -78,6 +79,22 @@ plant::Fault code_gap(const Reason& reason) {
                         metres("at_x_m"), metres("at_y_m"))};
 }
 
+plant::Fault codes_too_fast(const plant::Plant& plant, const Reason& reason) {
+    const auto of_class = value_of<std::string>(reason, "class");
+    std::string pointer = "/vehicle_types";
+    for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
+        const std::string id = plant.vehicle_types[i].id.str();
+        if (of_class == id || of_class == id + " with load") pointer += fmt::format("/{}", i);
+    }
+    return {pointer, reason.code,
+            fmt::format("Vehicles of type {} drive {:.2f} m/s and surely read a code up to {:.2f} "
+                        "m/s only: over each that their way relies on they are slowed down.",
+                        of_class, value_of<double>(reason, "max_speed_mps"),
+                        value_of<double>(reason, "speed_mps")),
+            "Use smaller codes, cameras that see more floor or take more pictures a second, or "
+            "lower max_speed_mps."};
+}
+
 plant::Fault light_gap(const Reason& reason) {
     const auto places = value_of<std::int64_t>(reason, "count");
     return {
@@ -100,6 +117,8 @@ std::vector<plant::Fault> layout_warnings(const plant::Plant& plant) {
             warnings.push_back(unreachable(plant, reason));
         } else if (reason.code == fleet::kCodeGap) {
             warnings.push_back(code_gap(reason));
+        } else if (reason.code == fleet::kCodesTooFast) {
+            warnings.push_back(codes_too_fast(plant, reason));
         } else if (reason.code == fleet::kLightGap) {
             warnings.push_back(light_gap(reason));
         } else {

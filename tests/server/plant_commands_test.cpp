@@ -76,6 +76,19 @@ TEST_F(PlantCommands, WarnsOfStationsWhereRestingVehiclesAreInTheWay) {
     EXPECT_EQ(first.at("code"), "unreachable");
 }
 
+TEST_F(PlantCommands, WarnsOfATypeThatReadsNoCodeAtItsOwnSpeed) {
+    plant::Plant plant = api::plant_file::load_plant_file(kPulseLine).value();
+    plant.vehicle_types[0].max_speed_mps = 3;
+    const std::string file = folder_.file("fast.json");
+    ASSERT_TRUE(api::plant_file::save_plant_file(plant, file));
+
+    EXPECT_EQ(plant_validate(file, false, out_), kPlantSound) << out_.str();
+    EXPECT_NE(out_.str().find("warning: /vehicle_types/0: "), std::string::npos) << out_.str();
+    EXPECT_NE(out_.str().find("drive 3.00 m/s and surely read a code up to 2.09 m/s only"),
+              std::string::npos)
+        << out_.str();
+}
+
 TEST_F(PlantCommands, AVehicleAloneIsWarnedOfNothing) {
     EXPECT_EQ(plant_validate(kPulseLine, false, out_), kPlantSound);
     EXPECT_EQ(out_.str().find("warning"), std::string::npos) << out_.str();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/fleet/tables/code_gaps.hpp"
+#include "core/fleet/tables/code_speeds.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/fleet/tables/light_gaps.hpp"
 #include "core/traffic/layout_check.hpp"
@@ -100,6 +101,7 @@ std::vector<Reason> check_layout(const plant::Plant& plant) {
         std::ranges::move(check_free_floor(plant, planner, of_class), std::back_inserter(reasons));
     }
     std::ranges::move(check_codes(plant, classes), std::back_inserter(reasons));
+    std::ranges::move(check_code_speeds(plant, classes), std::back_inserter(reasons));
     std::ranges::move(check_light(plant, classes), std::back_inserter(reasons));
     return reasons;
 }

@@ -8,6 +8,7 @@
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/leg_markers.hpp"
 #include "core/localisation/codes_on_way.hpp"
+#include "core/localisation/reading_speed.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
@@ -61,6 +62,23 @@ void name_chain(const planning::LegChain& chain, vda5050::Action& action) {
     }
 }
 
+/// No faster over what its way relies on than its cameras surely read it, where it would be. In its
+/// own time as its factsheet has it: a simulated one may be made to drive faster than its type.
+void limit_speed(const LiveVehicle& live, const std::vector<plant::Camera>& cameras,
+                 const std::vector<const plant::Marker*>& below, const vda5050::Action& action,
+                 vda5050::OrderEdge& edge) {
+    for (const plant::Marker* marker : below) {
+        const auto& chain = action.segment_markers;
+        if (std::ranges::find(chain, marker->payload) == chain.end()) continue;
+        const auto limit_mps =
+            localisation::limit_to_read_mps(*live.type, cameras, *marker, edge.segment);
+        if (!limit_mps) continue;
+        const double own_mps = *limit_mps * std::max(1.0, speed_share(live));
+        const bool limited = edge.max_speed_mps > 0;
+        edge.max_speed_mps = limited ? std::min(edge.max_speed_mps, own_mps) : own_mps;
+    }
+}
+
 }  // namespace
 
 void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std::string& hall,
@@ -85,7 +103,10 @@ void observe_markers(const FleetState& fleet, const LiveVehicle& live, const std
                                       marker->size_m, marker->pose, marker->sigma_xy_m,
                                       marker->sigma_heading_rad});
         }
-        if (chain && *chain) name_chain(**chain, action);
+        if (chain && *chain) {
+            name_chain(**chain, action);
+            limit_speed(live, cameras, below, action, edge);
+        }
         edge.actions.push_back(std::move(action));
     }
 }

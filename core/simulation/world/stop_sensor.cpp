@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/localisation/reading_speed.hpp"
 #include "core/vision/marker_reader.hpp"
 
 namespace pulseline::simulation {
@@ -37,9 +38,6 @@ const KnownCode* code_below(const plant::Camera& camera, const std::optional<Kno
     });
     return nearest == known->codes.end() ? nullptr : &*nearest;
 }
-
-// Of the readers on smeared pictures (core/vision/README.md, level hard).
-constexpr double kMostSmear_px = 6;
 
 /// What a reader that looks for codes of that kind and size would not take.
 const char* refused(const vision::MarkerReading& seen, const plant::UsualCode& look) {
@@ -101,7 +99,7 @@ StopView sense_stop(std::span<const plant::Camera> actual,
             view.readings.push_back(not_found(calibrated[i], why));
         };
         if (options.mode == Sensing::kAnalytic) {
-            const bool blind = options.dark || smear_px > kMostSmear_px;
+            const bool blind = options.dark || smear_px > localisation::kMostSmear_px;
             ReadingErrors errors;
             errors.sigma_px *= 1 + smear_px;
             const auto seen =

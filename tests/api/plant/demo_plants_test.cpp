@@ -8,6 +8,7 @@
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/layout.hpp"
 #include "core/kinematics/primitives.hpp"
+#include "core/localisation/reading_speed.hpp"
 #include "core/planning/legs/blind_way.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/validate.hpp"
@@ -131,6 +132,22 @@ struct ChainFigures {
     }
 };
 
+/// A code of the chain that its camera would not surely read at its own speed; empty: none.
+std::string passed_too_fast(const Plant& plant, const Vehicle& vehicle,
+                            const planning::CodeReach& reach, const planning::LegChain& chain,
+                            const std::vector<kinematics::Segment>& segments) {
+    const auto& type = *find_vehicle_type(plant, vehicle.type);
+    for (const auto& one : chain.markers) {
+        const Marker& marker = *find_marker(plant, one.marker);
+        for (const auto& segment : segments) {
+            if (localisation::limit_to_read_mps(type, reach.cameras(), marker, segment)) {
+                return marker.payload;
+            }
+        }
+    }
+    return "";
+}
+
 /// Wherever it goes from a station to another, it catches the next code, and has a marker chain.
 TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
     const Plant plant = demo(GetParam());
@@ -157,7 +174,11 @@ TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
                 if (!chain) continue;
                 EXPECT_TRUE(*chain) << vehicle.id.str() << " from " << from.number << " to "
                                     << to.number << ": " << chain->error().what;
-                if (*chain) figures.add(**chain);
+                if (!*chain) continue;
+                figures.add(**chain);
+                const auto fast = passed_too_fast(plant, vehicle, reach, **chain, plan->segments);
+                EXPECT_EQ(fast, "") << vehicle.id.str() << " from " << from.number << " to "
+                                    << to.number << " is slowed down for its camera";
             }
         }
     }

@@ -74,6 +74,45 @@ TEST(MarkersUnderWay, AnOrderSaysWhichCodesItsWayReliesOn) {
     EXPECT_EQ((*view->leg->chain)->markers.back().payload, boundary);
 }
 
+/// As fast as its camera reads a code of 60 mm that it relies on, and no slower elsewhere.
+TEST(MarkersUnderWay, AFastTypeIsLimitedOverTheCodesThatItsWayReliesOn) {
+    auto plant = with_code_half_way();
+    for (auto& type : plant.vehicle_types) type.max_speed_mps = 4;
+    World world(plant);
+    const auto& order = *order_of(world, {"observeMarkers"});
+    int limited = 0;
+    for (const auto& edge : order.edges) {
+        const bool relies = std::ranges::any_of(
+            edge.actions, [](const auto& action) { return !action.segment_markers.empty(); });
+        limited += relies;
+        EXPECT_NEAR(edge.max_speed_mps, relies ? 2.0897 : 0, 1e-4) << edge.edge_id;
+    }
+    EXPECT_GT(limited, 0);
+    EXPECT_LT(limited, static_cast<int>(order.edges.size()));
+}
+
+TEST(MarkersUnderWay, AnEdgesOwnLowerLimitStays) {
+    auto plant = with_code_half_way();
+    for (auto& type : plant.vehicle_types) type.max_speed_mps = 4;
+    for (auto& edge : plant.edges) edge.max_speed_mps = 1.5;
+    World world(plant);
+    for (const auto& edge : order_of(world, {"observeMarkers"})->edges) {
+        EXPECT_LE(edge.max_speed_mps, 2.09);
+        const bool relies = std::ranges::any_of(
+            edge.actions, [](const auto& action) { return !action.segment_markers.empty(); });
+        if (relies) {
+            EXPECT_NEAR(edge.max_speed_mps, 1.5, 1e-9);
+        }
+    }
+}
+
+TEST(MarkersUnderWay, WhoReadsThemAtItsOwnSpeedIsNotLimited) {
+    World world(with_code_half_way());
+    for (const auto& edge : order_of(world, {"observeMarkers"})->edges) {
+        EXPECT_EQ(edge.max_speed_mps, 0);
+    }
+}
+
 TEST(MarkersUnderWay, AVehicleThatDoesNotAnnounceItIsNotAsked) {
     World silent;
     EXPECT_TRUE(observed(*order_of(silent, {})).empty());

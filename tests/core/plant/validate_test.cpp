@@ -174,6 +174,10 @@ const Case kCases[] = {
      "/vehicle_types/0/max_arc_radius_m", "arc_radii"},
     {"CameraWithoutFocus", [](Plant& p) { p.vehicle_types[0].cameras[0].f_px = 0; },
      "/vehicle_types/0/cameras/0/f_px", "not_positive"},
+    {"CameraWithoutPictures", [](Plant& p) { p.vehicle_types[0].cameras[0].frame_rate_hz = 0; },
+     "/vehicle_types/0/cameras/0/frame_rate_hz", "not_positive"},
+    {"CameraWithoutExposure", [](Plant& p) { p.vehicle_types[0].cameras[0].exposure_s = 0; },
+     "/vehicle_types/0/cameras/0/exposure_s", "not_positive"},
     {"LoadedCameraInTheFloor",
      [](Plant& p) {
          p.vehicle_types[0].cameras[0].loaded = CameraMounting{{}, 0, 0, 0};

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <span>
 
+#include "core/localisation/reading_speed.hpp"
 #include "tests/core/vision/marker_view.hpp"
 
 namespace pulseline::vision {
@@ -53,6 +55,36 @@ TEST_P(EveryKind, IsFoundOnNominalImagesToAHundredthOfAPixel) {
     // An honest sigma: neither boastful nor useless.
     EXPECT_GT(chi2 / kImages, 0.35);
     EXPECT_LT(chi2 / kImages, 1.8);
+}
+
+/// The figure by which vehicles are slowed down over codes: up to it all are read, whatever way the
+/// motion goes, and far beyond hardly one. Codes are surely read up to twice as much: the figure
+/// leaves room for what else a floor does to a picture.
+TEST_P(EveryKind, IsReadThroughTheSmearThatSpeedsReckonWith) {
+    std::mt19937_64 random{11};
+    std::uniform_real_distribution<double> any(-1, 1);
+    constexpr int kImages = 20;
+    for (const double times : {1.0, 2.0, 20.0}) {
+        const double smear_px = times * localisation::kMostSmear_px;
+        int read = 0;
+        for (int i = 0; i < kImages; ++i) {
+            MarkerView v = view();
+            v.conditions = ImageConditions::nominal(random);
+            v.conditions.motion_blur_px = smear_px;
+            v.conditions.motion_direction_rad = kPi * any(random);
+            v.camera_from_code = {0.04 * any(random), 0.02 * any(random), kPi * any(random)};
+            const auto reading = v.read();
+            read += reading && reading->payload == v.payload;
+        }
+        std::printf("[ smear    ] %s, %.0f px: %d of %d read\n", plant::to_string(GetParam()),
+                    smear_px, read, kImages);
+        if (times <= 2) {
+            EXPECT_EQ(read, kImages);
+        }
+        if (times == 20) {
+            EXPECT_LE(read, kImages / 10);
+        }
+    }
 }
 
 TEST_P(EveryKind, NeverLiesOnHardImages) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/localisation/codes_on_way.hpp"
+#include "core/localisation/reading_speed.hpp"
 #include "core/simulation/machine/vehicle_motion.hpp"
 #include "core/simulation/world/world.hpp"
 #include "tests/server/agent/small_hall.hpp"
@@ -85,6 +87,62 @@ TEST(CameraSensing, ReadsACodeThatItPassesOver) {
         EXPECT_EQ(readings[0].seen.payload, "ST01-F");
         // Smear and clock make it worse than a code seen standing.
         EXPECT_GT(readings[0].seen.sigma_m, 3e-4);
+    }
+}
+
+/// Of `kPasses` drives at `speed_mps` over the front code, beside it by half of what it may lie
+/// beside and each begun a little farther on than the one before, those on which it was read.
+constexpr int kPasses = 12;
+int passes_read(bool rendered, double speed_mps, double exposure_s) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    auto type = world.plant.vehicle_types[0];
+    type.max_speed_mps = speed_mps;
+    type.max_accel_mps2 = 10;
+    for (auto& camera : type.cameras) camera.exposure_s = exposure_s;
+    const auto& code = world.plant.markers[0];
+    const vda5050::SurveyedMarker marker{code.payload, "qr", code.size_m, code.pose, 1e-4, 5e-4};
+    const double beside_m = localisation::view_radius_m(type.cameras[0], code.size_m) / 2;
+    int read = 0;
+    for (int pass = 0; pass < kPasses; ++pass) {
+        kinematics::Segment segment;
+        segment.start = {18 + 0.017 * pass, code.pose.y_m + beside_m, 0};
+        segment.end = segment.start * geometry::Pose2{4, 0, 0};
+        segment.length_m = 4;
+        simulation::VehicleMotion motion(type, segment.start, 1, 1, simulation::testing::exact());
+        motion.append(segment);
+        CameraSensing sensing(world, plant::HallId("hall"), motion, rendered, 3);
+        bool seen = false;
+        for (int i = 0; i < 5000 && !motion.idle() && !seen; ++i) {
+            motion.step(0.02);
+            // Where it is not near, nothing is expected, and no picture rendered.
+            const auto foot = motion.believed_pose() * type.cameras[0].body_from_camera.position();
+            const bool near = distance(foot, code.pose.position()) < 0.4;
+            const std::span<const vda5050::SurveyedMarker> expected(&marker, near ? 1 : 0);
+            for (const auto& one : sensing.look_below(expected, motion.believed_pose(), 0.02)) {
+                seen |= one.seen.payload == marker.payload;
+            }
+        }
+        read += seen;
+    }
+    return read;
+}
+
+/// As fast as a camera surely reads it, it does each time; far above, the code lies between two
+/// pictures, or is smeared. Cameras differ a little from what is known of them: hence nine tenths.
+TEST(CameraSensing, ReadsACodeAtItsHighestSpeedAndMissesItFarAbove) {
+    plant::Camera camera;
+    camera.exposure_s = 5e-5;
+    const double by_frames_mps = localisation::reading_speed_mps(camera, 0.06);
+    camera.exposure_s = 1e-2;
+    const double by_smear_mps = localisation::reading_speed_mps(camera, 0.06);
+    ASSERT_LT(20 * by_smear_mps, by_frames_mps);
+    for (const bool rendered : {false, true}) {
+        EXPECT_EQ(passes_read(rendered, by_frames_mps, 5e-5), kPasses) << rendered;
+        const int between = passes_read(rendered, 2.5 * by_frames_mps, 5e-5);
+        EXPECT_LT(between, kPasses * 3 / 4) << rendered;
+        EXPECT_GT(between, 0) << rendered << ": chance, no more";
+        EXPECT_EQ(passes_read(rendered, 0.9 * by_smear_mps, 1e-2), kPasses) << rendered;
+        EXPECT_EQ(passes_read(rendered, 20 * by_smear_mps, 1e-2), 0) << rendered;
     }
 }
 
