@@ -180,7 +180,7 @@ struct Camera : CameraMounting {
     double cv_px = 511.5;
     double k1 = 0;
     // While it drives: pictures a second, and how long each is exposed, by the light of a flash.
-    double frame_rate_hz = 30;
+    double frame_rate_hz = 60;
     double exposure_s = 2e-4;
     /// When the vehicle carries its load, under which the body gives; none: as without.
     std::optional<CameraMounting> loaded = {};

@@ -32,8 +32,8 @@ public:
     void lead_at_rest(double dt_s);
 
     /// A code comes into view soon, so that longer steps would pass it unseen: of the vehicle's own
-    /// time, at most.
-    static constexpr double kFineStep_s = 0.02;
+    /// time, at most. A frame of its cameras.
+    static constexpr double kFineStep_s = 1.0 / 60;
     bool expects_soon() const { return !expected_.empty(); }
 
     /// Payloads of the codes taken since the last call.

@@ -139,7 +139,7 @@ TEST(PlantText, KeepsTheTiltOfACameraAndRefusesOneNobodyMounts) {
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["tilt_u_rad"], 0);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["frame_rate_hz"], 60);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["exposure_s"], 1e-4);
-    EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["frame_rate_hz"], 30);
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["frame_rate_hz"], 60);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["exposure_s"], 2e-4);
 
     camera["tilt_u_rad"] = 0.6;

@@ -80,6 +80,28 @@ std::vector<onboard::WayReading> passed(bool rendered, const std::string& payloa
     return all;
 }
 
+/// Of a code below a vehicle that stands, looked at in steps of `step_s` for ten seconds.
+std::size_t read_in_ten_seconds(double step_s) {
+    const auto world = simulation::make_world(small_plant(), 1);
+    const simulation::VehicleMotion motion(world.plant.vehicle_types[0], {20, 10, 0}, 1);
+    CameraSensing sensing(world, plant::HallId("hall"), motion, false, 3);
+    const vda5050::SurveyedMarker marker{"ST01-F", "qr", 0.06, {20 + 5.346, 10, 0}, 1e-4, 5e-4};
+    std::size_t read = 0;
+    for (int i = 0; i < static_cast<int>(10 / step_s); ++i) {
+        read += sensing.look_below(std::span(&marker, 1), motion.believed_pose(), step_s).size();
+    }
+    return read;
+}
+
+TEST(CameraSensing, ExposesSixtyTimesASecondHoweverLongItsStepsAre) {
+    // Up to five of them are not read yet when the time is over.
+    for (const double step_s : {1.0 / 60, 0.0125, 0.01, 0.005}) {
+        EXPECT_NEAR(static_cast<double>(read_in_ten_seconds(step_s)), 597.5, 3) << step_s;
+    }
+    // No more than one a step.
+    EXPECT_NEAR(static_cast<double>(read_in_ten_seconds(0.05)), 199, 1.5);
+}
+
 TEST(CameraSensing, ReadsACodeThatItPassesOver) {
     for (const bool rendered : {false, true}) {
         const auto readings = passed(rendered, "ST01-F", false);
