@@ -67,7 +67,7 @@ TEST(PlantStore, KeepsWhatTheCalibrationOfACameraSays) {
     camera.k1 = -0.08;
     camera.tilt_u_rad = 0.003;
     camera.tilt_v_rad = -0.001;
-    camera.frame_rate_hz = 60;
+    camera.frame_rate_hz = 90;
     camera.exposure_s = 1e-4;
     camera.loaded = plant::CameraMounting{{5.34, 0.001, 0.01}, 0.452, 0.002, -0.003};
     PlantStore(database).import(plant);
@@ -76,7 +76,7 @@ TEST(PlantStore, KeepsWhatTheCalibrationOfACameraSays) {
     EXPECT_EQ(kept.k1, -0.08);
     EXPECT_EQ(kept.tilt_u_rad, 0.003);
     EXPECT_EQ(kept.tilt_v_rad, -0.001);
-    EXPECT_EQ(kept.frame_rate_hz, 60);
+    EXPECT_EQ(kept.frame_rate_hz, 90);
     EXPECT_EQ(kept.exposure_s, 1e-4);
     ASSERT_TRUE(kept.loaded);
     EXPECT_EQ(kept.loaded->body_from_camera, (geometry::Pose2{5.34, 0.001, 0.01}));

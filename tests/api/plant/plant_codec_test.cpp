@@ -130,14 +130,14 @@ TEST(PlantText, KeepsTheTiltOfACameraAndRefusesOneNobodyMounts) {
     Json& camera = file["vehicle_types"][0]["cameras"][0];
     camera["tilt_u_rad"] = 0.003;
     camera["tilt_v_rad"] = -0.001;
-    camera["frame_rate_hz"] = 60;
+    camera["frame_rate_hz"] = 90;
     camera["exposure_s"] = 1e-4;
     json::FieldErrors errors;
     const Json written = encode_plant(decode_plant(file, errors), PlantForm::kFile);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["tilt_u_rad"], 0.003);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["tilt_v_rad"], -0.001);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["tilt_u_rad"], 0);
-    EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["frame_rate_hz"], 60);
+    EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["frame_rate_hz"], 90);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][0]["exposure_s"], 1e-4);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["frame_rate_hz"], 60);
     EXPECT_EQ(written["vehicle_types"][0]["cameras"][1]["exposure_s"], 2e-4);
