@@ -58,14 +58,15 @@ function starts(model, random) {
 
 const done = { itself: 0, asked: 0, byWalls: 0, families: new Map() };
 
-/** What it says of its place, and what it believes of its heading, against how it stands: three sigma. */
+/** What it says of its place, against where it is: three sigma; and what it believes of its heading, of which it says nothing: four, since
+ *  of 24 one may lie beyond three by chance. */
 function holds(system, said, truth) {
   assert.equal(said.claimed_pose, undefined, `${said.id} says that it stands where it cannot`);
   const off_m = wayBetween(said.pose, truth);
   assert.ok(off_m <= said.pose_deviation_m, `${said.id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`);
   const { believed } = system.lastTruth(said.id);
   const turned_rad = Math.abs(angleBetween(believed.heading_rad, truth.heading_rad));
-  assert.ok(turned_rad <= 3 * believed.sigma_rad, `${said.id} is turned by ${turned_rad} rad and holds it for ${3 * believed.sigma_rad} rad at most, by ${said.navigation?.by}`);
+  assert.ok(turned_rad <= 4 * believed.sigma_rad, `${said.id} is turned by ${turned_rad} rad, of a sigma of ${believed.sigma_rad} rad, by ${said.navigation?.by}`);
 }
 
 for (let round = 1; round <= ROUNDS; ++round) {
