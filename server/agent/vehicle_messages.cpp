@@ -120,7 +120,9 @@ void Vehicle::write_advice(vda5050::StateMessage& state) const {
 }
 
 /// It drives slowly, looks around or asks: each sense that tells nothing is named then.
-bool Vehicle::lacks_pose() const { return lost_ || advice_ != onboard::PoseGuard::Advice::kDrive; }
+bool Vehicle::lacks_pose() const {
+    return lost_ || (!drive_->idle() && advice_ != onboard::PoseGuard::Advice::kDrive);
+}
 
 void Vehicle::write_codes(vda5050::StateMessage& state) const {
     if (type_.cameras.empty() || !lacks_pose()) return;

@@ -79,6 +79,7 @@ TEST_F(PlantCommands, WarnsOfStationsWhereRestingVehiclesAreInTheWay) {
 TEST_F(PlantCommands, WarnsOfATypeThatReadsNoCodeAtItsOwnSpeed) {
     plant::Plant plant = api::plant_file::load_plant_file(kPulseLine).value();
     plant.vehicle_types[0].max_speed_mps = 3;
+    for (auto& camera : plant.vehicle_types[0].cameras) camera.frame_rate_hz = 30;
     const std::string file = folder_.file("fast.json");
     ASSERT_TRUE(api::plant_file::save_plant_file(plant, file));
 

@@ -9,11 +9,17 @@
 namespace pulseline::fleet::testing {
 namespace {
 
+plant::Camera slow_camera() {
+    plant::Camera camera;
+    camera.frame_rate_hz = 30;
+    return camera;
+}
+
 /// Two stations on a lane with a code of 60 mm between, for vehicles with one camera.
 plant::Plant lane_with_a_code(double max_speed_mps) {
     plant::Plant plant =
         plant_of({{"west", 20, 40, 1}, {"east", 28, 40, 2}}, {{"west", "east"}}, 1);
-    plant.vehicle_types.front().cameras = {plant::Camera{}};
+    plant.vehicle_types.front().cameras = {slow_camera()};
     plant.vehicle_types.front().max_speed_mps = max_speed_mps;
     plant::Marker marker;
     marker.id = plant::MarkerId("between");
@@ -39,7 +45,7 @@ TEST(CodeSpeeds, ATypeThatReadsNothingAtItsOwnSpeedIsNamedWithBothSpeeds) {
     const auto& params = found[0].params;
     EXPECT_EQ(std::get<std::string>(params[0].value), plant.vehicle_types.front().id.str());
     EXPECT_EQ(std::get<double>(params[1].value),
-              localisation::reading_speed_mps(plant::Camera{}, 0.06));
+              localisation::reading_speed_mps(slow_camera(), 0.06));
     EXPECT_NEAR(std::get<double>(params[1].value), 2.09, 0.005);
     EXPECT_EQ(std::get<double>(params[2].value), 3);
 }

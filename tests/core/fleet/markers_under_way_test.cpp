@@ -77,7 +77,10 @@ TEST(MarkersUnderWay, AnOrderSaysWhichCodesItsWayReliesOn) {
 /// As fast as its camera reads a code of 60 mm that it relies on, and no slower elsewhere.
 TEST(MarkersUnderWay, AFastTypeIsLimitedOverTheCodesThatItsWayReliesOn) {
     auto plant = with_code_half_way();
-    for (auto& type : plant.vehicle_types) type.max_speed_mps = 4;
+    for (auto& type : plant.vehicle_types) {
+        type.max_speed_mps = 4;
+        for (auto& camera : type.cameras) camera.frame_rate_hz = 30;
+    }
     World world(plant);
     const auto& order = *order_of(world, {"observeMarkers"});
     int limited = 0;

@@ -115,12 +115,16 @@ TEST(CameraSensing, ReadsACodeThatItPassesOver) {
 /// Of `kPasses` drives at `speed_mps` over the front code, beside it by half of what it may lie
 /// beside and each begun a little farther on than the one before, those on which it was read.
 constexpr int kPasses = 12;
+constexpr double kFrames_hz = 30;  // slower than the steps
 int passes_read(bool rendered, double speed_mps, double exposure_s) {
     const auto world = simulation::make_world(small_plant(), 1);
     auto type = world.plant.vehicle_types[0];
     type.max_speed_mps = speed_mps;
     type.max_accel_mps2 = 10;
-    for (auto& camera : type.cameras) camera.exposure_s = exposure_s;
+    for (auto& camera : type.cameras) {
+        camera.exposure_s = exposure_s;
+        camera.frame_rate_hz = kFrames_hz;
+    }
     const auto& code = world.plant.markers[0];
     const vda5050::SurveyedMarker marker{code.payload, "qr", code.size_m, code.pose, 1e-4, 5e-4};
     const double beside_m = localisation::view_radius_m(type.cameras[0], code.size_m) / 2;
@@ -153,6 +157,7 @@ int passes_read(bool rendered, double speed_mps, double exposure_s) {
 /// pictures, or is smeared. Cameras differ a little from what is known of them: hence nine tenths.
 TEST(CameraSensing, ReadsACodeAtItsHighestSpeedAndMissesItFarAbove) {
     plant::Camera camera;
+    camera.frame_rate_hz = kFrames_hz;
     camera.exposure_s = 5e-5;
     const double by_frames_mps = localisation::reading_speed_mps(camera, 0.06);
     camera.exposure_s = 1e-2;
