@@ -15,8 +15,6 @@ Point2 middle_of(const std::pair<int, int>& cell) {
     return {(cell.first + 0.5) * SeenPoints::kCell_m, (cell.second + 0.5) * SeenPoints::kCell_m};
 }
 
-bool is_return(float range_m) { return std::isfinite(range_m) && range_m > 0; }
-
 /// The rays at a point and beside it all end well behind it.
 bool sees_through(const Scan& scan, Point2 in_sensor) {
     const double away_m = norm(in_sensor);
@@ -40,15 +38,10 @@ void SeenPoints::take(const Scan& scan, const Pose2& hall_from_body) {
     std::erase_if(cells_, [&](const Cell& cell) {
         return sees_through(scan, sensor_from_hall * middle_of(cell));
     });
-    for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-        const double range_m = scan.ranges_m[i];
-        if (!is_return(scan.ranges_m[i])) continue;
-        const double angle = scan.first_rad + static_cast<double>(i) * scan.step_rad;
-        const Point2 p =
-            hall_from_sensor * Point2{range_m * std::cos(angle), range_m * std::sin(angle)};
-        cells_.emplace(static_cast<int>(std::floor(p.x_m / kCell_m)),
-                       static_cast<int>(std::floor(p.y_m / kCell_m)));
-    }
+    visit_ends(scan, hall_from_sensor, [&](Point2 end) {
+        cells_.emplace(static_cast<int>(std::floor(end.x_m / kCell_m)),
+                       static_cast<int>(std::floor(end.y_m / kCell_m)));
+    });
 }
 
 std::vector<Point2> SeenPoints::points() const {

@@ -11,14 +11,17 @@ void PastPoses::add(const Pose2& pose, double passed_s, double kept_s) {
     while (past_.size() > 1 && past_[past_.size() - 2].age_s > kept_s) past_.pop_back();
 }
 
+Pose2 part_way(const Pose2& from, const Pose2& to, double share) {
+    const Pose2 step = inverse(from) * to;
+    return from * Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
+}
+
 Pose2 PastPoses::at(double age_s) const {
     for (std::size_t i = 1; i < past_.size(); ++i) {
         if (past_[i].age_s < age_s) continue;
         const double span_s = past_[i].age_s - past_[i - 1].age_s;
         const double share = span_s > 0 ? (age_s - past_[i - 1].age_s) / span_s : 0;
-        const Pose2 step = inverse(past_[i - 1].pose) * past_[i].pose;
-        return past_[i - 1].pose *
-               Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
+        return part_way(past_[i - 1].pose, past_[i].pose, share);
     }
     return past_.back().pose;
 }

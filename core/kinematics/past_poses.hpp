@@ -6,6 +6,9 @@
 
 namespace pulseline::kinematics {
 
+/// So much of an even way between two poses; 0 is `from`.
+geometry::Pose2 part_way(const geometry::Pose2& from, const geometry::Pose2& to, double share);
+
 /// Where a body was lately, for what is known only some time after it was seen.
 class PastPoses {
 public:

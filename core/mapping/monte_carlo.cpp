@@ -340,13 +340,7 @@ template <class Visit>
 void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visit visit) {
     for (const control::Scan& scan : scans) {
         const Pose2 sensor = pose * scan.body_from_sensor;
-        for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
-            const double range_m = scan.ranges_m[i];
-            if (!std::isfinite(range_m) || range_m <= 0) continue;
-            const double angle_rad = scan.first_rad + static_cast<double>(i) * scan.step_rad;
-            visit(sensor.position(),
-                  sensor * (range_m * Point2{std::cos(angle_rad), std::sin(angle_rad)}));
-        }
+        control::visit_ends(scan, sensor, [&](Point2 end) { visit(sensor.position(), end); });
     }
 }
 

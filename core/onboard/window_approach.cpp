@@ -8,7 +8,6 @@
 namespace pulseline::onboard {
 namespace {
 
-using geometry::Point2;
 using kinematics::Twist;
 
 constexpr double kEndsWithin_m = 0.001;  // 0.4 to 0.7 mm off, as it truly is
@@ -64,13 +63,8 @@ void WindowApproach::gather_things() {
     things_.clear();
     if (seen_ == nullptr) return;
     for (const control::Scan& scan : *seen_) {
-        for (std::size_t ray = 0; ray < scan.ranges_m.size(); ++ray) {
-            const double range_m = scan.ranges_m[ray];
-            if (!(std::isfinite(range_m) && range_m > 0)) continue;
-            const double bearing_rad = scan.first_rad + static_cast<double>(ray) * scan.step_rad;
-            things_.push_back(scan.body_from_sensor * Point2{range_m * std::cos(bearing_rad),
-                                                             range_m * std::sin(bearing_rad)});
-        }
+        control::visit_ends(scan, scan.body_from_sensor,
+                            [&](geometry::Point2 end) { things_.push_back(end); });
     }
 }
 

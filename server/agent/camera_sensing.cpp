@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/kinematics/past_poses.hpp"
 #include "core/localisation/codes_on_way.hpp"
 #include "core/localisation/dual_camera.hpp"
 #include "core/simulation/world/true_camera.hpp"
@@ -37,11 +38,6 @@ geometry::Pose2 driven_in(const onboard::Drive& drive, double own_s) {
     const kinematics::Twist twist = drive.twist();
     const double share = own_s / drive.time_factor();
     return {share * twist.vx_mps, share * twist.vy_mps, share * twist.turn_radps};
-}
-
-geometry::Pose2 part_way(const geometry::Pose2& from, const geometry::Pose2& to, double share) {
-    const geometry::Pose2 step = inverse(from) * to;
-    return from * geometry::Pose2{share * step.x_m, share * step.y_m, share * step.heading_rad};
 }
 
 }  // namespace
@@ -139,7 +135,7 @@ std::vector<onboard::WayReading> CameraSensing::look_below(
         const double late_s = since_frame_s_[i] = std::fmod(since_frame_s_[i], frame_s);
         if (expected.empty() || late_s > own_s) continue;
         expose(i, expected,
-               {late_s, part_way(motion_.true_pose(), true_before, late_s / own_s),
+               {late_s, kinematics::part_way(motion_.true_pose(), true_before, late_s / own_s),
                 hall_from_body * driven_in(motion_, -late_s)});
     }
     std::vector<onboard::WayReading> ready;

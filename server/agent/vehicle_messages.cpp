@@ -153,8 +153,8 @@ void Vehicle::write_reflectors(vda5050::StateMessage& state) const {
     if (why_not && ((type_.cameras.empty() && !light_) || lacks_pose())) {
         state.errors.push_back(
             {"reflectorsLost", false, why_not->what, {{"why", why_not->reason.code}}});
-    } else if (lost_) {  // where it does not know where it is, no reflector can be told from
-                         // another
+    } else if (lost_) {
+        // Which of them it sees, only who knows where he is can tell.
         state.errors.push_back({"reflectorsLost",
                                 false,
                                 "The scanner sees " + std::to_string(state.reflectors.size()) +

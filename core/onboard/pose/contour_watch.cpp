@@ -179,9 +179,9 @@ void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
     localisation::BeaconFix fix;
     fix.fix.pose = told.pose;
     fix.fix.method = localisation::Method::kContours;
-    const double driven_share = drive_.standing() ? 1 : news_share_;
-    const Eigen::Matrix3d chance = (1 - kLasting) / driven_share * told.of_told;
-    set_covariance(fix.fix, told.covariance + chance - (1 - kLasting) * told.of_told);
+    // What is its own counts the less, the less of it is new.
+    const double share = drive_.standing() ? 1 : news_share_;
+    set_covariance(fix.fix, told.covariance + (1 - kLasting) * (1 / share - 1) * told.of_told);
     fix.lasting = localisation::rows(kLasting * told.of_told);
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();
