@@ -5,6 +5,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "api/json/utf8.hpp"
+
 namespace pulseline::json {
 namespace {
 
@@ -147,6 +149,13 @@ std::string read_text(const Json& value, const Place& place, FieldErrors& errors
     return text;
 }
 
+std::string read_printable(const Json& value, const Place& place, FieldErrors& errors,
+                           std::size_t most) {
+    if (value.is_string()) return json::printable(value.get_ref<const std::string&>(), most);
+    wrong_type_at(errors, place.pointer(), "string");
+    return {};
+}
+
 double read_number(const Json& value, const Place& place, FieldErrors& errors,
                    NumberLimits limits) {
     if (!value.is_number()) {
@@ -247,6 +256,16 @@ std::string ObjectReader::text(const char* name, TextLimits limits) {
 
 std::string ObjectReader::text_or(const char* name, std::string fallback, TextLimits limits) {
     return find(name) == nullptr ? fallback : text(name, limits);
+}
+
+std::string ObjectReader::printable(const char* name, std::size_t most) {
+    const Json* found = required(name);
+    if (found == nullptr) return {};
+    return read_printable(*found, {pointer_, name}, errors_, most);
+}
+
+std::string ObjectReader::printable_or(const char* name, std::string fallback, std::size_t most) {
+    return find(name) == nullptr ? fallback : printable(name, most);
 }
 
 double ObjectReader::number(const char* name, NumberLimits limits) {

@@ -69,6 +69,10 @@ private:
 // out_of_range {min, max}, not_one_of {allowed}, wrong_count {min, max}.
 std::string read_text(const Json& value, const Place& place, FieldErrors& errors,
                       TextLimits limits = {});
+/// Text that is only shown, as printable() makes it of whatever it is: no line feed in it makes a
+/// message worthless.
+std::string read_printable(const Json& value, const Place& place, FieldErrors& errors,
+                           std::size_t most);
 double read_number(const Json& value, const Place& place, FieldErrors& errors,
                    NumberLimits limits = {});
 std::int64_t read_integer(const Json& value, const Place& place, FieldErrors& errors,
@@ -96,6 +100,8 @@ public:
 
     std::string text(const char* name, TextLimits limits = {});
     std::string text_or(const char* name, std::string fallback, TextLimits limits = {});
+    std::string printable(const char* name, std::size_t most);
+    std::string printable_or(const char* name, std::string fallback, std::size_t most);
     double number(const char* name, NumberLimits limits = {});
     double number_or(const char* name, double fallback, NumberLimits limits = {});
     std::int64_t integer(const char* name, IntegerLimits limits = {});

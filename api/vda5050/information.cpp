@@ -7,6 +7,7 @@
 #include <map>
 #include <utility>
 
+#include "api/json/utf8.hpp"
 #include "api/vda5050/limits.hpp"
 
 namespace pulseline::vda5050 {
@@ -26,7 +27,7 @@ using References = std::vector<std::pair<const char*, std::string>>;
 Json entry(const char* type, const References& references) {
     Json list = Json::array();
     for (const auto& [key, value] : references) {
-        list.push_back({{"referenceKey", key}, {"referenceValue", value}});
+        list.push_back({{"referenceKey", key}, {"referenceValue", json::printable(value, kValue)}});
     }
     return {{"infoType", type}, {"infoLevel", "INFO"}, {"infoReferences", std::move(list)}};
 }
@@ -88,6 +89,18 @@ Json encode_navigation(const NavigationStatus& status) {
     if (status.explained >= 0) references.emplace_back("explained", number_text(status.explained));
     if (!status.why_not.empty()) references.emplace_back("why_not", status.why_not);
     return entry("navigation", references);
+}
+
+Json encode_fix(const PoseFixReport& fix) {
+    References references{{"by", fix.by},
+                          {"result", fix.result},
+                          {"moved_m", number_text(fix.moved_m)},
+                          {"turned_rad", number_text(fix.turned_rad)},
+                          {"times", std::to_string(fix.times)},
+                          {"ago_s", number_text(fix.ago_s)}};
+    if (!fix.what.empty()) references.emplace_back("what", fix.what);
+    if (!fix.why.empty()) references.emplace_back("why", fix.why);
+    return entry("poseFix", references);
 }
 
 /// References of one entry of ours. Asking for what is absent or no number spoils the entry: it is
@@ -182,6 +195,24 @@ NavigationStatus decode_navigation(Values& in) {
     return status;
 }
 
+PoseFixReport decode_fix(Values& in) {
+    PoseFixReport fix;
+    fix.by = in.text("by");
+    fix.what = in.text_or_empty("what");
+    fix.result = in.text("result");
+    fix.why = in.text_or_empty("why");
+    fix.moved_m = in.number("moved_m", limits::kDeviation_m);
+    fix.turned_rad = in.number("turned_rad", limits::kAngle_rad);
+    fix.times = static_cast<std::int64_t>(in.number("times", limits::kTimes));
+    fix.ago_s = in.number("ago_s", limits::kAgo_s);
+    return fix;
+}
+
+bool is_known_result(const std::string& result) {
+    constexpr std::array kResults{"taken", "refused", "begun_anew"};
+    return std::ranges::find(kResults, result) != kResults.end();
+}
+
 template <class T>
 void keep(std::vector<T>& list, T item, const Values& in) {
     if (in.usable()) list.push_back(std::move(item));
@@ -213,6 +244,10 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
     } else if (type == "navigation") {
         auto status = decode_navigation(in);
         if (in.usable() && is_known_source(status.by)) state.navigation = std::move(status);
+    } else if (type == "poseFix") {
+        auto fix = decode_fix(in);
+        const bool ours = is_known_source(fix.by) && is_known_result(fix.result);
+        if (ours && state.fixes.size() < kMostPoseFixes) keep(state.fixes, std::move(fix), in);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
@@ -240,6 +275,7 @@ Json encode_information(const StateMessage& state) {
     for (const auto& reading : state.receivers) list.push_back(encode_receiver(reading));
     for (const auto& sight : state.reflectors) list.push_back(encode_sight(sight));
     if (!state.navigation.by.empty()) list.push_back(encode_navigation(state.navigation));
+    for (const auto& fix : state.fixes) list.push_back(encode_fix(fix));
     for (const auto& foot : state.parking_feet) {
         list.push_back(entry(
             "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));
@@ -252,13 +288,13 @@ void decode_information(json::ObjectReader& message, StateMessage& state) {
     json::FieldErrors& errors = message.errors();
     message.items_if_any("information", {0, 500}, [&](const Json& item, const std::string& at) {
         json::ObjectReader in(item, at, errors);
-        const std::string type = in.text("infoType", {0, 200});
-        in.text("infoLevel", {0, 64});
+        const std::string type = in.printable("infoType", 200);
+        in.printable("infoLevel", 64);
         std::map<std::string, Values::Value> values;
         in.items_if_any("infoReferences", {0, 100}, [&](const Json& ref, const std::string& where) {
             json::ObjectReader reference(ref, where, errors);
-            const std::string key = reference.text("referenceKey", {0, 200});
-            values[key] = {reference.text("referenceValue", {0, kValue}),
+            const std::string key = reference.printable("referenceKey", 200);
+            values[key] = {reference.printable("referenceValue", kValue),
                            where + "/referenceValue"};
         });
         Values read(std::move(values), errors);

@@ -24,6 +24,8 @@ inline constexpr json::NumberLimits kDistance_m{-1e6, 1e6};  // driven
 inline constexpr json::NumberLimits kDeviation_m{0, 1e6};
 inline constexpr json::NumberLimits kPercent{0, 100};
 inline constexpr json::NumberLimits kShare{0, 1};
+inline constexpr json::NumberLimits kTimes{1, 1e12};
+inline constexpr json::NumberLimits kAgo_s{0, 1e9};
 inline constexpr json::NumberLimits kForce_n{-1e9, 1e9};
 inline constexpr json::NumberLimits kLoad_kg{-1e6, 1e6};  // scales without load read below 0
 inline constexpr json::NumberLimits kTemperature_c{-273.15, 1e4};

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "api/json/utf8.hpp"
 #include "api/vda5050/action.hpp"
 #include "api/vda5050/information.hpp"
 #include "api/vda5050/limits.hpp"
@@ -37,6 +38,8 @@ namespace {
 constexpr json::IntegerLimits kId{0, std::numeric_limits<std::uint32_t>::max()};
 constexpr json::CountLimits kMany{0, 2000};
 constexpr std::size_t kText = 4000;
+constexpr std::size_t kName = 200;
+constexpr std::size_t kReference = 1000;
 
 /// A choice kept as text, for one_of().
 struct Word {
@@ -68,11 +71,12 @@ Json encode_action_state(const ActionState& state) {
 Json encode_error(const VehicleError& error) {
     Json references = Json::array();
     for (const auto& [key, value] : error.references) {
-        references.push_back({{"referenceKey", key}, {"referenceValue", value}});
+        references.push_back(
+            {{"referenceKey", key}, {"referenceValue", json::printable(value, kReference)}});
     }
     return {{"errorType", error.type},
             {"errorLevel", error.fatal ? "FATAL" : "WARNING"},
-            {"errorDescription", error.description},
+            {"errorDescription", json::printable(error.description, kText)},
             {"errorReferences", std::move(references)}};
 }
 
@@ -95,7 +99,7 @@ ActionState decode_action_state(const Json& item, const std::string& at,
     state.status = in.one_of("actionStatus", {ActionStatus::kWaiting, ActionStatus::kInitializing,
                                               ActionStatus::kRunning, ActionStatus::kPaused,
                                               ActionStatus::kFinished, ActionStatus::kFailed});
-    state.result_description = in.text_or("resultDescription", "", {0, kText});
+    state.result_description = in.printable_or("resultDescription", "", kText);
     const bool measures = state.type == kMeasureStop || state.type == kAdjustToMarker;
     if (measures && state.status == ActionStatus::kFinished) {
         // A measurement that cannot be one fails the stop and not the message: the vehicle would
@@ -112,14 +116,15 @@ ActionState decode_action_state(const Json& item, const std::string& at,
 VehicleError decode_error(const Json& item, const std::string& at, json::FieldErrors& errors) {
     json::ObjectReader in(item, at, errors);
     VehicleError error;
-    error.type = in.text("errorType", {0, 200});
+    error.type = in.printable("errorType", kName);
     error.fatal =
         std::string_view(in.one_of("errorLevel", {Word{"WARNING"}, Word{"FATAL"}}).text) == "FATAL";
-    error.description = in.text_or("errorDescription", "", {0, kText});
+    error.description = in.printable_or("errorDescription", "", kText);
     in.items_if_any("errorReferences", {0, 100}, [&](const Json& ref, const std::string& where) {
         json::ObjectReader reference(ref, where, errors);
-        std::string key = reference.text("referenceKey", {0, 200});
-        error.references.emplace_back(std::move(key), reference.text("referenceValue", {0, 1000}));
+        std::string key = reference.printable("referenceKey", kName);
+        error.references.emplace_back(std::move(key),
+                                      reference.printable("referenceValue", kReference));
     });
     return error;
 }

@@ -188,6 +188,19 @@ struct NavigationStatus {
     std::string why_not;  // reason code, when the scanners do not fit the map
 };
 
+/// What a sense said of the vehicle's place, and what the vehicle made of it.
+struct PoseFixReport {
+    std::string by;          // as NavigationStatus::by
+    std::string what;        // payload of a code, as it reads; empty: no code
+    std::string result;      // taken, refused, begun_anew: the vehicle believes it, not its wheels
+    std::string why;         // reason code of a refusal
+    double moved_m = 0;      // by how much it moved the pose, or would have
+    double turned_rad = 0;   // the same
+    std::int64_t times = 1;  // alike
+    double ago_s = 0;        // the newest of them, before the state message
+};
+inline constexpr std::size_t kMostPoseFixes = 10;
+
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
@@ -234,6 +247,7 @@ struct StateMessage {
     NavigationStatus navigation;
     std::vector<ParkingFoot> parking_feet;
     double load_kg = 0;
+    std::vector<PoseFixReport> fixes;  // shown, never decided by; the newest first
 };
 
 struct VisualizationMessage {

@@ -52,6 +52,7 @@ vda5050::StateMessage Vehicle::state() {
     if (reflectors_) write_reflectors(state);
     if (executor_.position_initialized()) write_navigation(state.navigation);
     write_advice(state);
+    state.fixes = estimate_.fixes().newest();
     state.cameras = sensing_.readings();
     const auto covariance = estimate_.covariance();
     state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1));
@@ -60,26 +61,7 @@ vda5050::StateMessage Vehicle::state() {
 }
 
 void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
-    switch (estimate_.source()) {
-        case onboard::PoseSource::kPerson:
-            status.by = "person";
-            break;
-        case onboard::PoseSource::kStop:
-            status.by = "stop";
-            break;
-        case onboard::PoseSource::kCodes:
-            status.by = "codes";
-            break;
-        case onboard::PoseSource::kLight:
-            status.by = "igps";
-            break;
-        case onboard::PoseSource::kReflectors:
-            status.by = "reflectors";
-            break;
-        case onboard::PoseSource::kContours:
-            status.by = "contours";
-            break;
-    }
+    status.by = onboard::to_string(estimate_.source());
     status.driven_m = estimate_.driven_since_m();
     if (!contours_) return;
     if (const auto& explained = contours_->explained()) status.explained = *explained;

@@ -21,6 +21,7 @@ double Vehicle::most_step_s() const {
 
 void Vehicle::know_pose(double dt_s) {
     rest_watch_.step();
+    estimate_.fixes().step(dt_s);
     if (const auto fix = stop_senses_.take_fix()) {
         estimate_.take(*fix);
     } else {

@@ -4,7 +4,7 @@
 // node tests/closed_loop/demo_hours.mjs [--hours 10] [--time-factor 10] [--seed 1] [--plant final-assembly] [--sensing analytic]
 //   [--vehicles DL-01,DL-02]  only these are switched on
 import { parseArgs } from "node:util";
-import { createReadStream, existsSync } from "node:fs";
+import { createReadStream, existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { createInterface } from "node:readline";
 import { Client } from "../harness/client.mjs";
@@ -77,11 +77,17 @@ async function look() {
   }
 }
 
-const end_ms = Date.now() + HOURS * 3600e3 / FACTOR;
-for (let told_ms = Date.now(); Date.now() < end_ms;) {
+const begun_ms = Date.now();
+/** Of their hours what is left; where their program did not keep up with the clock, none has passed. */
+function left_ms() {
+  const lost_s = [...readFileSync(join(system.directory, "agents.log"), "utf8").matchAll(/time\.lost seconds="?([\d.]+)/g)].reduce((sum, [, seconds]) => sum + Number(seconds), 0);
+  return HOURS * 3600e3 / FACTOR - (Date.now() - begun_ms) + 1e3 * lost_s;
+}
+let end_ms = begun_ms + left_ms();
+for (let told_ms = Date.now(); Date.now() < end_ms || Date.now() < (end_ms = Date.now() + left_ms());) {
   for (const id of ids) if ([...open.values()].filter(({ vehicle }) => vehicle === id).length < OPEN_EACH) await order(id);
   await look();
-  if (Date.now() - told_ms > 60e3) { told_ms = Date.now(); console.log(`${ended} orders ended, ${((end_ms - Date.now()) / 60e3).toFixed(0)} min to go`); }
+  if (Date.now() - told_ms > 60e3) { told_ms = Date.now(); console.log(`${ended} orders ended, ${(left_ms() / 60e3).toFixed(0)} min to go, more where their program does not keep up`); }
   await sleep(250);
 }
 

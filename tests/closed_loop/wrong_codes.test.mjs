@@ -29,9 +29,10 @@ after(() => system?.stop());
 
 test("codes that were exchanged or moved are named, and no stop is worse for them", async () => {
   const order = await client.order(ID, [34, 37, 34]);
-  const named = new Set();
+  const named = new Set(), refused = new Map();
   await until(() => `the order to end; named: ${[...named]}`, async () => {
-    const { errors } = await client.get(`/api/v1/vehicles/${ID}`);
+    const { errors, fixes = [] } = await client.get(`/api/v1/vehicles/${ID}`);
+    for (const fix of fixes) if (fix.result === "refused") refused.set(fix.code, fix);
     for (const { type, description } of errors) if (type === "codeRefused") named.add(description);
     return ["Ended", "Aborted"].includes((await client.get(`/api/v1/job-orders/${order.id}`)).state);
   }, { timeout_s: 120, every_ms: 50 });
@@ -41,6 +42,11 @@ test("codes that were exchanged or moved are named, and no stop is worse for the
     const { payload } = system.plant.model.markers.find((marker) => marker.id === id);
     assert.ok(says(payload), `${id} (${payload}) was not named: ${[...named]}`);
   }
+  // The list of its last fixes says why each was refused, and how far a moved one would have led it astray.
+  const why = (id) => refused.get(system.plant.model.markers.find((marker) => marker.id === id).payload);
+  assert.equal(why(MOVED)?.why, "innovation_gate", JSON.stringify([...refused.values()]));
+  assert.ok(Math.abs(why(MOVED).moved_m - MOVED_BY_M) < 0.015, JSON.stringify(why(MOVED)));
+  for (const id of EXCHANGED) assert.equal(why(id)?.why, "other_code", JSON.stringify([...refused.values()]));
   const stops = (await client.stops(order.id)).filter((stop) => stop.attempt === 1);
   assert.deepEqual(stops.map((stop) => [stop.number, stop.inside]), [[34, true], [37, true], [34, true]]);
   for (const { number, arrival } of stops.slice(1)) {

@@ -65,6 +65,13 @@ test("told where it stands, 0.1 m and 5 deg off, and let go on, it finds itself 
   const ended = await client.untilEnded(order.id, 60);
   assert.equal(ended.state, "Ended", JSON.stringify(ended.reason));
   assert.ok((await client.stops(order.id)).at(-1).inside);
+  // What told it its place since, and what became of it.
+  const { fixes } = await client.get(`/api/v1/vehicles/${ID}`);
+  assert.ok(fixes.some(({ by, result, times }) => by === "stop" && result === "taken" && times === 1), JSON.stringify(fixes));
+  const told = fixes.find(({ by }) => by === "person");
+  assert.ok(!told || told.moved_m < 2.5, JSON.stringify(told));
+  assert.ok((await page.locator(".fixes tbody tr").count()) >= 2);
+  assert.match(await page.locator(".fixes tbody tr", { hasText: "Stop measured" }).first().innerText(), /taken/);
   await until("its page has nothing to say any more", async () => (await page.locator(".init").count()) === 0);
   assert.deepEqual(page.errors, []);
   await page.context().close();

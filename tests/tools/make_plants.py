@@ -96,6 +96,7 @@ OMNI = mecanum("omni-mover", "Omnidirectional mover", 3.2, 2.1, 0.6, 1.2, 1.0, 1
                [{"name": n, "position": point(x, y), "z_m": 0.55} for n, x, y in
                 [("front left", 1.5, 0.95), ("front right", 1.5, -0.95), ("rear left", -1.5, 0.95),
                  ("rear right", -1.5, -0.95)]])
+OMNI["motion_modes"].insert(3, "fixed_axis_rotation")  # Wang: arcs and oblique ways
 IGPS_MOVER = {**OMNI, "cameras": []}  # knows its place from transmitters alone
 DELIVERY_OUTLINE = ring([(-0.8, -0.55), (0.35, -0.55), (0.66, -0.4), (0.8, 0), (0.66, 0.4), (0.35, 0.55), (-0.8, 0.55)])
 DELIVERY = {

@@ -85,6 +85,16 @@ Json navigation_json(const vda5050::NavigationStatus& status) {
     return json;
 }
 
+/// `told_at`: when the vehicle told of it.
+Json fix_json(const vda5050::PoseFixReport& fix, Time told_at) {
+    Json json = {{"by", fix.by},           {"result", fix.result},
+                 {"moved_m", fix.moved_m}, {"turned_rad", fix.turned_rad},
+                 {"times", fix.times},     {"at", rfc3339(told_at - from_seconds(fix.ago_s))}};
+    if (!fix.what.empty()) json["code"] = fix.what;
+    if (!fix.why.empty()) json["why"] = fix.why;
+    return json;
+}
+
 Json basis_json(const fleet::PoseBasis& basis) {
     Json json = {{"kind", fleet::to_string(basis.kind)},
                  {"at", rfc3339(basis.at)},
@@ -160,6 +170,11 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     }
     if (vehicle.pose_known && !state.navigation.by.empty()) {
         json["navigation"] = navigation_json(state.navigation);
+    }
+    if (vehicle.pose_at && !state.fixes.empty()) {
+        json["fixes"] = list_json(state.fixes, [&](const vda5050::PoseFixReport& fix) {
+            return fix_json(fix, *vehicle.pose_at);
+        });
     }
     if (const auto codes = fleet::codes_under_way(state); codes.passed > 0) {
         json["codes_under_way"] = {{"passed", codes.passed}, {"read", codes.read}};

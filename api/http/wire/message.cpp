@@ -1,5 +1,7 @@
 #include "api/http/wire/message.hpp"
 
+#include "api/json/utf8.hpp"
+
 namespace pulseline::api {
 namespace {
 
@@ -32,25 +34,10 @@ std::optional<std::string> Request::query_value(std::string_view name) const {
 }
 
 bool is_utf8(std::string_view text) {
-    std::size_t i = 0;
-    while (i < text.size()) {
-        const auto lead = static_cast<unsigned char>(text[i]);
-        const std::size_t length = lead < 0x80   ? 1
-                                   : lead < 0xC2 ? 0
-                                   : lead < 0xE0 ? 2
-                                   : lead < 0xF0 ? 3
-                                   : lead < 0xF5 ? 4
-                                                 : 0;
-        if (length == 0 || i + length > text.size()) return false;
-        for (std::size_t k = 1; k < length; ++k) {
-            if ((static_cast<unsigned char>(text[i + k]) & 0xC0U) != 0x80U) return false;
-        }
-        const auto second = length > 1 ? static_cast<unsigned char>(text[i + 1]) : 0U;
-        const bool overlong = (lead == 0xE0 && second < 0xA0) || (lead == 0xF0 && second < 0x90);
-        const bool surrogate = lead == 0xED && second > 0x9F;
-        const bool beyond = lead == 0xF4 && second > 0x8F;
-        if (overlong || surrogate || beyond) return false;
-        i += length;
+    while (!text.empty()) {
+        const std::size_t length = json::utf8_length(text);
+        if (length == 0) return false;
+        text.remove_prefix(length);
     }
     return true;
 }

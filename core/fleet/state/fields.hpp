@@ -115,13 +115,23 @@ PULSELINE_FIELDS(ReflectorSight, place, sigma_m)
 PULSELINE_FIELDS(NavigationStatus, by, driven_m, explained, why_not)
 PULSELINE_FIELDS(ParkingFoot, name, extension_m)
 PULSELINE_FIELDS(NodeState, node_id, sequence_id, released)
-PULSELINE_FIELDS(StateMessage, header_id, timestamp, order_id, order_update_id, last_node_id,
-                 last_node_sequence_id, node_states, edge_states, driving, paused, new_base_request,
-                 distance_since_last_node_m, operating_mode, pose, position_initialized,
-                 localization_score, deviation_range_m, map_id, velocity_mps, turn_rate_radps,
-                 battery_percent, charging, e_stop, field_violation, action_states, errors,
-                 brackets, wheels, cameras, receivers, reflectors, navigation, parking_feet,
-                 load_kg)
+// Fixes are only shown; nothing is decided by them, so that they are no news, and not journalled.
+template <class V, class S>
+requires std::same_as<std::remove_const_t<S>, StateMessage>
+void fields(V& visit, S& it) {
+    auto& [header_id, timestamp, order_id, order_update_id, last_node_id, last_node_sequence_id,
+           node_states, edge_states, driving, paused, new_base_request, distance_since_last_node_m,
+           operating_mode, pose, position_initialized, localization_score, deviation_range_m,
+           map_id, velocity_mps, turn_rate_radps, battery_percent, charging, e_stop,
+           field_violation, action_states, errors, brackets, wheels, cameras, receivers, reflectors,
+           navigation, parking_feet, load_kg, fixes] = it;
+    visit(header_id, timestamp, order_id, order_update_id, last_node_id, last_node_sequence_id,
+          node_states, edge_states, driving, paused, new_base_request, distance_since_last_node_m,
+          operating_mode, pose, position_initialized, localization_score, deviation_range_m, map_id,
+          velocity_mps, turn_rate_radps, battery_percent, charging, e_stop, field_violation,
+          action_states, errors, brackets, wheels, cameras, receivers, reflectors, navigation,
+          parking_feet, load_kg);
+}
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
                  actions, node_actions, json)
 }  // namespace vda5050

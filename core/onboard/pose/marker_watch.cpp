@@ -69,6 +69,7 @@ void MarkerWatch::expect(const std::deque<vda5050::OrderEdge>& ahead) {
 void MarkerWatch::take(const WayReading& reading) {
     if (!(reading.age_s >= 0 && reading.age_s <= OdometryTrail::kRemembered_s)) {
         mistimed_ = reading.marker.payload;
+        estimate_.fixes().refused(PoseSource::kCodes, mistimed_, "code_mistimed");
         return;
     }
     if (!trail_.remembers(reading.age_s)) return;  // it has stood since, or was told its place
@@ -77,6 +78,7 @@ void MarkerWatch::take(const WayReading& reading) {
     if (reading.seen.payload != reading.marker.payload) {
         refused_ = reading.seen.payload;
         refused_by_.clear();
+        estimate_.fixes().refused(PoseSource::kCodes, refused_, "other_code");
         return;
     }
     const Pose2 code = trail_.now_from_then(reading.age_s) *

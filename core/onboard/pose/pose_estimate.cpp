@@ -134,8 +134,12 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
     filter_ = against_codes();
     lasting_.setZero();
     other_.reset();
-    if (!filter_.correct(fix)) {
+    const Pose2 off = inverse(filter_.pose()) * fix.pose;
+    if (filter_.correct(fix)) {
+        fixes_.took(PoseSource::kStop, {}, off);
+    } else {
         filter_.restart(fix.pose, localisation::matrix(fix.covariance));
+        fixes_.began_anew(PoseSource::kStop, {}, off);
         ++begun_;
     }
     driven_ = now_ = fix.pose;
@@ -145,7 +149,9 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
+    const Pose2 off = inverse(filter_.pose()) * by_code(seen, code).first;
     if (other_ && other_->doubted && other_->by == code.payload) {
+        fixes_.refused(PoseSource::kCodes, code.payload, "innovation_gate", off);
         return fail(Errc::kConflict, "innovation_gate",
                     "The code was half believed already; the same one again is no other witness.");
     }
@@ -153,7 +159,11 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
     const Status corrected = filter.correct(seen, code);
     if (corrected) {
         filter_ = filter;
-    } else if (!begins_by(seen, code)) {
+        fixes_.took(PoseSource::kCodes, code.payload, off);
+    } else if (begins_by(seen, code)) {
+        fixes_.began_anew(PoseSource::kCodes, code.payload, off);
+    } else {
+        fixes_.refused(PoseSource::kCodes, code.payload, corrected.error().reason.code, off);
         return corrected;
     }
     other_.reset();
@@ -200,6 +210,7 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     localisation::PoseFilter filter = filter_;
     filter.blur(no_more_shared(lasting_, lasting));
     const Status corrected = filter.correct(seen.fix, lasting);
+    note_fix(seen, corrected);
     if (!corrected || knows_better_than(lasting)) return corrected;
     filter_ = filter;
     lasting_ = lasting;
@@ -211,11 +222,24 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
 Status PoseEstimate::check(const localisation::BeaconFix& seen) {
     catch_up();
     localisation::PoseFilter filter = filter_;
-    return filter.correct(seen.fix, localisation::matrix(seen.lasting));
+    const Status agrees = filter.correct(seen.fix, localisation::matrix(seen.lasting));
+    note_fix(seen, agrees);
+    return agrees;
+}
+
+void PoseEstimate::note_fix(const localisation::BeaconFix& seen, const Status& agrees) {
+    const PoseSource by = source_of(seen.fix.method);
+    const Pose2 off = inverse(filter_.pose()) * seen.fix.pose;
+    if (agrees) {
+        fixes_.took(by, {}, off);
+    } else {
+        fixes_.refused(by, {}, agrees.error().reason.code, off);
+    }
 }
 
 void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
+    fixes_.began_anew(source_of(seen.fix.method), {}, inverse(filter_.pose()) * seen.fix.pose);
     lasting_ = localisation::matrix(seen.lasting);
     ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
@@ -231,6 +255,8 @@ void PoseEstimate::led_to(const Pose2& believed) {
 void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_heading_rad,
                             PoseSource by) {
     const bool is_said = sigma_xy_m > 0 && sigma_heading_rad > 0;
+    catch_up();
+    fixes_.took(by, {}, inverse(filter_.pose()) * pose);
     filter_.restart(pose, is_said ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();

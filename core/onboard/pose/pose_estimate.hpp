@@ -5,11 +5,9 @@
 
 #include "core/localisation/beacon_fix.hpp"
 #include "core/localisation/pose_filter.hpp"
+#include "core/onboard/pose/fix_log.hpp"
 
 namespace pulseline::onboard {
-
-/// What put the vehicle's pose right last.
-enum class PoseSource { kPerson, kStop, kCodes, kLight, kReflectors, kContours };
 
 /// How well the vehicle knows where it stands: its odometry and its measured stops, fused. Sigmas
 /// and score go into the state message.
@@ -48,7 +46,12 @@ public:
     void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0,
                   PoseSource by = PoseSource::kPerson);
 
+    /// What put the pose right last.
     PoseSource source() const { return source_; }
+    /// What was said of the pose, and what became of it. Whoever owns the estimate lets time pass
+    /// in it, and writes down what never comes as far as here.
+    FixLog& fixes() { return fixes_; }
+    const FixLog& fixes() const { return fixes_; }
     /// How often codes have told where it is.
     int by_codes() const { return by_codes_; }
     /// By the wheels, since that.
@@ -68,6 +71,7 @@ public:
 private:
     void catch_up();
     void note(PoseSource source);
+    void note_fix(const localisation::BeaconFix& seen, const Status& agrees);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
     bool doubt(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
@@ -90,6 +94,7 @@ private:
     geometry::Pose2 now_;     // by the drive's belief
     int begun_ = 0;
     PoseSource source_ = PoseSource::kPerson;
+    FixLog fixes_;
     int by_codes_ = 0;
     double since_m_ = 0;  // as far as the filter has followed
 };

@@ -160,6 +160,57 @@ TEST(Navigation, AShareAboveOneIsAnErrorOfTheMessage) {
     EXPECT_FALSE(decode_state(parsed(encode_state(sent, header()))));
 }
 
+TEST(PoseFixes, RoundTripKeepsTheNewestTen) {
+    StateMessage sent = testing::state();
+    sent.fixes = {{"codes", "Q7", "refused", "innovation_gate", 0.31, 0.02, 1, 4.5},
+                  {"contours", "", "taken", "", 0.002, 0.0001, 214, 0.05}};
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().what;
+    ASSERT_EQ(read->fixes.size(), 2u);
+    EXPECT_EQ(read->fixes[0].what, "Q7");
+    EXPECT_EQ(read->fixes[0].why, "innovation_gate");
+    EXPECT_EQ(read->fixes[0].moved_m, 0.31);
+    EXPECT_EQ(read->fixes[1].times, 214);
+    EXPECT_EQ(read->fixes[1].ago_s, 0.05);
+
+    sent.fixes.resize(40, sent.fixes.front());
+    sent.fixes[3].by = "stars";
+    sent.fixes[4].result = "perhaps";
+    EXPECT_EQ(decode_state(parsed(encode_state(sent, header())))->fixes.size(), kMostPoseFixes);
+}
+
+// A code that somebody else laid on the floor holds what it likes: a visiting card, a key.
+TEST(State, WhatACodeHoldsBreaksNoMessage) {
+    StateMessage sent = testing::state();
+    const std::string card = std::string("BEGIN:VCARD\r\nN:\xFF\0", 17) + std::string(4000, 'x');
+    sent.cameras[0].found = true;
+    sent.cameras[0].payload = card;
+    sent.fixes = {{"codes", card, "refused", "other_code"}};
+    sent.errors[0].description = "Code " + card;
+    sent.errors[0].references = {{"marker", card}};
+    const auto read = decode_state(parsed(encode_state(sent, header())));
+    ASSERT_TRUE(read) << read.error().field << read.error().what;
+    EXPECT_TRUE(read->cameras[0].payload.starts_with("BEGIN:VCARD\xEF\xBF\xBD"));
+    EXPECT_EQ(read->fixes.size(), 1u);
+    EXPECT_EQ(read->errors.size(), sent.errors.size());
+}
+
+// Another maker's vehicle writes as it likes, too.
+TEST(State, LineFeedsInWordsForPeopleAreNoFault) {
+    Json message = parsed(encode_state(testing::state(), header()));
+    message["errors"][0]["errorDescription"] = "Bumper\nfront\tleft";
+    message["information"].push_back(
+        {{"infoType", "log\n"},
+         {"infoLevel", "INFO"},
+         {"infoReferences", {{{"referenceKey", "a"}, {"referenceValue", "1\n2"}}}}});
+    const auto read = decode_state(message);
+    ASSERT_TRUE(read) << read.error().field << read.error().what;
+    EXPECT_EQ(read->errors[0].description,
+              "Bumper\xEF\xBF\xBD"
+              "front\xEF\xBF\xBD"
+              "left");
+}
+
 InstantActionsMessage set_reflectors(std::vector<plant::Reflector> reflectors) {
     Action action;
     action.type = kSetReflectors;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/core/simulation/platform.hpp"
@@ -154,6 +155,65 @@ TEST(StopProcedure, WhoSeesThatItStandsFarOffIsBroughtBackAndGetsNoFartherOff) {
             EXPECT_TRUE(outcome.succeeded) << type.name << ": " << outcome.why_not;
             EXPECT_LE(distance(motion.true_pose().position(), target.position()), 0.005);
         }
+    }
+}
+
+/// Where the body stands when it has turned by `turned_rad` and its camera, `ahead_m` of its
+/// centre, has the code `in_view` off the middle of its picture; the code lies below the camera of
+/// a body at the origin.
+Pose2 seeing_from(double ahead_m, const geometry::Point2& in_view, double turned_rad) {
+    const geometry::Point2 arm =
+        Pose2{0, 0, turned_rad} * geometry::Point2{ahead_m + in_view.x_m, in_view.y_m};
+    return {ahead_m - arm.x_m, -arm.y_m, turned_rad};
+}
+
+/// Wherever the code lies in the picture, cut by no border, and however it lies there within ten
+/// degrees.
+TEST(StopProcedure, FromAnywhereInTheCamerasViewEachFamilyIsAdjusted) {
+    struct Eye {
+        plant::VehicleType type;
+        double ahead_m, x_m, y_m;  // half the view less half the code
+    };
+    const Eye eyes[] = {{pulseline::testing::platform(), 5.346, 0.045, 0.028},
+                        {mecanum(), 0.9, 0.052, 0.035},
+                        {differential(), 0.5, 0.047, 0.03}};
+    const Pose2 target{5, 3, 0.4};
+    std::mt19937_64 random(11);
+    const auto within = [&](double most) {
+        return std::uniform_real_distribution<double>(-most, most)(random);
+    };
+    for (const auto& [type, ahead_m, x_m, y_m] : eyes) {
+        int brought = 0;
+        for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+            const double most_rad = std::min(radians(9.8), 0.28 / ahead_m);
+            const geometry::Point2 in_view{within(x_m), within(y_m)};
+            const Pose2 stands = seeing_from(ahead_m, in_view, within(most_rad));
+            if (norm(stands.position()) > 0.3) continue;
+            ++brought;
+            const Pose2 off = inverse(stands);
+            VehicleMotion motion(type, target * stands, seed);
+            TruePose sensing(motion);
+            StopProcedure procedure(motion, sensing);
+            double most_m = 0;
+            double most_turned_rad = 0;
+            const auto outcome =
+                adjusted(procedure, motion, target_at(target), [&](const Pose2& now) {
+                    const Pose2 left = inverse(now) * target;
+                    most_m = std::max(most_m, norm(left.position()));
+                    most_turned_rad = std::max(most_turned_rad, std::abs(left.heading_rad));
+                });
+            EXPECT_LE(most_m, std::max(0.11, 1.05 * norm(off.position()))) << type.name;
+            // A vehicle that has learned nothing yet turns a tenth more than it wants to.
+            EXPECT_LE(most_turned_rad,
+                      std::max(radians(1.1), 1.12 * std::abs(off.heading_rad) + 1e-3))
+                << type.name << " from " << stands.x_m << ", " << stands.y_m << ", "
+                << stands.heading_rad;
+            EXPECT_TRUE(outcome.succeeded)
+                << type.name << " from " << stands.x_m << ", " << stands.y_m << ", "
+                << degrees(stands.heading_rad) << ": " << outcome.why_not;
+            EXPECT_LE(distance(motion.true_pose().position(), target.position()), 0.025);
+        }
+        EXPECT_GE(brought, 50) << type.name;
     }
 }
 

@@ -18,6 +18,7 @@ import { useNarrow } from "@/shared/ui/useNarrow";
 import { age } from "@/shared/words/format";
 import { CameraCard } from "./CameraCard";
 import { ElsewhereCard } from "./ElsewhereCard";
+import { FixesCard } from "./FixesCard";
 import { IntegrationCard } from "./IntegrationCard";
 import { LoadsCard } from "./LoadsCard";
 import { PoseCard } from "./PoseCard";
@@ -80,6 +81,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
       <ElsewhereCard key={vehicle.id} vehicle={vehicle} plant={plant} refused={refused} />
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
+      <FixesCard fixes={vehicle.fixes ?? []} now={now} />
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
     </>
   );

@@ -23,6 +23,7 @@ export type Link = Schemas["Link"];
 export type Activity = Schemas["Activity"];
 export type Vehicle = Schemas["Vehicle"];
 export type Leg = Schemas["Leg"];
+export type MarkerChain = Schemas["MarkerChain"];
 export type Fleet = Schemas["Fleet"];
 export type JobState = Schemas["JobState"];
 export type JobOrder = Schemas["JobOrder"];

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import type { Leg } from "@/shared/api/types";
+import type { MarkerChain } from "@/shared/api/types";
 import { chainMarks } from "./chainMarks";
 
 const marker = (id: string, x_m: number) => ({
@@ -17,7 +17,7 @@ it("marks nothing where nothing is said", () => {
 });
 
 it("marks the segment markers and the boundary marker", () => {
-  const chain: Leg["marker_chain"] = { markers: [marker("a", 5), marker("b", 12)], boundary: "b" };
+  const chain: MarkerChain = { markers: [marker("a", 5), marker("b", 12)], boundary: "b" };
   expect(chainMarks(chain)).toEqual([
     { kind: "segment", place: { x_m: 5, y_m: 2 } },
     { kind: "boundary", place: { x_m: 12, y_m: 2 } },

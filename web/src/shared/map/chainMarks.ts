@@ -1,4 +1,4 @@
-import type { Leg, Point } from "@/shared/api/types";
+import type { MarkerChain, Point } from "@/shared/api/types";
 
 /** A code on the floor that a drive relies on, or the place where one is missing. */
 export interface ChainMark {
@@ -7,7 +7,7 @@ export interface ChainMark {
 }
 
 /** What of a drive's marker chain is drawn on the floor. */
-export function chainMarks(chain: Leg["marker_chain"]): ChainMark[] {
+export function chainMarks(chain: MarkerChain | undefined): ChainMark[] {
   if (chain === undefined) return [];
   const marks = chain.markers.map((m): ChainMark => ({
     kind: m.marker === chain.boundary ? "boundary" : "segment",

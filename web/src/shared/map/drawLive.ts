@@ -16,7 +16,7 @@ export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays
   for (const v of vehicles) if (!v.selected && ((few && v.moving) || v.blocker)) drawOtherRoute(pen, v);
   drawSwept(pen, overlays);
   for (const v of vehicles) if (v.stale) drawHeldFloor(pen, v);
-  for (const v of vehicles) if (v.selected) drawChain(pen, v);
+  for (const v of vehicles) if (v.selected) drawChain(pen, v.vehicle.leg?.marker_chain);
   for (const v of vehicles) if (v.selected) drawDeviation(pen, v);
   for (const v of vehicles) if (v.loaded) drawLoad(pen, v, vehicles.length <= kManyInView);
 }
@@ -30,6 +30,7 @@ export function drawBodies(
 ): void {
   for (const v of vehicles) drawVehicle(pen, v);
   drawMove(pen, model, overlays);
+  drawChain(pen, overlays.chain);
 }
 
 function drawRoute(pen: Pen, v: DrawnVehicle): void {

@@ -3,6 +3,7 @@ import type {
   Closure,
   Hall,
   Marker,
+  MarkerChain,
   Plant,
   Point,
   Pose,
@@ -40,6 +41,8 @@ export interface MapOverlays {
   areas?: readonly SweptArea[];
   /** The line the vehicle's centre takes. */
   path?: readonly Point[];
+  /** Codes that the move relies on. */
+  chain?: MarkerChain;
   /** Outline of a vehicle of `type`, with its load if it carries one, where the move ends. */
   ghost?: { pose: Pose; type: string; loaded?: boolean };
   /** A length beside a straight drive. */

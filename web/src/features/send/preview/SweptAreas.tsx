@@ -11,15 +11,17 @@ export interface AreasProps {
   looked: MotionMode | undefined;
 }
 
-/** Which line is which mode; with one area there is nothing to tell apart. */
+/** Which line is which mode, where there is more than one, and what the rings are. */
 export function AreasLegend(props: AreasProps) {
   const { t } = useTranslation("send");
   const words = useWords();
-  if (props.options.length < 2) return null;
+  const codes = props.chosen?.marker_chain?.markers.length ?? 0;
+  const told = props.options.length < 2 ? [] : props.options;
+  if (told.length === 0 && codes === 0) return null;
   const looks = new Map(areasOf({ ...props, option: props.chosen }).map((a) => [a.mode, a.look]));
   return (
     <ul className="areas" aria-label={t("preview.areas")}>
-      {props.options.map((o) => {
+      {told.map((o) => {
         const look = looks.get(o.mode) ?? "other";
         return (
           <li key={o.mode} className={look} data-mode={o.mode}>
@@ -34,6 +36,14 @@ export function AreasLegend(props: AreasProps) {
           </li>
         );
       })}
+      {codes > 0 && (
+        <li data-chain={codes}>
+          <svg viewBox="0 0 12 12" className="ring" aria-hidden="true">
+            <circle cx="6" cy="6" r="4.5" />
+          </svg>
+          {t("preview.codes", { count: codes })}
+        </li>
+      )}
     </ul>
   );
 }

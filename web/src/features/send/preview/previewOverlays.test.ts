@@ -61,6 +61,14 @@ describe("the preview", () => {
     expect(overlays.dimension?.text).toBe("10 m");
     expect([...(overlays.choosable ?? [])]).toEqual(["a", "c"]);
   });
+  it("shows the codes that the chosen way relies on, and where one is missing", () => {
+    const chain = { markers: [], reason: { code: "no_marker_chain", params: { x_m: 4, y_m: 1 } } };
+    const option = { ...input.option, marker_chain: chain };
+    expect(previewOf({ ...input, option }, words).overlays.chain).toBe(chain);
+    const leg = { path: [at(0, 0), at(10, 0)], granted_area: [] } as unknown as NonNullable<Vehicle["leg"]>;
+    expect(previewOf({ ...input, option, leg }, words).overlays.chain).toBeUndefined();
+    expect(previewOf(input, words).overlays.chain).toBeUndefined();
+  });
   it("is about all areas, so that choosing another mode does not move the map", () => {
     const one = previewOf(input, words).about;
     const other = previewOf({ ...input, looked: undefined, option: input.options[1] }, words).about;

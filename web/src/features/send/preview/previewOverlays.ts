@@ -82,6 +82,7 @@ export function previewOf(
   const overlays: MapOverlays = {
     areas: leg ? [] : areasOf(input),
     ...(way.length > 1 && { path: way }),
+    ...(!leg && option?.marker_chain && { chain: option.marker_chain }),
     ...(end && type && { ghost: { pose: end, type: type.id, loaded: isLoaded(vehicle) } }),
     ...(station && { target: station.id }),
     ...(dim &&

@@ -1,0 +1,56 @@
+import { useTranslation } from "react-i18next";
+import type { Vehicle } from "@/shared/api/types";
+import { Card, StatusSymbol } from "@/shared/ui";
+import { dateTime, degrees, fixed, millimetres } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
+import "./FixesCard.css";
+
+type Fix = NonNullable<Vehicle["fixes"]>[number];
+
+const symbols = { taken: "c-ok", refused: "a-2", begun_anew: "a-3" } as const;
+
+/** What its senses said of its place last and what the vehicle made of it, newest first. */
+export function FixesCard({ fixes, now }: { fixes: readonly Fix[]; now: number }) {
+  const { t } = useTranslation("vehicles");
+  const words = useWords();
+  if (fixes.length === 0) return null;
+  return (
+    <Card className="fixes" title={t("fixes.title")} summary={t("fixes.summary")}>
+      <table className="rows">
+        <thead>
+          <tr>
+            <th>{t("fixes.time")}</th>
+            <th>{t("fixes.by")}</th>
+            <th>{t("fixes.result")}</th>
+            <th className="n">{t("fixes.moved")}</th>
+            <th className="n">{t("fixes.turned")}</th>
+            <th className="n">{t("fixes.times")}</th>
+          </tr>
+        </thead>
+        <tbody>
+          {fixes.map((fix) => (
+            <tr key={`${fix.by} ${fix.code} ${fix.result} ${fix.why} ${fix.at}`} data-fix={fix.result}>
+              <td>{dateTime(fix.at, now)}</td>
+              <td className="b">{t(`fixes.source.${fix.by}`, { code: fix.code })}</td>
+              <td>
+                <StatusSymbol name={symbols[fix.result]} />{" "}
+                {t(`fixes.${fix.result}`, {
+                  why: fix.why === undefined ? "" : words.reason({ code: fix.why, params: {} }),
+                })}
+              </td>
+              <td className="n" data-label={t("fixes.moved")}>
+                {millimetres(fix.moved_m, { decimals: 1 })}
+              </td>
+              <td className="n" data-label={t("fixes.turned")}>
+                {degrees(fix.turned_rad)}
+              </td>
+              <td className="n" data-label={t("fixes.times")}>
+                {fixed(fix.times, 0)}
+              </td>
+            </tr>
+          ))}
+        </tbody>
+      </table>
+    </Card>
+  );
+}
