@@ -1,7 +1,6 @@
 #include "core/mapping/monte_carlo.hpp"
 
 #include <mrpt/bayes/CParticleFilter.h>
-#include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/random/RandomGenerators.h>
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
@@ -17,6 +16,7 @@
 #include <utility>
 
 #include "core/base/square.hpp"
+#include "core/mapping/likelihood_field.hpp"
 #include "core/mapping/mrpt_frames.hpp"
 #include "core/mapping/surfaces.hpp"
 
@@ -57,7 +57,7 @@ constexpr double kBehind_m = 0.5;
 struct MatchedMap {
     OccupancyMap map;
     /// Seen from the map's corner: MRPT moves a corner to a multiple of the cell.
-    mrpt::maps::COccupancyGridMap2D::Ptr grid;
+    std::shared_ptr<LikelihoodField> grid;
 
     bool is_occupied(Point2 place) const {
         const Point2 in = place - map.corner;
@@ -137,7 +137,7 @@ struct MatchedMap {
 
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     auto matched = std::make_shared<MatchedMap>();
-    matched->grid = mrpt::maps::COccupancyGridMap2D::Create(
+    matched->grid = std::make_shared<LikelihoodField>(
         0.0F, static_cast<float>(map.columns * map.cell_m), 0.0F,
         static_cast<float>(map.rows * map.cell_m), static_cast<float>(map.cell_m));
     for (int row = 0; row < map.rows; ++row) {
@@ -155,7 +155,7 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     likelihood.LF_zRandom = kByChance;
     likelihood.LF_maxCorrsDistance = kWithin_m;
     likelihood.LF_decimation = 1;
-    likelihood.enableLikelihoodCache = true;
+    likelihood.enableLikelihoodCache = false;  // LikelihoodField keeps them
     matched->map = std::move(map);
     return matched;
 }
