@@ -209,7 +209,7 @@ PoseFixReport decode_fix(Values& in) {
 }
 
 bool is_known_result(const std::string& result) {
-    constexpr std::array kResults{"taken", "refused", "begun_anew"};
+    constexpr std::array kResults{"taken", "agreed", "refused", "begun_anew"};
     return std::ranges::find(kResults, result) != kResults.end();
 }
 

@@ -190,11 +190,11 @@ struct NavigationStatus {
 
 /// What a sense said of the vehicle's place, and what the vehicle made of it.
 struct PoseFixReport {
-    std::string by;          // as NavigationStatus::by
-    std::string what;        // payload of a code, as it reads; empty: no code
-    std::string result;      // taken, refused, begun_anew: the vehicle believes it, not its wheels
-    std::string why;         // reason code of a refusal
-    double moved_m = 0;      // by how much it moved the pose, or would have
+    std::string by;      // as NavigationStatus::by
+    std::string what;    // payload of a code, as it reads; empty: no code
+    std::string result;  // taken, agreed (better known), refused, begun_anew (its wheels are not)
+    std::string why;     // reason code of a refusal
+    double moved_m = 0;  // by how much it moved the pose, or would have
     double turned_rad = 0;   // the same
     std::int64_t times = 1;  // alike
     double ago_s = 0;        // the newest of them, before the state message

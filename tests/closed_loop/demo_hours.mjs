@@ -3,6 +3,7 @@
 // a person, and what each believes has to hold.
 // node tests/closed_loop/demo_hours.mjs [--hours 10] [--time-factor 10] [--seed 1] [--plant final-assembly] [--sensing analytic]
 //   [--vehicles DL-01,DL-02]  only these are switched on
+// Ended early by a signal, it judges the time that has passed.
 import { parseArgs } from "node:util";
 import { createReadStream, existsSync, readFileSync } from "node:fs";
 import { join } from "node:path";
@@ -34,7 +35,18 @@ await Promise.all(ids.map((id) => client.untilReady(id, 120)));
 const { last_event_seq: begun_seq } = await client.get("/api/v1/fleet");
 const stationsOf = new Map(vehicles.map(({ id, type }) => [id, stations.filter((s) => !s.vehicle_types?.length || s.vehicle_types.includes(type)).map((s) => s.number)]));
 
-const open = new Map(); // order id -> { vehicle, since_ms }
+const begun_ms = Date.now();
+let counted = { at_ms: -Infinity, lost_s: 0 };
+/** Of their own time; where their program did not keep up with the clock, none has passed. */
+function passed_s() {
+  if (Date.now() - counted.at_ms > 2e3) {
+    const log = readFileSync(join(system.directory, "agents.log"), "utf8");
+    counted = { at_ms: Date.now(), lost_s: [...log.matchAll(/time\.lost seconds="?([\d.]+)/g)].reduce((sum, [, seconds]) => sum + Number(seconds), 0) };
+  }
+  return ((Date.now() - begun_ms) / 1e3 - counted.lost_s) * FACTOR;
+}
+
+const open = new Map(); // order id -> { vehicle, since_s }
 const faults = new Map(); // what went wrong -> how often
 const bad = (what) => { if (!faults.has(what)) console.log(`${new Date().toISOString()} ${what}`); faults.set(what, (faults.get(what) ?? 0) + 1); };
 const waiting = new Map(); // vehicle -> what it waits for a person for
@@ -48,11 +60,11 @@ async function order(vehicle) {
   });
   const answer = await client.request("POST", "/api/v1/job-orders", { body: { vehicle, steps: steps.map((station) => ({ station })) } });
   if (answer.status >= 500) bad(`order for ${vehicle}: ${answer.status}`);
-  if (answer.status < 300) open.set(answer.body.id, { vehicle, since_ms: Date.now() });
+  if (answer.status < 300) open.set(answer.body.id, { vehicle, since_s: passed_s() });
 }
 
 async function look() {
-  for (const [id, { vehicle, since_ms }] of open) {
+  for (const [id, { vehicle, since_s }] of open) {
     const { state, reason } = await client.get(`/api/v1/job-orders/${id}`);
     if (state === "Ended" || state === "Aborted") {
       open.delete(id);
@@ -61,9 +73,9 @@ async function look() {
       else bad(`an order of ${vehicle} was aborted: ${reason?.code}`);
     } else if (random() < CANCELLED_A_LOOK) {
       await client.request("POST", `/api/v1/job-orders/${id}/cancel`);
-    } else if ((Date.now() - since_ms) / 1000 * FACTOR > PATIENCE_S * OPEN_EACH) {
+    } else if (passed_s() - since_s > PATIENCE_S * OPEN_EACH) {
       bad(`an order of ${vehicle} takes longer than ${PATIENCE_S * OPEN_EACH} s: ${state} ${reason?.code ?? ""}`);
-      open.get(id).since_ms = Date.now();
+      open.get(id).since_s = passed_s();
     }
   }
   const { items } = await client.get("/api/v1/vehicles");
@@ -77,19 +89,15 @@ async function look() {
   }
 }
 
-const begun_ms = Date.now();
-/** Of their hours what is left; where their program did not keep up with the clock, none has passed. */
-function left_ms() {
-  const lost_s = [...readFileSync(join(system.directory, "agents.log"), "utf8").matchAll(/time\.lost seconds="?([\d.]+)/g)].reduce((sum, [, seconds]) => sum + Number(seconds), 0);
-  return HOURS * 3600e3 / FACTOR - (Date.now() - begun_ms) + 1e3 * lost_s;
-}
-let end_ms = begun_ms + left_ms();
-for (let told_ms = Date.now(); Date.now() < end_ms || Date.now() < (end_ms = Date.now() + left_ms());) {
+let stopped = false;
+for (const signal of ["SIGINT", "SIGTERM"]) process.once(signal, () => (stopped = true));
+for (let told_s = 0; !stopped && passed_s() < HOURS * 3600;) {
   for (const id of ids) if ([...open.values()].filter(({ vehicle }) => vehicle === id).length < OPEN_EACH) await order(id);
   await look();
-  if (Date.now() - told_ms > 60e3) { told_ms = Date.now(); console.log(`${ended} orders ended, ${(left_ms() / 60e3).toFixed(0)} min to go, more where their program does not keep up`); }
+  if (passed_s() - told_s > 600) { told_s = passed_s(); console.log(`${ended} orders ended in ${(told_s / 3600).toFixed(2)} of ${HOURS} h`); }
   await sleep(250);
 }
+const passed_h = passed_s() / 3600;
 
 async function all(path) {
   const items = [];
@@ -111,7 +119,7 @@ for (const { params } of unmeasured) bad(`a stop was not measured: ${String(para
 const searched = stops.filter((stop) => !stop.arrival && stop.attempt === 1).length;
 const off = stops.flatMap(({ arrival }) => (arrival ? [Math.hypot(arrival.dx_m, arrival.dy_m) * 1e3] : [])).sort((a, b) => a - b);
 const at = (share) => off[Math.floor(share * (off.length - 1))]?.toFixed(1);
-console.log(`${HOURS} h of ${ids.length} vehicles' time, seed ${SEED}: ${ended} orders ended, ${cancelled} cancelled; ${stops.length} stops measured, ${unmeasured.length} not, ${outside.length} outside at last; `
+console.log(`${passed_h.toFixed(2)} h of ${ids.length} vehicles' time, seed ${SEED}: ${ended} orders ended, ${cancelled} cancelled; ${stops.length} stops measured, ${unmeasured.length} not, ${outside.length} outside at last; `
   + `drives ended ${at(0.5)} mm off in the middle, ${at(0.95)} mm at 95 %, ${at(1)} mm at most; ${searched} first approaches without a look at where the drive had ended`);
 
 // What each believed on its way, beside where it truly was: no point of it may have been off by more than is held around it.

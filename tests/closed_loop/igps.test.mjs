@@ -50,6 +50,15 @@ test("it is told nothing and finds itself, then drives and stops by light", asyn
   }
 });
 
+test("its path solution takes what each way asks for: an arc, an oblique way, or driving and turning at once", async () => {
+  for (const [number, mode] of [[5, "fixed_axis_rotation"], [4, "oblique"], [2, "combined"]]) {
+    await stopsOf([1]);
+    const stop = (await stopsOf([number])).at(-1);
+    assert.deepEqual([stop.number, stop.mode, stop.inside], [number, mode, true]);
+    judge(stop);
+  }
+});
+
 test("with four of six transmitters dark it goes on by two, and knows its place less well", async () => {
   await system.kill(system.agents.get(ID));
   system.startAgent(ID, { seed: 31, extra: ["tx-1", "tx-2", "tx-3", "tx-4"].flatMap((name) => ["--fault", `transmitter-dark=${name}`]) });

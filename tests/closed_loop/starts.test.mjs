@@ -104,7 +104,9 @@ for (let round = 1; round <= ROUNDS; ++round) {
       const said = await client.get(`/api/v1/vehicles/${id}`);
       if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
       holds(said, at);
-      done.byWalls += said.navigation?.by === "contours" && said.pose_deviation_m < PERSON_M;
+      if (said.navigation?.by !== "contours" || said.pose_deviation_m >= PERSON_M) continue;
+      ++done.byWalls;
+      done.families.get(system.plant.vehicle(id).type).add("by the walls");
     }
   });
 }

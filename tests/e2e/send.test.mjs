@@ -77,6 +77,7 @@ test("a wrong password is told in words", async () => {
   await context.close();
 });
 
+const reliesOn = [];
 for (const [vehicle, station] of [["TP-01", 2], ["MV-01", 13], ["MV-01", 20]]) {
   test(`${vehicle} to station ${station}: the area of every mode that leads there, the others greyed with the reason`, async () => {
     const { options } = await client.post("/api/v1/motion-previews", { vehicle, station });
@@ -92,6 +93,9 @@ for (const [vehicle, station] of [["TP-01", 2], ["MV-01", 13], ["MV-01", 20]]) {
     assert.deepEqual((await map.getAttribute("data-areas")).split(" ").sort(), [...feasible].sort(), "an area of each, and of no other");
     assert.equal(await map.getAttribute("data-chosen"), suggested, "the suggested one is hatched");
     assert.equal(await page.locator(".areas li[data-mode]").count(), feasible.length > 1 ? feasible.length : 0);
+    const codes = options.find((o) => o.suggested).marker_chain?.markers.length ?? 0;
+    assert.equal(await page.locator(`.areas li[data-chain="${codes}"]`).count(), codes > 0 ? 1 : 0, "how many codes it relies on");
+    reliesOn.push(codes);
     for (const option of options) {
       const row = page.locator(`.mode[data-mode=${option.mode}]`);
       assert.equal(await row.getAttribute("aria-disabled"), String(!option.feasible), option.mode);
@@ -118,6 +122,8 @@ for (const [vehicle, station] of [["TP-01", 2], ["MV-01", 13], ["MV-01", 20]]) {
     await page.context().close();
   });
 }
+
+test("one of these ways relies on codes, so that their number was shown", () => assert.ok(reliesOn.some((codes) => codes > 0), reliesOn.join()));
 
 test("send TP-01 from station 1 to 2, linear: one order, an arrival, a visible stop record", async () => {
   const page = await signedIn(browser, system, "operator");

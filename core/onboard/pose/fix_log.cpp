@@ -44,6 +44,10 @@ void FixLog::took(PoseSource by, const std::string& what, const geometry::Pose2&
     add({to_string(by), what, "taken", {}}, off);
 }
 
+void FixLog::agreed(PoseSource by, const geometry::Pose2& off) {
+    add({to_string(by), {}, "agreed", {}}, off);
+}
+
 void FixLog::began_anew(PoseSource by, const std::string& what, const geometry::Pose2& off) {
     add({to_string(by), what, "begun_anew", {}}, off);
 }

@@ -24,6 +24,8 @@ public:
     /// Each moves the pose, or would have, by `off`, in any frame. `what`: payload of a code, as it
     /// reads.
     void took(PoseSource by, const std::string& what, const geometry::Pose2& off);
+    /// It agrees with what is known better.
+    void agreed(PoseSource by, const geometry::Pose2& off);
     /// It contradicts the way driven and is believed all the same.
     void began_anew(PoseSource by, const std::string& what, const geometry::Pose2& off);
     void refused(PoseSource by, const std::string& what, const std::string& why,

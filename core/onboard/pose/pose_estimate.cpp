@@ -106,6 +106,11 @@ void PoseEstimate::catch_up() {
     driven_ = now_;
 }
 
+/// Before anything has told where it is, there is no pose to move.
+Pose2 PoseEstimate::off_of(const Pose2& pose) const {
+    return begun_ > 0 ? inverse(filter_.pose()) * pose : Pose2{};
+}
+
 void PoseEstimate::note(PoseSource source) {
     source_ = source;
     since_m_ = 0;
@@ -134,7 +139,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
     filter_ = against_codes();
     lasting_.setZero();
     other_.reset();
-    const Pose2 off = inverse(filter_.pose()) * fix.pose;
+    const Pose2 off = off_of(fix.pose);
     if (filter_.correct(fix)) {
         fixes_.took(PoseSource::kStop, {}, off);
     } else {
@@ -149,7 +154,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
-    const Pose2 off = inverse(filter_.pose()) * by_code(seen, code).first;
+    const Pose2 off = off_of(by_code(seen, code).first);
     if (other_ && other_->doubted && other_->by == code.payload) {
         fixes_.refused(PoseSource::kCodes, code.payload, "innovation_gate", off);
         return fail(Errc::kConflict, "innovation_gate",
@@ -158,8 +163,8 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
     localisation::PoseFilter filter = against_codes();
     const Status corrected = filter.correct(seen, code);
     if (corrected) {
+        fixes_.took(PoseSource::kCodes, code.payload, off_of(filter.pose()));
         filter_ = filter;
-        fixes_.took(PoseSource::kCodes, code.payload, off);
     } else if (begins_by(seen, code)) {
         fixes_.began_anew(PoseSource::kCodes, code.payload, off);
     } else {
@@ -210,8 +215,11 @@ Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matri
     localisation::PoseFilter filter = filter_;
     filter.blur(no_more_shared(lasting_, lasting));
     const Status corrected = filter.correct(seen.fix, lasting);
-    note_fix(seen, corrected);
-    if (!corrected || knows_better_than(lasting)) return corrected;
+    if (!corrected || knows_better_than(lasting)) {
+        note_unused(seen, corrected);
+        return corrected;
+    }
+    fixes_.took(source_of(seen.fix.method), {}, off_of(filter.pose()));
     filter_ = filter;
     lasting_ = lasting;
     filter_.blur(since);
@@ -223,15 +231,15 @@ Status PoseEstimate::check(const localisation::BeaconFix& seen) {
     catch_up();
     localisation::PoseFilter filter = filter_;
     const Status agrees = filter.correct(seen.fix, localisation::matrix(seen.lasting));
-    note_fix(seen, agrees);
+    note_unused(seen, agrees);
     return agrees;
 }
 
-void PoseEstimate::note_fix(const localisation::BeaconFix& seen, const Status& agrees) {
+void PoseEstimate::note_unused(const localisation::BeaconFix& seen, const Status& agrees) {
     const PoseSource by = source_of(seen.fix.method);
-    const Pose2 off = inverse(filter_.pose()) * seen.fix.pose;
+    const Pose2 off = off_of(seen.fix.pose);
     if (agrees) {
-        fixes_.took(by, {}, off);
+        fixes_.agreed(by, off);
     } else {
         fixes_.refused(by, {}, agrees.error().reason.code, off);
     }
@@ -239,7 +247,7 @@ void PoseEstimate::note_fix(const localisation::BeaconFix& seen, const Status& a
 
 void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
-    fixes_.began_anew(source_of(seen.fix.method), {}, inverse(filter_.pose()) * seen.fix.pose);
+    fixes_.began_anew(source_of(seen.fix.method), {}, off_of(seen.fix.pose));
     lasting_ = localisation::matrix(seen.lasting);
     ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
@@ -256,7 +264,7 @@ void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_h
                             PoseSource by) {
     const bool is_said = sigma_xy_m > 0 && sigma_heading_rad > 0;
     catch_up();
-    fixes_.took(by, {}, inverse(filter_.pose()) * pose);
+    fixes_.took(by, {}, off_of(pose));
     filter_.restart(pose, is_said ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();

@@ -70,8 +70,9 @@ public:
 
 private:
     void catch_up();
+    geometry::Pose2 off_of(const geometry::Pose2& pose) const;
     void note(PoseSource source);
-    void note_fix(const localisation::BeaconFix& seen, const Status& agrees);
+    void note_unused(const localisation::BeaconFix& seen, const Status& agrees);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
     bool doubt(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);

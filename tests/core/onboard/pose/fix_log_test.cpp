@@ -74,6 +74,18 @@ TEST(FixLog, TheEstimateTellsOfEachFix) {
     EXPECT_EQ(estimate.fixes().newest()[0].result, "taken");
     EXPECT_NEAR(estimate.fixes().newest()[0].moved_m, 0.05, 1e-9);
     EXPECT_EQ(estimate.fixes().newest()[1].by, "person");
+    EXPECT_EQ(estimate.fixes().newest()[1].moved_m, 0);  // from nowhere
+    // What contours say, worse than the stop, agrees and moves nothing.
+    localisation::BeaconFix contours;
+    contours.fix.pose = {10.032, 5.04, 0.01};
+    contours.fix.method = localisation::Method::kContours;
+    contours.fix.covariance = {{{1e-4, 0, 0}, {0, 1e-4, 0}, {0, 0, 1e-5}}};
+    contours.lasting = {{{9e-5, 0, 0}, {0, 9e-5, 0}, {0, 0, 9e-6}}};
+    const Pose2 before = estimate.pose();
+    EXPECT_TRUE(estimate.see(contours));
+    EXPECT_EQ(estimate.fixes().newest()[0].result, "agreed");
+    EXPECT_NEAR(estimate.fixes().newest()[0].moved_m, 0.002, 1e-4);
+    EXPECT_EQ(estimate.pose(), before);
 
     // A code a metre from where it should lie.
     localisation::CodeObservation seen;

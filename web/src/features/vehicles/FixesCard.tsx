@@ -1,21 +1,33 @@
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
-import type { Vehicle } from "@/shared/api/types";
 import { Card, StatusSymbol } from "@/shared/ui";
 import { dateTime, degrees, fixed, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { shownFixes, type Fix } from "./shownFixes";
 import "./FixesCard.css";
 
-type Fix = NonNullable<Vehicle["fixes"]>[number];
-
-const symbols = { taken: "c-ok", refused: "a-2", begun_anew: "a-3" } as const;
+const kShown = 3;
+const symbols = { taken: "c-ok", agreed: "c-ok", refused: "a-2", begun_anew: "a-3" } as const;
 
 /** What its senses said of its place last and what the vehicle made of it, newest first. */
 export function FixesCard({ fixes, now }: { fixes: readonly Fix[]; now: number }) {
   const { t } = useTranslation("vehicles");
   const words = useWords();
+  const [all, setAll] = useState(false);
   if (fixes.length === 0) return null;
   return (
-    <Card className="fixes" title={t("fixes.title")} summary={t("fixes.summary")}>
+    <Card
+      className="fixes"
+      title={t("fixes.title")}
+      summary={t("fixes.summary")}
+      right={
+        fixes.length > kShown && (
+          <button type="button" className="btn" aria-expanded={all} onClick={() => setAll(!all)}>
+            {t(all ? "fixes.fewer" : "fixes.all", { count: fixes.length })}
+          </button>
+        )
+      }
+    >
       <table className="rows">
         <thead>
           <tr>
@@ -28,7 +40,7 @@ export function FixesCard({ fixes, now }: { fixes: readonly Fix[]; now: number }
           </tr>
         </thead>
         <tbody>
-          {fixes.map((fix) => (
+          {(all ? fixes : shownFixes(fixes, kShown)).map((fix) => (
             <tr key={`${fix.by} ${fix.code} ${fix.result} ${fix.why} ${fix.at}`} data-fix={fix.result}>
               <td>{dateTime(fix.at, now)}</td>
               <td className="b">{t(`fixes.source.${fix.by}`, { code: fix.code })}</td>
