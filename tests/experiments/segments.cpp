@@ -36,6 +36,8 @@ constexpr double kMarkersBlind = 6.2;
 // markers, and not of every four.
 constexpr int kMarkers = 18;
 constexpr int kDrives = 20;
+// Reading codes costs a drive no more of its time than that; Li's stop at each.
+constexpr double kSlower = 1.05;
 constexpr double kStep_s = 0.05;
 constexpr double kStart_m = 3e-4;
 constexpr double kStart_rad = 3e-4;
@@ -278,6 +280,15 @@ bool segments(const Options& options) {
                           none.mean_mm > 2 * chain.mean_mm;
         if (!kept) fmt::print("route {}: NO, the chain is not as good as Li's\n", kRoutes[r].name);
         good &= kept;
+        for (std::size_t c = 1; c < kCases.size(); ++c) {
+            const Row& row = rows[c][r];
+            const double most_mm = kCases[c].li_mean_mm[r] + 2 * kCases[c].li_sigma_mm[r];
+            const double most_s = std::min(kCases[c].li_s[r], kSlower * none.time_s);
+            if (row.mean_mm <= most_mm && row.time_s <= most_s) continue;
+            fmt::print("route {}, case {}: NO, more than {:.1f} mm or {:.1f} s\n", kRoutes[r].name,
+                       kCases[c].name, most_mm, most_s);
+            good = false;
+        }
         int every = 1;
         while (every <= kMarkers && courses[r].chain(every)) ++every;
         fmt::print("route {}: no chain by every {} markers (Li: 5) or fewer: {}\n", kRoutes[r].name,

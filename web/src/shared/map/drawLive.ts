@@ -1,4 +1,5 @@
 import { boxOf, splitPath } from "@/shared/math/geometry";
+import { deviationBand } from "./deviationBand";
 import { drawChain } from "./drawChain";
 import { arrowHead, drawMove, drawSwept } from "./drawMove";
 import type { Pen } from "./pen";
@@ -7,7 +8,6 @@ import { detailOf } from "./view";
 
 const kMinLengthPx = 10;
 const kManyInView = 200;
-const kLeastDeviationPx = 2;
 
 /** What lies on the floor under the vehicles: horizon, grants, preview, loads. */
 export function drawGround(pen: Pen, vehicles: readonly DrawnVehicle[], overlays: MapOverlays): void {
@@ -68,22 +68,14 @@ function drawOtherRoute(pen: Pen, v: DrawnVehicle): void {
 
 /** How far off, by its own word, the vehicle may be: three sigma, around where it holds itself to be. */
 function drawDeviation(pen: Pen, v: DrawnVehicle): void {
-  const radius = (v.vehicle.pose_deviation_m ?? 0) * pen.k;
-  if (!v.vehicle.pose_known || radius < kLeastDeviationPx) return;
+  const band = deviationBand(v, pen.k);
+  if (band === undefined) return;
   const { x, y } = pen.at(v.pose.x_m, v.pose.y_m);
-  const box = boxOf(v.type.footprint);
-  // Around the whole body, since no point of it is better known.
   pen.g.beginPath();
   pen.g.save();
   pen.g.translate(x, y);
   pen.g.rotate(-v.pose.heading_rad);
-  pen.g.roundRect(
-    box.minX * pen.k - radius,
-    -box.maxY * pen.k - radius,
-    (box.maxX - box.minX) * pen.k + 2 * radius,
-    (box.maxY - box.minY) * pen.k + 2 * radius,
-    radius,
-  );
+  pen.g.roundRect(band.x, band.y, band.width, band.height, band.radius);
   pen.g.restore();
   pen.fill(pen.palette["grant-fill"]);
   pen.stroke(pen.palette["accent-line"], 1, [3, 3]);
