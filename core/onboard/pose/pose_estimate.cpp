@@ -111,6 +111,16 @@ Pose2 PoseEstimate::off_of(const Pose2& pose) const {
     return begun_ > 0 ? inverse(filter_.pose()) * pose : Pose2{};
 }
 
+/// The first time there is nothing to believe it against.
+void PoseEstimate::note_begun(PoseSource by, const std::string& what, const Pose2& off) {
+    if (begun_ == 0) {
+        fixes_.took(by, what, off);
+    } else {
+        fixes_.began_anew(by, what, off);
+    }
+    ++begun_;
+}
+
 void PoseEstimate::note(PoseSource source) {
     source_ = source;
     since_m_ = 0;
@@ -144,8 +154,7 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
         fixes_.took(PoseSource::kStop, {}, off);
     } else {
         filter_.restart(fix.pose, localisation::matrix(fix.covariance));
-        fixes_.began_anew(PoseSource::kStop, {}, off);
-        ++begun_;
+        note_begun(PoseSource::kStop, {}, off);
     }
     driven_ = now_ = fix.pose;
     note(PoseSource::kStop);
@@ -166,7 +175,7 @@ Status PoseEstimate::see(const localisation::CodeObservation& seen,
         fixes_.took(PoseSource::kCodes, code.payload, off_of(filter.pose()));
         filter_ = filter;
     } else if (begins_by(seen, code)) {
-        fixes_.began_anew(PoseSource::kCodes, code.payload, off);
+        note_begun(PoseSource::kCodes, code.payload, off);
     } else {
         fixes_.refused(PoseSource::kCodes, code.payload, corrected.error().reason.code, off);
         return corrected;
@@ -193,7 +202,6 @@ bool PoseEstimate::begins_by(const localisation::CodeObservation& seen,
                              const localisation::SurveyedCode& code) {
     if (other_ && other_->by != code.payload && other_->filter.correct(seen, code)) {
         filter_ = other_->filter;
-        ++begun_;
         return true;
     }
     const auto [pose, covariance] = by_code(seen, code);
@@ -247,9 +255,8 @@ void PoseEstimate::note_unused(const localisation::BeaconFix& seen, const Status
 
 void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     catch_up();
-    fixes_.began_anew(source_of(seen.fix.method), {}, off_of(seen.fix.pose));
+    note_begun(source_of(seen.fix.method), {}, off_of(seen.fix.pose));
     lasting_ = localisation::matrix(seen.lasting);
-    ++begun_;
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
     other_.reset();
     note(source_of(seen.fix.method));

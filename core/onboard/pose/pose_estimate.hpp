@@ -72,6 +72,7 @@ private:
     void catch_up();
     geometry::Pose2 off_of(const geometry::Pose2& pose) const;
     void note(PoseSource source);
+    void note_begun(PoseSource by, const std::string& what, const geometry::Pose2& off);
     void note_unused(const localisation::BeaconFix& seen, const Status& agrees);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
