@@ -7,8 +7,8 @@
 namespace pulseline::mapping {
 
 /// MRPT's likelihood field (Thrun, Burgard, Fox: Probabilistic Robotics, section 6.4) of a grid
-/// map, with each cell's logarithm worked out by MRPT once and kept. MRPT itself takes a sine, a
-/// cosine and a logarithm for each ray of each particle, two thirds of what a look costs.
+/// map, with each cell's logarithm worked out by MRPT beforehand and kept. MRPT itself takes a
+/// sine, a cosine and a logarithm for each ray of each particle, two thirds of what a look costs.
 /// The cells may not change any more after the first look. Thread safety: none.
 class LikelihoodField : public mrpt::maps::COccupancyGridMap2D {
 public:
@@ -21,7 +21,7 @@ private:
     double log_at(double column, double row) const;
     double worked_out(float x_m, float y_m) const;
 
-    mutable std::vector<float> logs_;  // by cell; not a number: not worked out yet
+    mutable std::vector<float> logs_;  // by cell
     mutable double outside_ = 0;
     mutable unsigned columns_ = 0;
     mutable unsigned rows_ = 0;
