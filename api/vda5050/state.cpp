@@ -63,7 +63,7 @@ Json encode_action_state(const ActionState& state) {
     if (state.measurement) {
         out["resultDescription"] = encode_measurement(*state.measurement);
     } else if (!state.result_description.empty()) {
-        out["resultDescription"] = state.result_description;
+        out["resultDescription"] = json::printable(state.result_description, kText);
     }
     return out;
 }

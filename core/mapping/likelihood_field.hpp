@@ -8,7 +8,7 @@ namespace pulseline::mapping {
 
 /// MRPT's likelihood field (Thrun, Burgard, Fox: Probabilistic Robotics, section 6.4) of a grid
 /// map, with each cell's logarithm worked out by MRPT beforehand and kept. MRPT itself takes a
-/// sine, a cosine and a logarithm for each ray of each particle, two thirds of what a look costs.
+/// sine, a cosine and a logarithm for each ray of each particle, 62 % of a program of vehicles.
 /// The cells may not change any more after the first look. Thread safety: none.
 class LikelihoodField : public mrpt::maps::COccupancyGridMap2D {
 public:

@@ -14,8 +14,8 @@ constexpr int kBlindPasses = 4;
 constexpr int kApproaches = 2;
 constexpr double kSettle_s = 0.4;      // until the chassis no longer swings in the image
 constexpr double kLookEvery_m = 0.02;  // a third of a code: none is passed unseen
-// How far off it is brought back from: wherever a camera of the demo plants' types, or a search,
-// can have the code in view; a person errs by half as much.
+// How far off it is brought back from, wherever in the picture the code lies: beyond that place the
+// server takes it to be elsewhere, and a person errs by half that heading.
 constexpr double kSeen_m = 0.3;
 constexpr double kSeen_rad = radians(10.0);
 constexpr double kMargin = 1.02;  // moves end a little off

@@ -2,22 +2,17 @@
 // drives them round the fuselage and round floor that is closed, and its stops are good. Truth judges.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdtempSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { tmpdir } from "node:os";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
 import { BUILD, Plant, System } from "../harness/processes.mjs";
+import { withoutLanes } from "../harness/world.mjs";
 
 const ID = "MV-01";
 let system, client;
 
 before(async () => {
-  const { model } = new Plant("measuring-hall");
-  model.roadmap = { nodes: [], edges: [] };
-  for (const station of model.stations) delete station.node;
-  const file = join(mkdtempSync(join(tmpdir(), "pulseline-plant-")), "free-floor.json");
-  writeFileSync(file, JSON.stringify(model));
+  const file = withoutLanes("measuring-hall");
   system = await System.create(file);
   assert.doesNotMatch(execFileSync(join(BUILD, "pulseline"), ["plant", "validate", file], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] }), /warning/, "nothing stands in the way of an order");
   system.prepareVehicles([ID]);

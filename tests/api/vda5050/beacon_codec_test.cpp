@@ -186,6 +186,8 @@ TEST(State, WhatACodeHoldsBreaksNoMessage) {
     sent.cameras[0].found = true;
     sent.cameras[0].payload = card;
     sent.fixes = {{"codes", card, "refused", "other_code"}};
+    sent.action_states[0].measurement.reset();
+    sent.action_states[0].result_description = "unknown_code: " + card;
     sent.errors[0].description = "Code " + card;
     sent.errors[0].references = {{"marker", card}};
     const auto read = decode_state(parsed(encode_state(sent, header())));
