@@ -1,6 +1,7 @@
 #include "core/geometry/polygon.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pulseline::geometry {
@@ -17,11 +18,20 @@ bool any_edge(const Polygon& polygon, Visit visit) {
     return false;
 }
 
-double distance_to_segment(Point2 p, Point2 a, Point2 b) {
+/// Squared, as all below: most distances are only compared, and a hypotenuse costs more than all
+/// the rest.
+double distance2_to_segment(Point2 p, Point2 a, Point2 b) {
     const Point2 ab = b - a;
     const double length2 = dot(ab, ab);
     const double s = length2 > 0 ? std::clamp(dot(p - a, ab) / length2, 0.0, 1.0) : 0.0;
-    return distance(p, a + s * ab);
+    const Point2 away = a + s * ab - p;
+    return dot(away, away);
+}
+
+/// Whether a ray from the point to the right crosses the edge: an odd number of them from inside.
+bool is_crossed(Point2 a, Point2 b, Point2 point) {
+    if ((a.y_m > point.y_m) == (b.y_m > point.y_m)) return false;
+    return point.x_m < a.x_m + (point.y_m - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m);
 }
 
 bool segments_cross(Point2 a, Point2 b, Point2 c, Point2 d) {
@@ -34,10 +44,10 @@ bool segments_cross(Point2 a, Point2 b, Point2 c, Point2 d) {
 }
 
 /// Distance of two segments that may touch or cross.
-double segment_distance(Point2 a, Point2 b, Point2 c, Point2 d) {
+double segment_distance2(Point2 a, Point2 b, Point2 c, Point2 d) {
     if (segments_cross(a, b, c, d)) return 0;
-    return std::min({distance_to_segment(a, c, d), distance_to_segment(b, c, d),
-                     distance_to_segment(c, a, b), distance_to_segment(d, a, b)});
+    return std::min({distance2_to_segment(a, c, d), distance2_to_segment(b, c, d),
+                     distance2_to_segment(c, a, b), distance2_to_segment(d, a, b)});
 }
 
 double box_distance(const Box& a, const Box& b) {
@@ -47,14 +57,14 @@ double box_distance(const Box& a, const Box& b) {
 }
 
 double edge_distance(const Polygon& a, const Polygon& b, double stop_at) {
-    double least = std::numeric_limits<double>::infinity();
+    double least2 = std::numeric_limits<double>::infinity();
     any_edge(a, [&](Point2 a0, Point2 a1) {
         return any_edge(b, [&](Point2 b0, Point2 b1) {
-            least = std::min(least, segment_distance(a0, a1, b0, b1));
-            return least <= stop_at;
+            least2 = std::min(least2, segment_distance2(a0, a1, b0, b1));
+            return least2 <= stop_at * stop_at;
         });
     });
-    return least;
+    return std::sqrt(least2);
 }
 
 }  // namespace
@@ -95,11 +105,8 @@ double area_m2(const Polygon& polygon) {
 bool contains(const Polygon& polygon, Point2 point) {
     bool inside = false;
     const bool on_edge = any_edge(polygon, [&](Point2 a, Point2 b) {
-        if ((a.y_m > point.y_m) != (b.y_m > point.y_m)) {
-            const double x = a.x_m + (point.y_m - a.y_m) / (b.y_m - a.y_m) * (b.x_m - a.x_m);
-            if (point.x_m < x) inside = !inside;
-        }
-        return distance_to_segment(point, a, b) <= kOnEdge_m;
+        inside ^= is_crossed(a, b, point);
+        return distance2_to_segment(point, a, b) <= kOnEdge_m * kOnEdge_m;
     });
     return on_edge || inside;
 }
@@ -127,6 +134,17 @@ double distance(const Polygon& a, const Polygon& b) {
     if (contains(a, b.front()) || contains(b, a.front())) return 0;
     const double least = edge_distance(a, b, 0);
     return least <= kOnEdge_m ? 0 : least;
+}
+
+double distance(const Polygon& polygon, Point2 point) {
+    bool inside = false;
+    double least2 = std::numeric_limits<double>::infinity();
+    any_edge(polygon, [&](Point2 a, Point2 b) {
+        inside ^= is_crossed(a, b, point);
+        least2 = std::min(least2, distance2_to_segment(point, a, b));
+        return false;
+    });
+    return inside ? 0 : std::sqrt(least2);
 }
 
 double signed_area(const Polygon& polygon) {

@@ -24,6 +24,8 @@ bool intersects(const Polygon& a, const Polygon& b);
 bool crosses(const Polygon& polygon, Point2 from, Point2 to);
 /// Smallest distance between two polygons; 0 when they meet.
 double distance(const Polygon& a, const Polygon& b);
+/// Of a point from a polygon; 0 in it.
+double distance(const Polygon& polygon, Point2 point);
 /// > 0 when counterclockwise.
 double signed_area(const Polygon& polygon);
 Polygon convex_hull(std::vector<Point2> points);

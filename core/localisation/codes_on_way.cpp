@@ -38,6 +38,7 @@ void look_along(const plant::Marker& marker, const plant::Camera& camera, const 
         const geometry::Pose2 body = kinematics::pose_at(segment, share);
         const double off_m = distance(body * camera.body_from_camera.position(), at);
         if (off_m <= radius_m && act(share)) return;
+        if (off_m - radius_m > way_m) return;
         // No look is needed before it can have come into view.
         const double until_m = std::min(off_m - radius_m, way_m);
         i += until_m > look_m ? static_cast<int>(until_m / look_m) : 1;

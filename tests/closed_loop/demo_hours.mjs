@@ -125,7 +125,9 @@ console.log(`${passed_h.toFixed(2)} h of ${ids.length} vehicles' time, seed ${SE
 // What each believed on its way, beside where it truly was: no point of it may have been off by more than is held around it.
 const HELD_M = 0.1;
 const BEYOND = { place: 0.03, heading: 0.02 }; // shares beyond three of the stated sigma: what drives share is seen many times over
-const beyond = { lines: 0, place: 0, heading: 0, most_m: 0 };
+const nothing = () => ({ lines: 0, place: 0, heading: 0, most_m: 0 });
+const beyond = nothing(), beyondOf = new Map(vehicles.map(({ type }) => [type, nothing()]));
+const typeOf = new Map(vehicles.map(({ id, type }) => [id, type]));
 const radius_m = new Map(vehicles.map(({ id, type }) => [id, Math.max(...system.plant.model.vehicle_types.find((one) => one.id === type).footprint.map(({ x_m, y_m }) => Math.hypot(x_m, y_m)))]));
 for await (const line of createInterface({ input: createReadStream(system.truthLog) })) {
   if (!line.endsWith("}")) continue; // cut off where the program was
@@ -133,16 +135,20 @@ for await (const line of createInterface({ input: createReadStream(system.truthL
   if (!moving || order_id === "") continue;
   const off_m = Math.hypot(x_m - believed.x_m, y_m - believed.y_m);
   const turned_rad = Math.abs(turn(heading_rad - believed.heading_rad));
-  ++beyond.lines;
-  beyond.place += off_m > 3 * believed.sigma_m;
-  beyond.heading += turned_rad > 3 * believed.sigma_rad;
   const most_m = off_m + radius_m.get(vehicle) * turned_rad;
-  if (most_m > beyond.most_m) beyond.most_m = most_m;
+  for (const sum of [beyond, beyondOf.get(typeOf.get(vehicle))]) {
+    ++sum.lines;
+    sum.place += off_m > 3 * believed.sigma_m;
+    sum.heading += turned_rad > 3 * believed.sigma_rad;
+    sum.most_m = Math.max(sum.most_m, most_m);
+  }
   if (most_m > HELD_M) bad(`${vehicle} drove more than ${1e3 * HELD_M} mm from where it believed to be`);
 }
 for (const kind of ["place", "heading"]) if (beyond[kind] > BEYOND[kind] * beyond.lines) bad(`${kind} lies beyond three of its sigma too often`);
-const share = (count) => `${(100 * count / beyond.lines).toFixed(2)} %`;
-console.log(`  on their way ${(1e3 * beyond.most_m).toFixed(1)} mm at most between where a point of a vehicle was and was believed; beyond three of its sigma: ${share(beyond.place)} in place, ${share(beyond.heading)} in heading`);
+for (const [type, { lines, place, heading, most_m }] of [["on their way", beyond], ...beyondOf]) {
+  const share = (count) => `${((100 * count) / lines).toFixed(2)} %`;
+  console.log(`  ${type}: ${(1e3 * most_m).toFixed(1)} mm at most between where a point of a vehicle was and was believed; beyond three of its sigma: ${share(place)} in place, ${share(heading)} in heading`);
+}
 for (const [what, count] of faults) console.log(`  ${count} x ${what}`);
 await system.stop();
 const good = faults.size === 0 && outside.length === 0 && ended > 0;

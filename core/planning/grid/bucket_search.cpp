@@ -30,21 +30,34 @@ void BucketSearch<Label>::begin(const GridMap& map, const GridRequest& request,
     turn_ = cost.turn;
     goal_ = request.goal;
     bound_.emplace(goal_, step_, turn_);
-    const std::int32_t dearest = 2 * step_ * map.greatest_weight() + 4 * std::max(turn_, 0);
-    queue_.reset(static_cast<std::uint32_t>(bound_->per_step() * manhattan(request.start, goal_)),
-                 static_cast<std::uint32_t>(dearest));
-    most_ = (1u << kCostBits) - 1 -
-            std::min((1u << kCostBits) - 1, static_cast<std::uint32_t>(dearest));
+    landmarks_ = &map.landmarks();
+    goal_ways_ = &landmarks_->at(map.padded(goal_));
+    const int least =
+        std::max(manhattan(request.start, goal_), least_steps(map.padded(request.start)));
+    const auto dearest =
+        static_cast<std::uint32_t>(2 * step_ * map.greatest_weight() + 4 * std::max(turn_, 0));
+    queue_.reset(static_cast<std::uint32_t>(bound_->per_step() * least), dearest);
+    most_ = (1u << kCostBits) - 1 - std::min((1u << kCostBits) - 1, dearest);
     best_ = SmallCost::kNoRoute;
     expanded_ = 0;
 }
 
 template <class Label>
-inline void BucketSearch<Label>::reach(Cell cell, std::uint32_t state, std::uint32_t cost, Label by,
-                                       int heading) {
+inline void BucketSearch<Label>::reach(const GridMap& map, Cell cell, std::uint32_t state,
+                                       std::uint32_t cost, Label by, int heading) {
     const Label label = high_ | static_cast<Label>(cost) << kByBits;
     Label& known = labels_.data()[state];
     if (label >= (known & ~kBy)) return;
+    // Who is there with another heading for the price of a turn less goes on as cheaply.
+    if (turn_ > 0 && cost >= static_cast<std::uint32_t>(turn_) &&
+        (map.moves(state / kDirections) & GridMap::kMayTurn) != 0) {
+        const Label most = label - (static_cast<Label>(turn_) << kByBits);
+        const Label* const headings = labels_.data() + state / kDirections * kDirections;
+        if (std::any_of(headings, headings + kDirections,
+                        [&](Label one) { return (one & ~kBy) <= most; })) {
+            return;
+        }
+    }
     known = label | by;
     if (cell == goal_) {
         if (cost >= best_) return;
@@ -52,8 +65,9 @@ inline void BucketSearch<Label>::reach(Cell cell, std::uint32_t state, std::uint
         best_state_ = state;
         return;
     }
+    const std::int32_t left = (*bound_)(cell, heading, least_steps(state / kDirections));
     queue_.push(
-        cost + static_cast<std::uint32_t>((*bound_)(cell, heading)),
+        cost + static_cast<std::uint32_t>(left),
         {state, cost, static_cast<std::uint16_t>(cell.col), static_cast<std::uint16_t>(cell.row)});
 }
 
@@ -68,9 +82,10 @@ void BucketSearch<Label>::enter(const GridMap& map, const GridRequest& request) 
                 map.layers().is_blocked(*request.start_heading, request.start)) {
                 continue;
             }
-            reach(request.start, static_cast<std::uint32_t>(start * kDirections) + d, 0, kStart, d);
+            reach(map, request.start, static_cast<std::uint32_t>(start * kDirections) + d, 0,
+                  kStart, d);
         } else if ((map.moves(start) >> d & 1) != 0) {
-            reach(next, static_cast<std::uint32_t>(map.padded(next) * kDirections) + d,
+            reach(map, next, static_cast<std::uint32_t>(map.padded(next) * kDirections) + d,
                   static_cast<std::uint32_t>(step_ * map.weight(next)), kFirstStep, d);
         }
     }
@@ -96,7 +111,7 @@ inline void BucketSearch<Label>::expand(const GridMap& map, const Entry& entry) 
         const std::uint32_t cost =
             entry.cost + static_cast<std::uint32_t>(way + (d == heading ? 0 : turn_));
         const auto to = static_cast<std::uint32_t>(static_cast<std::int32_t>(cell) + offset[d]);
-        reach(next, to * kDirections + static_cast<std::uint32_t>(d), cost,
+        reach(map, next, to * kDirections + static_cast<std::uint32_t>(d), cost,
               static_cast<Label>(heading), d);
     }
 }
@@ -121,11 +136,19 @@ void BucketSearch<Label>::trace(const GridMap& map, const GridRequest& request,
 }
 
 template <class Label>
-SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& request,
-                                   GridRoute& route) {
+SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& request, GridRoute& route,
+                                   std::optional<std::int64_t> below) {
     const auto cost = SmallCost::of(request.cost, map);
     if (!cost) return SearchEnd::kUnfit;
+    if (map.landmarks().separate(map.padded(request.start), map.padded(request.goal))) {
+        return SearchEnd::kNoRoute;
+    }
     begin(map, request, *cost);
+    if (below) {
+        const std::int64_t most = (*below + cost->unit - 1) / cost->unit;
+        best_ = static_cast<std::uint32_t>(std::min<std::int64_t>(best_, most));
+    }
+    const std::uint32_t to_beat = best_;
     enter(map, request);
     std::int64_t look = kCancelEvery;
     while (true) {
@@ -141,8 +164,8 @@ SearchEnd BucketSearch<Label>::run(const GridMap& map, const GridRequest& reques
         const bool cancelled = request.cancel && request.cancel->load(std::memory_order_relaxed);
         if (cancelled || expanded_ > most_work_) return SearchEnd::kCancelled;
     }
+    if (best_ == to_beat) return SearchEnd::kNoRoute;
     route.expanded = expanded_;
-    if (best_ == SmallCost::kNoRoute) return SearchEnd::kNoRoute;
     route.cost = std::int64_t{best_} * cost->unit;
     trace(map, request, route);
     return SearchEnd::kFound;

@@ -18,7 +18,10 @@ template <class Label>
 class BucketSearch {
 public:
     /// kUnfit when costs leave the label or 30 bits.
-    SearchEnd run(const GridMap& map, const GridRequest& request, GridRoute& route);
+    /// `below`: only a route that costs less is looked for; kNoRoute, and `route` as it was, where
+    /// there is none.
+    SearchEnd run(const GridMap& map, const GridRequest& request, GridRoute& route,
+                  std::optional<std::int64_t> below = std::nullopt);
     void prepare(const GridMap& map);
     std::size_t bytes() const;
 
@@ -43,7 +46,11 @@ private:
 
     void begin(const GridMap& map, const GridRequest& request, const SmallCost& cost);
     void enter(const GridMap& map, const GridRequest& request);
-    void reach(Cell cell, std::uint32_t state, std::uint32_t cost, Label by, int heading);
+    int least_steps(std::size_t padded) const {
+        return Landmarks::least_steps(landmarks_->at(padded), *goal_ways_);
+    }
+    void reach(const GridMap& map, Cell cell, std::uint32_t state, std::uint32_t cost, Label by,
+               int heading);
     void expand(const GridMap& map, const Entry& entry);
     void trace(const GridMap& map, const GridRequest& request, GridRoute& route) const;
 
@@ -55,6 +62,8 @@ private:
     std::int32_t step_ = 0;
     std::int32_t turn_ = 0;
     std::optional<FloorBound<std::int32_t>> bound_;
+    const Landmarks* landmarks_ = nullptr;
+    const Landmarks::Ways* goal_ways_ = nullptr;
     Cell goal_;
     std::uint32_t best_ = 0;
     std::uint32_t best_state_ = 0;

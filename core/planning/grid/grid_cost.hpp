@@ -31,10 +31,12 @@ public:
     FloorBound(Cell goal, T step, T turn)
         : goal_(goal), step_(turn < 0 ? step + turn : step), turn_(turn < 0 ? 0 : turn) {}
 
-    T operator()(Cell at, int heading) const {
+    /// `least_steps`: what else is known of the way there. Steps and turns are bounded each for
+    /// itself, so that the better of two bounds of the steps is consistent, too.
+    T operator()(Cell at, int heading, int least_steps = 0) const {
         const int dx = goal_.col - at.col;
         const int dy = goal_.row - at.row;
-        return step_ * static_cast<T>(std::abs(dx) + std::abs(dy)) +
+        return step_ * static_cast<T>(std::max(std::abs(dx) + std::abs(dy), least_steps)) +
                turn_ * static_cast<T>(least_turns(heading, dx, dy));
     }
     T per_step() const { return step_; }

@@ -6,7 +6,10 @@
 
 namespace pulseline::planning {
 GridMap::GridMap(GridLayers layers)
-    : layers_(std::move(layers)), stride_(static_cast<std::size_t>(layers_.width) + 2) {
+    : layers_(std::move(layers)),
+      stride_(static_cast<std::size_t>(layers_.width) + 2),
+      nowhere_(everywhere_blocked()),
+      landmarks_(nowhere_) {
     moves_.assign(stride_ * (static_cast<std::size_t>(layers_.height) + 2), 0);
     for (const std::uint8_t weight : layers_.weight) {
         greatest_weight_ = std::max<int>(greatest_weight_, weight);
@@ -17,12 +20,23 @@ GridMap::GridMap(GridLayers layers)
             irregular_ += irregular({col, row}) ? 1 : 0;
         }
     }
-    if (irregular_ == 0 && !weighted()) build_tables();
+    build_planes();
+    judge_jumps();
 }
 
-bool GridMap::nowhere(Cell cell) const {
-    return std::all_of(layers_.blocked.begin(), layers_.blocked.end(),
-                       [&](const BitGrid& layer) { return layer.test(cell); });
+bool GridMap::is_nowhere(Cell cell) const {
+    return std::ranges::all_of(layers_.blocked,
+                               [&](const BitGrid& layer) { return layer.test(cell); });
+}
+
+BitGrid GridMap::everywhere_blocked() const {
+    BitGrid all(width(), height());
+    for (int row = 0; row < height(); ++row) {
+        for (int col = 0; col < width(); ++col) {
+            all.set({col, row}, is_nowhere({col, row}));
+        }
+    }
+    return all;
 }
 
 std::uint8_t GridMap::moves_of(Cell cell) const {
@@ -50,9 +64,17 @@ bool GridMap::irregular(Cell cell) const {
     return !blocked && layers_.no_turn.test(cell);
 }
 
-void GridMap::build_tables() {
-    tables_.emplace(Tables{TurnPlanes(layers_.blocked[0]), Landmarks(layers_.blocked[0])});
-    tables_->jumps_pay = planning::jumps_pay(*this);
+void GridMap::build_planes() {
+    if (weighted()) return planes_.reset();
+    BitGrid barred(width(), height());
+    for (int row = 0; row < height(); ++row) {
+        for (int col = 0; col < width(); ++col) barred.set({col, row}, !is_plain({col, row}));
+    }
+    planes_.emplace(barred);
+}
+
+void GridMap::judge_jumps() {
+    if (uniform() && !jumps_pay_) jumps_pay_ = planning::jumps_pay(*this);
 }
 
 void GridMap::refresh(CellBox box) {
@@ -69,17 +91,12 @@ void GridMap::refresh(CellBox box) {
 
 void GridMap::update(const GridLayers& layers, CellBox changed) {
     if (changed.empty()) return;
-    // What of the floor itself changes matters to the tables.
-    std::vector<Cell> toggled;
     const auto for_changed = [&](auto visit) {
         for (int row = changed.first.row; row <= changed.last.row; ++row) {
             for (int col = changed.first.col; col <= changed.last.col; ++col) visit(Cell{col, row});
         }
     };
-    for_changed([&](Cell cell) {
-        irregular_ -= irregular(cell) ? 1 : 0;
-        if (layers.blocked[0].test(cell) != layers_.blocked[0].test(cell)) toggled.push_back(cell);
-    });
+    for_changed([&](Cell cell) { irregular_ -= irregular(cell) ? 1 : 0; });
     const bool had_weights = weighted();
     if (had_weights || !layers.weight.empty()) layers_.weight = layers.weight;
     for (std::size_t d = 0; d < kDirections; ++d) {
@@ -99,7 +116,10 @@ void GridMap::update(const GridLayers& layers, CellBox changed) {
         if (weighted()) greatest_weight_ = std::max(greatest_weight_, weight(cell));
     });
     refresh(changed);
-    follow(toggled);
+    std::vector<Cell> all;
+    for_changed([&](Cell cell) { all.push_back(cell); });
+    if (had_weights && !weighted()) build_planes();
+    follow(all);
 }
 
 void GridMap::set_blocked(Cell cell, bool blocked) {
@@ -111,19 +131,25 @@ void GridMap::set_blocked(Cell cell, bool blocked) {
     follow({cell});
 }
 
-void GridMap::follow(const std::vector<Cell>& toggled) {
-    if (irregular_ != 0 || weighted()) return tables_.reset();
-    if (!tables_) return build_tables();
-    for (const Cell cell : toggled) {
-        const bool blocked = layers_.blocked[0].test(cell);
-        tables_->planes.set_blocked(cell, blocked);
-        if (!blocked) tables_->landmarks.freed(layers_.blocked[0], cell);
+void GridMap::follow(const std::vector<Cell>& changed) {
+    std::vector<Cell> freed;
+    for (const Cell cell : changed) {
+        const bool was = nowhere_.test(cell);
+        const bool is = is_nowhere(cell);
+        nowhere_.set(cell, is);
+        if (was && !is) freed.push_back(cell);
+        if (planes_ && planes_->is_blocked(cell) == is_plain(cell)) {
+            planes_->set_blocked(cell, !is_plain(cell));
+        }
     }
+    for (const Cell cell : freed) landmarks_.freed(nowhere_, cell);
+    if (weighted()) planes_.reset();
+    judge_jumps();
 }
 
 std::size_t GridMap::bytes() const {
-    std::size_t sum = layers_.bytes() + moves_.size();
-    if (tables_) sum += tables_->planes.bytes() + tables_->landmarks.bytes();
+    std::size_t sum = layers_.bytes() + moves_.size() + nowhere_.bytes() + landmarks_.bytes();
+    if (planes_) sum += planes_->bytes();
     return sum;
 }
 

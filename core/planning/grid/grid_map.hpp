@@ -10,8 +10,8 @@
 
 namespace pulseline::planning {
 
-/// Layers made ready for searches: one byte of moves a cell, and on a uniform floor the tables of
-/// the turn-jump search.
+/// Layers made ready for searches: one byte of moves a cell, lower bounds of all ways, and the
+/// planes of the turn-jump search.
 ///
 /// Thread safety: an unchanging map may be read by any number of searches at once. To edit a map
 /// that is in use, copy it, update the copy and hand that to the searches that follow.
@@ -42,19 +42,23 @@ public:
     bool weighted() const { return !layers_.weight.empty(); }
     int greatest_weight() const { return greatest_weight_; }
     /// Blocked for every heading.
-    bool nowhere(Cell cell) const;
+    bool nowhere(Cell cell) const { return nowhere_.test(cell); }
+    /// Of the ways over cells that are free for some heading.
+    const Landmarks& landmarks() const { return landmarks_; }
 
     /// Every free cell may be entered, left and turned in alike: what the turn-jump search needs.
-    bool uniform() const { return tables_.has_value(); }
+    bool uniform() const { return irregular_ == 0 && !weighted(); }
+    /// Where that holds of a cell; the planes know the others as blocked.
+    bool is_plain(Cell cell) const { return !layers_.blocked[0].test(cell) && !irregular(cell); }
     /// Whether the turn-jump search takes less time than the bucket search here (see
-    /// search_choice.hpp). Edits keep the answer: it is about the kind of floor.
-    bool jumps_pay() const { return tables_ && tables_->jumps_pay; }
-    // REQUIRES: uniform().
-    const TurnPlanes& planes() const { return tables_->planes; }
-    const Landmarks& landmarks() const { return tables_->landmarks; }
+    /// search_choice.hpp), which is about the kind of floor: edits keep the answer. True where it
+    /// is not the one to answer: on a floor that is not uniform it finds a way to beat.
+    bool jumps_pay() const { return planes_ && jumps_pay_.value_or(true); }
+    // REQUIRES: not weighted().
+    const TurnPlanes& planes() const { return *planes_; }
 
     /// Takes over `layers`, which differ from the present ones in `changed` only. Costs a little
-    /// more than the changed cells; all of the map when it becomes uniform by the edit.
+    /// more than the changed cells; some searches when it becomes uniform by the edit.
     void update(const GridLayers& layers, CellBox changed);
     /// The same for the map of a vehicle of one cell. REQUIRES: inside(cell).
     void set_blocked(Cell cell, bool blocked);
@@ -62,24 +66,24 @@ public:
     std::size_t bytes() const;
 
 private:
-    struct Tables {
-        TurnPlanes planes;
-        Landmarks landmarks;
-        bool jumps_pay = true;
-    };
-
     std::uint8_t moves_of(Cell cell) const;
     bool irregular(Cell cell) const;
+    bool is_nowhere(Cell cell) const;
+    BitGrid everywhere_blocked() const;
     void refresh(CellBox box);
-    void build_tables();
-    void follow(const std::vector<Cell>& toggled);
+    void build_planes();
+    void judge_jumps();
+    void follow(const std::vector<Cell>& changed);
 
     GridLayers layers_;
     std::size_t stride_;
     int greatest_weight_ = 1;
     std::size_t irregular_ = 0;  // cells where headings differ, turns are barred, or of one way
     std::vector<std::uint8_t> moves_;
-    std::optional<Tables> tables_;
+    BitGrid nowhere_;
+    Landmarks landmarks_;
+    std::optional<TurnPlanes> planes_;
+    std::optional<bool> jumps_pay_;
 };
 
 }  // namespace pulseline::planning

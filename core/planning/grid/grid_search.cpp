@@ -1,5 +1,6 @@
 #include "core/planning/grid/grid_search.hpp"
 
+#include <limits>
 #include <string>
 
 #include "core/planning/grid/bucket_search.hpp"
@@ -38,11 +39,19 @@ std::vector<Cell> GridRoute::cells() const {
     return all;
 }
 
+namespace {
+
+// Expansions that are spent on a way to beat: a tenth of what the search for the best may take.
+constexpr std::int64_t kBoundWork = 10'000;
+
+}  // namespace
+
 struct GridSearch::Searches {
     TurnJumpSearch turn_jump;
     BucketSearch<std::uint32_t> bucket;
     BucketSearch<std::uint64_t> wide_bucket;
     PlainSearch plain;
+    GridRoute better;
 };
 
 GridSearch::GridSearch() : searches_(std::make_unique<Searches>()) {}
@@ -64,13 +73,27 @@ SearchEnd GridSearch::run(const GridMap& map, const GridRequest& request, Algori
         return SearchEnd::kFound;
     }
     SearchEnd end = SearchEnd::kUnfit;
+    std::optional<std::int64_t> below;
     if (wanted == Algorithm::kTurnJump && map.jumps_pay()) {
-        end = searches_->turn_jump.run(map, request, route);
+        auto& jumps = searches_->turn_jump;
+        jumps.limit_work(map.uniform() ? std::numeric_limits<std::int64_t>::max() : kBoundWork);
+        end = jumps.run(map, request, route);
+        // Found over plain cells only: what the bucket search has to beat.
+        if (!map.uniform() && end == SearchEnd::kFound) below = route.cost;
+        if (!map.uniform()) end = SearchEnd::kUnfit;
     }
     if (end == SearchEnd::kUnfit && wanted >= Algorithm::kBucket) {
-        route.algorithm = Algorithm::kBucket;
-        end = searches_->bucket.run(map, request, route);
-        if (end == SearchEnd::kUnfit) end = searches_->wide_bucket.run(map, request, route);
+        GridRoute& better = searches_->better;
+        end = searches_->bucket.run(map, request, better, below);
+        if (end == SearchEnd::kUnfit) {
+            end = searches_->wide_bucket.run(map, request, better, below);
+        }
+        if (end == SearchEnd::kFound) {
+            route = better;  // a copy: both keep their room
+            route.algorithm = Algorithm::kBucket;
+        } else if (end == SearchEnd::kNoRoute && below) {
+            end = SearchEnd::kFound;
+        }
     }
     if (end == SearchEnd::kUnfit) {
         route.algorithm = wanted == Algorithm::kDijkstra ? wanted : Algorithm::kAstar;

@@ -256,11 +256,11 @@ void TurnJumpSearch::trace(const GridRequest& request, GridRoute& route) const {
 
 SearchEnd TurnJumpSearch::run(const GridMap& map, const GridRequest& request, GridRoute& route) {
     const auto cost = SmallCost::of(request.cost, map);
-    if (!map.uniform() || !cost || cost->turn < 0 ||
+    if (map.weighted() || !cost || cost->turn < 0 ||
         map.padded_cells() * kDirections > LabelTable::kMostStates) {
         return SearchEnd::kUnfit;
     }
-    if (map.nowhere(request.start) || map.nowhere(request.goal)) return SearchEnd::kNoRoute;
+    if (!map.is_plain(request.start) || !map.is_plain(request.goal)) return SearchEnd::kNoRoute;
     if (map.landmarks().separate(map.padded(request.start), map.padded(request.goal))) {
         return SearchEnd::kNoRoute;
     }

@@ -40,7 +40,8 @@ namespace pulseline::planning {
 /// consistent.
 class TurnJumpSearch {
 public:
-    /// kUnfit when the conditions above do not hold or costs leave 30 bits.
+    /// Goes over plain cells only: on a map that is not uniform, what it finds may cost more than
+    /// the least. kUnfit when the other conditions above do not hold or costs leave 30 bits.
     SearchEnd run(const GridMap& map, const GridRequest& request, GridRoute& route);
     void prepare(const GridMap& map);
     std::size_t bytes() const;

@@ -27,6 +27,11 @@ public:
         return plane(from & 1, line, 1 + (from >= 2 ? 2 : 0) + (up ? 0 : 1));
     }
 
+    bool is_blocked(Cell cell) const {
+        const int at = cell.col + 1;
+        return (blocked(0, cell.row + 1)[at / BitGrid::kWordBits] >> (at % BitGrid::kWordBits) &
+                1) != 0;
+    }
     /// Follows an edit of the map: O(affected lines) words instead of a rebuild.
     void set_blocked(Cell cell, bool blocked);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace pulseline::planning {
 namespace {
@@ -103,6 +104,10 @@ Obstacles::Hit Obstacles::approach_grid(const Polygon& piece, const Box& box, do
         hit.distance_m = 0;
         return hit;
     }
+    // A piece that lies aslant fills little of its box.
+    const auto is_farther = [&](Point2 middle, double size_m, double than_m) {
+        return geometry::distance(piece, middle) - size_m * std::numbers::sqrt2 / 2 >= than_m;
+    };
     const double block_m = res * kBlockCells;
     const double reach = std::min(stop_m, block_m * std::max(blocks_x_, blocks_y_));
     const auto block_range = [&](double min_m, double max_m, int count) {
@@ -122,13 +127,18 @@ Obstacles::Hit Obstacles::approach_grid(const Polygon& piece, const Box& box, do
                         static_cast<std::size_t>(bx)];
             if (cells.empty()) continue;
             const Point2 corner{grid_.origin.x_m + bx * block_m, grid_.origin.y_m + by * block_m};
-            if (box_distance(box, {corner, corner + Point2{block_m, block_m}}) >= hit.distance_m) {
+            const Point2 middle = corner + Point2{block_m / 2, block_m / 2};
+            if (box_distance(box, {corner, corner + Point2{block_m, block_m}}) >= hit.distance_m ||
+                is_farther(middle, block_m, hit.distance_m)) {
                 continue;
             }
             for (const Point2& centre : cells) {
                 const Box cell_box{centre - Point2{res / 2, res / 2},
                                    centre + Point2{res / 2, res / 2}};
-                if (box_distance(box, cell_box) >= hit.distance_m) continue;
+                if (box_distance(box, cell_box) >= hit.distance_m ||
+                    is_farther(centre, res, hit.distance_m)) {
+                    continue;
+                }
                 const double d = geometry::distance(piece, square(centre, res));
                 if (d < hit.distance_m) hit = {d, shapes_.size(), centre};
             }

@@ -133,14 +133,33 @@ TEST(GridSearch, JumpsOnlyWhereItsConditionsHold) {
     EXPECT_EQ(answered_by({10, -3}), Algorithm::kBucket);                       // cheap turns
     EXPECT_EQ(answered_by({1'000'000'007, 1'000'000'009}), Algorithm::kAstar);  // 64 bits
 
-    layers.no_turn.set({4, 4}, true);
-    EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
-    layers.no_turn.set({4, 4}, false);
-    layers.make_one_way({4, 4}, Direction::kWest);
-    EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
-    for (auto& layer : layers.no_exit) layer = {};
     layers.weight.assign(81, 1);
     EXPECT_EQ(answered_by({10, 10}), Algorithm::kBucket);
+}
+
+TEST(GridSearch, OnFloorThatIsNotUniformTheWayOverPlainCellsIsToBeBeaten) {
+    // A wall with two gates: the near one, on the way, may be driven through but not turned in.
+    GridLayers layers = point_layers(grid_of(9, 9));
+    for (int row = 1; row < 8; ++row) {
+        for (auto& layer : layers.blocked) layer.set({4, row}, row != 4);
+    }
+    const GridRequest request{{0, 4}, {8, 4}, std::nullopt, {10, 10}};
+    for (auto& layer : layers.blocked) layer.set({4, 4}, true);
+    EXPECT_EQ(plan_grid(GridMap(layers), request)->cost,
+              200);  // round by the edge: 16 cells, 4 turns
+    for (auto& layer : layers.blocked) layer.set({4, 4}, false);
+    layers.no_turn.set({4, 4}, true);
+    const auto through = plan_grid(GridMap(layers), request);
+    EXPECT_EQ(through->cost, 80);
+    EXPECT_EQ(through->algorithm, Algorithm::kBucket);
+
+    // Nothing beats the way over plain cells, which the bucket search then only confirms.
+    GridLayers open = point_layers(grid_of(9, 9));
+    open.no_turn.set({4, 7}, true);
+    open.make_one_way({2, 8}, Direction::kWest);
+    const auto plain = plan_grid(GridMap(open), request);
+    EXPECT_EQ(plain->cost, 80);
+    EXPECT_EQ(plain->algorithm, Algorithm::kTurnJump);
 }
 
 TEST(GridSearch, StopsWhenItIsToldTo) {
