@@ -56,6 +56,21 @@ Eigen::Matrix3d no_more_shared(const Eigen::Matrix3d& before, const Eigen::Matri
            rest.eigenvectors().transpose();
 }
 
+/// What `known` lacks, direction by direction, to know no more than `least`.
+Eigen::Matrix3d too_sure(const Eigen::Matrix3d& known, const Eigen::Matrix3d& least) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> rest(least - known);
+    return rest.eigenvectors() * rest.eigenvalues().cwiseMax(0).asDiagonal() *
+           rest.eigenvectors().transpose();
+}
+
+/// A filter that was corrected by what had told it before: it knows as much as the better of both.
+localisation::PoseFilter told_once(localisation::PoseFilter corrected,
+                                   const Eigen::Matrix3d& before, const Eigen::Matrix3d& fix) {
+    const bool is_better = fix(0, 0) + fix(1, 1) < before(0, 0) + before(1, 1);
+    corrected.blur(too_sure(corrected.covariance(), is_better ? fix : before));
+    return corrected;
+}
+
 /// Where one code puts the body, and how well.
 std::pair<Pose2, Eigen::Matrix3d> by_code(const localisation::CodeObservation& seen,
                                           const localisation::SurveyedCode& code) {
@@ -150,12 +165,17 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
     lasting_.setZero();
     other_.reset();
     const Pose2 off = off_of(fix.pose);
+    const Eigen::Matrix3d before = filter_.covariance();
     if (filter_.correct(fix)) {
         fixes_.took(PoseSource::kStop, {}, off);
+        if (told_again(fix.payloads)) {
+            filter_ = told_once(filter_, before, localisation::matrix(fix.covariance));
+        }
     } else {
         filter_.restart(fix.pose, localisation::matrix(fix.covariance));
         note_begun(PoseSource::kStop, {}, off);
     }
+    told_by_ = fix.payloads;
     driven_ = now_ = fix.pose;
     note(PoseSource::kStop);
 }
@@ -163,23 +183,27 @@ void PoseEstimate::take(const localisation::PoseFix& fix) {
 Status PoseEstimate::see(const localisation::CodeObservation& seen,
                          const localisation::SurveyedCode& code) {
     catch_up();
-    const Pose2 off = off_of(by_code(seen, code).first);
+    const auto [by_it, its] = by_code(seen, code);
+    const Pose2 off = off_of(by_it);
     if (other_ && other_->doubted && other_->by == code.payload) {
         fixes_.refused(PoseSource::kCodes, code.payload, "innovation_gate", off);
         return fail(Errc::kConflict, "innovation_gate",
                     "The code was half believed already; the same one again is no other witness.");
     }
     localisation::PoseFilter filter = against_codes();
+    const Eigen::Matrix3d before = filter.covariance();
     const Status corrected = filter.correct(seen, code);
     if (corrected) {
         fixes_.took(PoseSource::kCodes, code.payload, off_of(filter.pose()));
-        filter_ = filter;
+        const bool again = told_again(std::span(&code.payload, 1));
+        filter_ = again ? told_once(filter, before, its) : filter;
     } else if (begins_by(seen, code)) {
         note_begun(PoseSource::kCodes, code.payload, off);
     } else {
         fixes_.refused(PoseSource::kCodes, code.payload, corrected.error().reason.code, off);
         return corrected;
     }
+    told_by_ = {code.payload};
     other_.reset();
     lasting_.setZero();
     note(PoseSource::kCodes);
@@ -215,6 +239,12 @@ bool PoseEstimate::knows_better_than(const Eigen::Matrix3d& lasting) const {
     if (!lasting_.isZero()) return false;
     const Eigen::Matrix3d known = filter_.covariance();
     return known(0, 0) + known(1, 1) < lasting(0, 0) + lasting(1, 1) && known(2, 2) < lasting(2, 2);
+}
+
+bool PoseEstimate::told_again(std::span<const std::string> by) const {
+    return std::ranges::any_of(by, [&](const std::string& one) {
+        return std::ranges::find(told_by_, one) != told_by_.end();
+    });
 }
 
 Status PoseEstimate::see(const localisation::BeaconFix& seen, const Eigen::Matrix3d& since) {
@@ -275,6 +305,7 @@ void PoseEstimate::start_at(const Pose2& pose, double sigma_xy_m, double sigma_h
     filter_.restart(pose, is_said ? known_to(sigma_xy_m, sigma_heading_rad) : told());
     ++begun_;
     lasting_.setZero();
+    told_by_.clear();
     other_.reset();
     driven_ = now_ = pose;
     note(by);

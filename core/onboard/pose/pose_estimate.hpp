@@ -1,7 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/localisation/beacon_fix.hpp"
 #include "core/localisation/pose_filter.hpp"
@@ -40,7 +42,9 @@ public:
     /// Without a motion, the drive believes to be here from now on.
     void led_to(const geometry::Pose2& believed);
     /// A stop was measured. One that contradicts the way driven is taken all the same, for it was
-    /// seen, but as a new beginning: the vehicle was moved by hand, or its wheels slipped.
+    /// seen, but as a new beginning: the vehicle was moved by hand, or its wheels slipped. However
+    /// often it is measured by the same codes, it is known no better than they tell it once: where
+    /// they lie and how the cameras are mounted is wrong alike each time.
     void take(const localisation::PoseFix& fix);
     /// It was told where it stands. Without sigmas: by a person who pointed there.
     void start_at(const geometry::Pose2& pose, double sigma_xy_m = 0, double sigma_heading_rad = 0,
@@ -76,6 +80,7 @@ private:
     void note_unused(const localisation::BeaconFix& seen, const Status& agrees);
     localisation::PoseFilter against_codes() const;
     bool knows_better_than(const Eigen::Matrix3d& lasting) const;
+    bool told_again(std::span<const std::string> by) const;
     bool doubt(const localisation::CodeObservation& seen, const localisation::SurveyedCode& code);
     bool begins_by(const localisation::CodeObservation& seen,
                    const localisation::SurveyedCode& code);
@@ -92,8 +97,9 @@ private:
     std::optional<Other> other_;
     /// Of the last pose by beacons: what all of them have in common, the filter does not count.
     Eigen::Matrix3d lasting_ = Eigen::Matrix3d::Zero();
-    geometry::Pose2 driven_;  // by the drive's belief, as far as the filter has followed
-    geometry::Pose2 now_;     // by the drive's belief
+    geometry::Pose2 driven_;            // by the drive's belief, as far as the filter has followed
+    geometry::Pose2 now_;               // by the drive's belief
+    std::vector<std::string> told_by_;  // codes, or transmitters, of the last stop or code
     int begun_ = 0;
     PoseSource source_ = PoseSource::kPerson;
     FixLog fixes_;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace pulseline::onboard {
 namespace {
@@ -66,6 +67,47 @@ TEST(PoseEstimate, AFixThatContradictsTheWayIsANewBeginning) {
     EXPECT_NEAR(estimate.sigma_xy_m(), 1e-4, 1e-6);
     estimate.start_at({3, 3, 0});
     EXPECT_NEAR(estimate.sigma_xy_m(), 0.05, 1e-9) << "a person's word";
+}
+
+/// Where codes lie and how cameras are mounted is wrong alike at each look.
+TEST(PoseEstimate, TheSameCodesTellNoMoreHoweverOftenTheyAreMeasured) {
+    PoseEstimate estimate({0, 0, 0});
+    auto fix = fix_at({0, 0, 0});
+    fix.payloads = {"A", "B"};
+    estimate.take(fix);
+    const double once_m = estimate.sigma_xy_m();
+    const double once_rad = estimate.sigma_heading_rad();
+    for (int i = 0; i < 20; ++i) {
+        estimate.drive_to({i % 2 == 0 ? 0.02 : 0.0, 0, 0});  // a correction, and back
+        estimate.drive_to({0, 0, 0});
+        fix.payloads =
+            i % 2 == 0 ? std::vector<std::string>{"B"} : std::vector<std::string>{"B", "A"};
+        estimate.take(fix);
+    }
+    EXPECT_GT(estimate.sigma_xy_m(), 0.99 * once_m);
+    EXPECT_GT(estimate.sigma_heading_rad(), 0.99 * once_rad);
+    EXPECT_LT(estimate.sigma_xy_m(), 1.05 * once_m);
+
+    fix.payloads = {"C"};
+    estimate.take(fix);
+    EXPECT_NEAR(estimate.sigma_xy_m(), once_m / std::sqrt(2), 0.02 * once_m) << "another witness";
+}
+
+/// A code that is read under way where the stop was measured by it is the same witness.
+TEST(PoseEstimate, ACodeOfTheStopTellsNothingNewWhenItDrivesOff) {
+    localisation::CodeObservation code;
+    code.sigma_m = 1e-4;
+    code.sigma_up_rad = 1e-4;
+    const localisation::SurveyedCode at_stop{"A", {0, 0, 0}, 1e-5, 1e-5};
+    auto fix = fix_at({0, 0, 0});
+    fix.payloads = {"A"};
+    PoseEstimate estimate({0, 0, 0});
+    estimate.take(fix);
+    const double once_m = estimate.sigma_xy_m();
+    ASSERT_TRUE(estimate.see(code, at_stop));
+    EXPECT_GT(estimate.sigma_xy_m(), 0.99 * once_m);
+    ASSERT_TRUE(estimate.see(code, {"B", {0, 0, 0}, 1e-5, 1e-5}));
+    EXPECT_LT(estimate.sigma_xy_m(), 0.8 * once_m);
 }
 
 /// What all fixes by beacons have in common is a heading, too, and that leads beside the way when
