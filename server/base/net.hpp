@@ -22,7 +22,7 @@
 #include <boost/beast/websocket.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 
-/// The slow include, 235 MB when precompiled: only server/*.cpp and headers private to them draw it in.
+/// The slow include, 235 MB precompiled: only server/*.cpp and headers private to them draw it in.
 namespace pulseline::server {
 
 namespace net = boost::asio;
