@@ -288,6 +288,7 @@ void PoseEstimate::restart_at(const localisation::BeaconFix& seen) {
     note_begun(source_of(seen.fix.method), {}, off_of(seen.fix.pose));
     lasting_ = localisation::matrix(seen.lasting);
     filter_.restart(seen.fix.pose, localisation::matrix(seen.fix.covariance) - lasting_);
+    told_by_.clear();
     other_.reset();
     note(source_of(seen.fix.method));
 }

@@ -8,7 +8,7 @@ namespace pulseline::planning {
 GridMap::GridMap(GridLayers layers)
     : layers_(std::move(layers)),
       stride_(static_cast<std::size_t>(layers_.width) + 2),
-      nowhere_(everywhere_blocked()),
+      nowhere_(find_nowhere()),
       landmarks_(nowhere_) {
     moves_.assign(stride_ * (static_cast<std::size_t>(layers_.height) + 2), 0);
     for (const std::uint8_t weight : layers_.weight) {
@@ -24,16 +24,16 @@ GridMap::GridMap(GridLayers layers)
     judge_jumps();
 }
 
-bool GridMap::is_nowhere(Cell cell) const {
+bool GridMap::blocked_for_all(Cell cell) const {
     return std::ranges::all_of(layers_.blocked,
                                [&](const BitGrid& layer) { return layer.test(cell); });
 }
 
-BitGrid GridMap::everywhere_blocked() const {
+BitGrid GridMap::find_nowhere() const {
     BitGrid all(width(), height());
     for (int row = 0; row < height(); ++row) {
         for (int col = 0; col < width(); ++col) {
-            all.set({col, row}, is_nowhere({col, row}));
+            all.set({col, row}, blocked_for_all({col, row}));
         }
     }
     return all;
@@ -135,12 +135,11 @@ void GridMap::follow(const std::vector<Cell>& changed) {
     std::vector<Cell> freed;
     for (const Cell cell : changed) {
         const bool was = nowhere_.test(cell);
-        const bool is = is_nowhere(cell);
+        const bool is = blocked_for_all(cell);
         nowhere_.set(cell, is);
         if (was && !is) freed.push_back(cell);
-        if (planes_ && planes_->is_blocked(cell) == is_plain(cell)) {
-            planes_->set_blocked(cell, !is_plain(cell));
-        }
+        const bool barred = !is_plain(cell);
+        if (planes_ && planes_->is_blocked(cell) != barred) planes_->set_blocked(cell, barred);
     }
     for (const Cell cell : freed) landmarks_.freed(nowhere_, cell);
     if (weighted()) planes_.reset();

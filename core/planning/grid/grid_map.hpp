@@ -68,8 +68,8 @@ public:
 private:
     std::uint8_t moves_of(Cell cell) const;
     bool irregular(Cell cell) const;
-    bool is_nowhere(Cell cell) const;
-    BitGrid everywhere_blocked() const;
+    bool blocked_for_all(Cell cell) const;
+    BitGrid find_nowhere() const;
     void refresh(CellBox box);
     void build_planes();
     void judge_jumps();

@@ -41,7 +41,8 @@ std::vector<Cell> GridRoute::cells() const {
 
 namespace {
 
-// Expansions that are spent on a way to beat: a tenth of what the search for the best may take.
+// Expansions that are spent on a way to beat; without one, a way through the final assembly took
+// 38,000.
 constexpr std::int64_t kBoundWork = 10'000;
 
 }  // namespace
