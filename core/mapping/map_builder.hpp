@@ -16,8 +16,12 @@ namespace pulseline::mapping {
 /// Matching scan to scan alone would bend a hall of 100 m by a metre. Thread safety: none.
 class MapBuilder {
 public:
-    /// `start`: where the vehicle stands, which gives the map its frame.
-    explicit MapBuilder(const geometry::Pose2& start);
+    /// Where lanes lead along walls: what is seen from farther off is drawn less sharply.
+    static constexpr double kWithin_m = 12;
+
+    /// `start`: where the vehicle stands, which gives the map its frame. What is farther off than
+    /// `within_m` is not drawn.
+    explicit MapBuilder(const geometry::Pose2& start, double within_m = kWithin_m);
     ~MapBuilder();
 
     /// The vehicle has moved by `moved` since, seen from where it was, with this covariance of

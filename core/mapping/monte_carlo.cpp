@@ -1,23 +1,17 @@
 #include "core/mapping/monte_carlo.hpp"
 
-#include <mrpt/bayes/CParticleFilter.h>
-#include <mrpt/random/RandomGenerators.h>
-#include <mrpt/slam/CMonteCarloLocalization2D.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <optional>
-#include <random>
 #include <utility>
 
 #include "core/base/square.hpp"
 #include "core/mapping/likelihood_field.hpp"
-#include "core/mapping/mrpt_frames.hpp"
+#include "core/mapping/particle_cloud.hpp"
 #include "core/mapping/surfaces.hpp"
 
 namespace pulseline::mapping {
@@ -31,15 +25,7 @@ constexpr float kRaySigma_m = 0.04F;
 constexpr float kWithin_m = 0.3F;      // farther off something else was met
 constexpr float kByChance = 0.2F;      // of all rays, on what is not in the map
 constexpr std::size_t kEveryRay = 12;  // of a scan: neighbours tell the same
-constexpr double kLeastPower = 1e-4;
-// Particles, where the place is known well and where it is not.
-constexpr unsigned kFewest = 600;
-constexpr unsigned kMost = 2000;
-constexpr double kWellKnown_m = 0.04;
-constexpr double kWellKnown_rad = 0.02;
-// That carry weight at least: with fewer, mean and covariance are chance, so that such a look
-// counts for less than it is worth and the next one begins nearer.
-constexpr double kCarry = 50;
+constexpr std::size_t kNextRays = 5;   // of the next look, on from those of the one before
 constexpr double kNothing = 1e4;
 // Around a ray's end, what stands there shows which way it lies: so far that a wall that the map
 // has in three rows of cells is still one.
@@ -47,6 +33,8 @@ constexpr int kAround_cells = 10;
 // Of the lesser to the greater spread of cells: below it is a line.
 constexpr double kLine = 0.15;
 constexpr int kNear_cells = 2;
+constexpr int kThick_cells = 4;  // of a wall, at most
+constexpr std::uint8_t kFreeFrom = 192;
 // One sigma of where in its cells a wall lies.
 const double kInCell = 1 / std::sqrt(12.0);
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
@@ -67,13 +55,14 @@ struct MatchedMap {
                map.occupied(column, row);
     }
 
-    /// Whether something stands on the way, but for its ends. Two cells in a row: a ray that grazes
-    /// a wall only cuts its corners.
+    /// Whether something stands on the way, but for its ends. Half a cell at least: a ray that
+    /// grazes a wall only cuts its corners.
     bool has_something_between(Point2 from, Point2 to) const {
         const double way_m = distance(from, to) - kBehind_m;
-        const Point2 step = (map.cell_m / distance(from, to)) * (to - from);
+        const double step_m = map.cell_m / 2;
+        const Point2 step = (step_m / distance(from, to)) * (to - from);
         bool before = false;
-        for (int i = 1; i * map.cell_m < way_m; ++i) {
+        for (int i = 1; i * step_m < way_m; ++i) {
             const bool here = is_occupied(from + static_cast<double>(i) * step);
             if (here && before) return true;
             before = here;
@@ -135,6 +124,36 @@ struct MatchedMap {
     }
 };
 
+namespace {
+
+/// Noise puts some rays' ends into cells behind the face of a wall, which no ray passes through and
+/// which stay occupied: with these, all walls would seem to lie half a cell farther off.
+bool is_behind_a_face(const OccupancyMap& map, int column, int row) {
+    constexpr std::pair<int, int> kTowards[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}};
+    const auto is_inside = [&](int c, int r) {
+        return c >= 0 && c < map.columns && r >= 0 && r < map.rows;
+    };
+    const auto steps_to_free = [&](const std::pair<int, int>& towards) {
+        for (int step = 1; step <= kThick_cells; ++step) {
+            const int c = column + step * towards.first;
+            const int r = row + step * towards.second;
+            if (!is_inside(c, r)) return 0;
+            if (map.at(c, r) >= kFreeFrom) return step;
+            if (!map.occupied(c, r)) return 0;
+        }
+        return 0;
+    };
+    bool behind = false;
+    for (const auto& towards : kTowards) {
+        const int steps = steps_to_free(towards);
+        if (steps == 1) return false;
+        behind |= steps > 1;
+    }
+    return behind;
+}
+
+}  // namespace
+
 std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     auto matched = std::make_shared<MatchedMap>();
     matched->grid = std::make_shared<LikelihoodField>(
@@ -142,10 +161,10 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
         static_cast<float>(map.rows * map.cell_m), static_cast<float>(map.cell_m));
     for (int row = 0; row < map.rows; ++row) {
         for (int column = 0; column < map.columns; ++column) {
-            const float free = map.occupied(column, row) ? 0.0F : 1.0F;
+            const bool is_face = map.occupied(column, row) && !is_behind_a_face(map, column, row);
             const Point2 middle = map.middle_of(column, row) - map.corner;
             matched->grid->setPos(static_cast<float>(middle.x_m), static_cast<float>(middle.y_m),
-                                  free);
+                                  is_face ? 0.0F : 1.0F);
         }
     }
     auto& likelihood = matched->grid->likelihoodOptions;
@@ -162,105 +181,17 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
 
 struct MonteCarlo::Particles {
     std::shared_ptr<const MatchedMap> map;
-    std::uint64_t seed;
-    std::uint64_t looks = 0;
-    mrpt::slam::CMonteCarloLocalization2D cloud;
-    mrpt::bayes::CParticleFilter filter;
-
-    void spread(const Pose2& about, const Eigen::Matrix3d& root, unsigned count);
-    void weigh(const std::vector<control::Scan>& scans);
-    Pose2 mean(const std::vector<double>& weights) const;
+    ParticleCloud cloud;
+    std::size_t looks = 0;
 };
 
 MonteCarlo::MonteCarlo(std::shared_ptr<const MatchedMap> map, std::uint64_t seed)
-    : particles_(std::make_unique<Particles>()) {
-    particles_->map = std::move(map);
-    particles_->seed = seed;
-    auto& filter = particles_->filter.m_options;
-    filter.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-    filter.adaptiveSampleSize = false;
-    filter.BETA = 0;  // their weights are read, so that none are drawn again
-    particles_->cloud.options.metricMap = particles_->map->grid;
-}
+    : particles_(new Particles{map, ParticleCloud(map->grid, seed)}) {}
 
 MonteCarlo::~MonteCarlo() = default;
 MonteCarlo::MonteCarlo(MonteCarlo&&) noexcept = default;
 
-void MonteCarlo::Particles::spread(const Pose2& about, const Eigen::Matrix3d& root,
-                                   unsigned count) {
-    std::mt19937_64 random(seed * 1000003 + ++looks);
-    std::normal_distribution<double> normal;
-    const Point2 in_map = about.position() - map->map.corner;
-    cloud.resetDeterministic({in_map.x_m, in_map.y_m, about.heading_rad}, count);
-    for (auto& particle : cloud.m_particles) {
-        const Eigen::Vector3d off =
-            root * Eigen::Vector3d(normal(random), normal(random), normal(random));
-        particle.d.x += off[0];
-        particle.d.y += off[1];
-        particle.d.phi = wrap(particle.d.phi + off[2]);
-    }
-}
-
-/// Their weights are the logarithms of how well they explain what is seen.
-void MonteCarlo::Particles::weigh(const std::vector<control::Scan>& scans) {
-    // MRPT has one generator for all of a program: begun anew, each vehicle has its own numbers.
-    // A new one, for the old one keeps half of its last pair of numbers.
-    mrpt::random::getRandomGenerator() =
-        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(seed * 1000003 + looks));
-    const auto stays = movement({}, Eigen::Matrix3d::Zero());
-    const auto seen = frame_of(scans);
-    filter.executeOn(cloud, &stays, &seen);
-}
-
-Pose2 MonteCarlo::Particles::mean(const std::vector<double>& weights) const {
-    const auto& first = cloud.m_particles.front().d;
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const auto& at = cloud.m_particles[i].d;
-        mean +=
-            weights[i] * Eigen::Vector3d(at.x - first.x, at.y - first.y, wrap(at.phi - first.phi));
-    }
-    const Point2 corner = map->map.corner;
-    return {corner.x_m + first.x + mean[0], corner.y_m + first.y + mean[1],
-            wrap(first.phi + mean[2])};
-}
-
 namespace {
-
-double carrying(const std::vector<double>& weights) {
-    double squares = 0;
-    for (const double weight : weights) squares += weight * weight;
-    return 1 / squares;
-}
-
-std::vector<double> weights_of(const mrpt::slam::CMonteCarloLocalization2D& cloud, double power) {
-    double best = -std::numeric_limits<double>::infinity();
-    for (const auto& particle : cloud.m_particles) best = std::max(best, particle.log_w);
-    std::vector<double> weights;
-    double sum = 0;
-    for (const auto& particle : cloud.m_particles) {
-        weights.push_back(std::exp(power * (particle.log_w - best)));
-        sum += weights.back();
-    }
-    for (double& weight : weights) weight /= sum;
-    return weights;
-}
-
-struct Tempered {
-    std::vector<double> weights;
-    double power = 1;  // what one ray counts
-};
-
-/// As much of the rays' worth as leaves enough particles with weight.
-Tempered tempered(const mrpt::slam::CMonteCarloLocalization2D& cloud) {
-    Tempered found;
-    found.weights = weights_of(cloud, found.power);
-    while (carrying(found.weights) < kCarry && found.power > kLeastPower) {
-        found.power /= 2;
-        found.weights = weights_of(cloud, found.power);
-    }
-    return found;
-}
 
 /// What one look has made of its particles.
 struct Outcome {
@@ -268,6 +199,7 @@ struct Outcome {
     Eigen::Matrix3d looked_around;  // covariance that they were drawn with
     geometry::Pose2 mean;
     Eigen::Matrix3d information;           // inverse covariance of what the rays tell
+    Eigen::Matrix3d by_particles;          // the same, as the particles have it
     std::vector<Eigen::Vector3d> by_wall;  // how they answer to one sigma of each wall's own error
     Eigen::Matrix3d of_map;                // what all of it is off, covariance
 };
@@ -285,7 +217,12 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
                                 wrap(by.mean.heading_rad - by.about.heading_rad));
     const Eigen::Matrix3d drawn = directions.transpose() * by.looked_around.inverse() * directions;
     const Eigen::Matrix3d map = to_sphere * by.of_map * to_sphere.transpose();
-    const Eigen::Vector3d gain = worth.eigenvalues();
+    Eigen::Vector3d gain = worth.eigenvalues();
+    for (int i = 0; i < 3; ++i) {
+        // A column before a wall has corners, which tell little where rays are far apart.
+        const double seen = directions.col(i).dot(by.by_particles * directions.col(i));
+        gain[i] = std::min(gain[i], std::max(seen, 0.0));
+    }
     Eigen::Vector3d of_walls = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& wall : by.by_wall) {
         of_walls += Eigen::Vector3d(directions.transpose() * wall).cwiseAbs2();
@@ -322,13 +259,20 @@ Eigen::Matrix<double, 2, 3> by_pose(const Pose2& pose, Point2 place) {
     return moves;
 }
 
-/// Some of the rays, evenly.
-std::vector<control::Scan> thinned(const std::vector<control::Scan>& scans) {
+Pose2 moved(const Pose2& pose, Point2 by) {
+    return {pose.x_m + by.x_m, pose.y_m + by.y_m, pose.heading_rad};
+}
+
+/// Some of the rays, evenly, from `first` on.
+std::vector<control::Scan> thinned(const std::vector<control::Scan>& scans, std::size_t first) {
     std::vector<control::Scan> thin;
     for (const control::Scan& scan : scans) {
-        thin.push_back(
-            {scan.body_from_sensor, scan.first_rad, kEveryRay * scan.step_rad, {}, scan.blind});
-        for (std::size_t i = 0; i < scan.ranges_m.size(); i += kEveryRay) {
+        thin.push_back({scan.body_from_sensor,
+                        scan.first_rad + static_cast<double>(first) * scan.step_rad,
+                        kEveryRay * scan.step_rad,
+                        {},
+                        scan.blind});
+        for (std::size_t i = first; i < scan.ranges_m.size(); i += kEveryRay) {
             thin.back().ranges_m.push_back(scan.ranges_m[i]);
         }
     }
@@ -350,14 +294,12 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
                                   const Eigen::Matrix3d& around, const Eigen::Matrix3d& of_map,
                                   const std::vector<control::Scan>& scans) {
     const Eigen::Matrix3d drawn = covariance + around;
-    const bool well_known = drawn(0, 0) + drawn(1, 1) < 2 * kWellKnown_m * kWellKnown_m &&
-                            drawn(2, 2) < kWellKnown_rad * kWellKnown_rad;
     const MatchedMap& map = *particles_->map;
-    const auto rays = thinned(scans);
-    particles_->spread(about, drawn.llt().matrixL(), well_known ? kFewest : kMost);
-    particles_->weigh(rays);
-    const auto [weights, power] = tempered(particles_->cloud);
-    const Pose2 mean = particles_->mean(weights);
+    // Others each time: between two of them a column 20 m away is not seen at all.
+    const auto rays = thinned(scans, kNextRays * particles_->looks++ % kEveryRay);
+    const Point2 corner = map.map.corner;
+    const auto told = particles_->cloud.look({moved(about, -1.0 * corner), drawn}, rays);
+    const Pose2 mean = moved(told.mean, corner);
     Look look;
     int explained = 0;
     int through = 0;
@@ -369,8 +311,13 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
         ++explained;
         if (const auto& met = map.met_at(end)) surfaces.add(*met, by_pose(mean, end));
     });
-    const double one_ray = power / square(kRaySigma_m);
-    Outcome outcome{about, drawn, mean, one_ray * surfaces.information(), surfaces.answers(),
+    const double one_ray = told.power / square(kRaySigma_m);
+    Outcome outcome{about,
+                    drawn,
+                    mean,
+                    one_ray * surfaces.information(),
+                    told.covariance.inverse() - drawn.inverse(),
+                    surfaces.answers(),
                     of_map};
     for (auto& wall : outcome.by_wall) wall *= one_ray * kInCell * map.map.cell_m;
     look.news = read_backwards(outcome, covariance);

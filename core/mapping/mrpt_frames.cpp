@@ -13,10 +13,12 @@ namespace {
 
 constexpr float kFarther_m = 1000;  // than any of them reaches
 
-mrpt::obs::CObservation2DRangeScan::Ptr range_scan(const control::Scan& scan, std::size_t number) {
+/// `steps`: between its rays, as MRPT counts them.
+mrpt::obs::CObservation2DRangeScan::Ptr range_scan(const control::Scan& scan, std::size_t number,
+                                                   std::size_t steps) {
     auto seen = mrpt::obs::CObservation2DRangeScan::Create();
     const std::size_t rays = scan.ranges_m.size();
-    const double field_rad = scan.step_rad * static_cast<double>(rays - 1);
+    const double field_rad = scan.step_rad * static_cast<double>(steps);
     seen->sensorLabel = "scanner" + std::to_string(number);
     seen->aperture = static_cast<float>(field_rad);
     seen->rightToLeft = true;
@@ -62,7 +64,17 @@ mrpt::obs::CActionCollection movement(const geometry::Pose2& moved,
 
 mrpt::obs::CSensoryFrame frame_of(const std::vector<control::Scan>& scans) {
     mrpt::obs::CSensoryFrame frame;
-    for (std::size_t i = 0; i < scans.size(); ++i) frame.insert(range_scan(scans[i], i));
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        frame.insert(range_scan(scans[i], i, scans[i].ranges_m.size() - 1));
+    }
+    return frame;
+}
+
+mrpt::obs::CSensoryFrame frame_to_draw(const std::vector<control::Scan>& scans) {
+    mrpt::obs::CSensoryFrame frame;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+        frame.insert(range_scan(scans[i], i, scans[i].ranges_m.size()));
+    }
     return frame;
 }
 

@@ -19,6 +19,7 @@ struct MapOptions {
     std::string out;
     std::string errors = "nominal";
     std::uint64_t seed = 1;
+    double within_m = mapping::MapBuilder::kWithin_m;
 };
 
 Status make_map(const MapOptions& options) {
@@ -34,15 +35,21 @@ Status make_map(const MapOptions& options) {
                     "the plant " + options.world_file + " has no vehicle " + options.vehicle +
                         " with a home station");
     }
-    const auto way = way_over_lanes(world.plant, home->hall, home->pose);
+    const bool is_from_afar = options.within_m > mapping::MapBuilder::kWithin_m;
+    const auto way = way_over_lanes(
+        world.plant, home->hall, home->pose,
+        is_from_afar ? plant::find_vehicle_type(world.plant, vehicle->type) : nullptr);
     if (!way) return fail(way.error());
     int told_percent = -1;
-    const auto map = map_hall(world, *vehicle, home->hall, *way, options.seed, [&](double share) {
-        const int percent = static_cast<int>(100 * share);
-        if (percent / 10 == told_percent / 10) return;
-        told_percent = percent;
-        fmt::print(stderr, "{} % of the lanes of {} driven\n", percent, home->hall.str());
-    });
+    const auto map = map_hall(
+        world, *vehicle, home->hall, *way, options.seed,
+        [&](double share) {
+            const int percent = static_cast<int>(100 * share);
+            if (percent / 10 == told_percent / 10) return;
+            told_percent = percent;
+            fmt::print(stderr, "{} % of the lanes of {} driven\n", percent, home->hall.str());
+        },
+        options.within_m);
     if (!map) return fail(map.error());
     const auto written = mapping::write_map(*map, options.out);
     if (!written) return written;
@@ -62,6 +69,9 @@ int map_command(int argc, char** argv) {
     app.add_option("--out", options.out, "FILE.yaml; the picture FILE.png is beside it")
         ->required();
     app.add_option("--seed", options.seed, "of all simulated errors");
+    app.add_option("--within", options.within_m,
+                   "metres: what is farther off is not drawn; more where lanes keep far from walls")
+        ->check(CLI::Range(1.0, 100.0));
     app.add_option("--errors", options.errors,
                    "how well the simulated machines and floor are kept: nominal, kind, harsh")
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));

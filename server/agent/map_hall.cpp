@@ -28,6 +28,8 @@ constexpr double kStep_s = 0.05;
 // Scans farther apart leave gaps behind things, nearer ones tell nothing new.
 constexpr double kEvery_m = 0.3;
 constexpr double kEvery_rad = 0.1;
+// From far away it draws only behind codes, where it knows well how it is turned.
+constexpr double kSharp_m = 0.02;
 
 using Lanes = std::map<plant::NodeId, std::set<plant::NodeId>>;
 
@@ -53,23 +55,42 @@ void append_drive(std::vector<Segment>& way, Pose2& at, Point2 target) {
     at = way.back().end;
 }
 
-/// Depth first: each lane once there and once back, or across where it closes a ring.
-void append_lanes(const plant::Plant& plant, const Lanes& lanes, const plant::NodeId& node,
-                  std::set<std::pair<plant::NodeId, plant::NodeId>>& driven, Pose2& at,
-                  std::vector<Segment>& way) {
-    const Point2 here = plant::find_node(plant, node)->position;
-    for (const plant::NodeId& next : lanes.at(node)) {
-        if (!driven.insert(std::minmax(node, next)).second) continue;
-        append_drive(way, at, plant::find_node(plant, next)->position);
-        append_lanes(plant, lanes, next, driven, at, way);
-        append_drive(way, at, here);
+/// A way over lanes as it grows.
+struct LaneWay {
+    const plant::Plant& plant;
+    const Lanes lanes;
+    const plant::VehicleType* turns_as;
+    std::set<std::pair<plant::NodeId, plant::NodeId>> driven = {};
+    Pose2 at = {};
+    std::vector<Segment> way = {};
+
+    void drive_to(const plant::NodeId& node) {
+        append_drive(way, at, plant::find_node(plant, node)->position);
+        for (const auto& station : plant.stations) {
+            if (turns_as == nullptr || station.node != node) continue;
+            const auto& types = station.vehicle_types;
+            if (!types.empty() && std::ranges::find(types, turns_as->id) == types.end()) continue;
+            kinematics::append_turn(
+                way, at, kinematics::shortest_turn_rad(at.heading_rad, station.pose.heading_rad));
+            at.heading_rad = station.pose.heading_rad;
+        }
     }
-}
+
+    /// Depth first: each lane once there and once back, or across where it closes a ring.
+    void drive_lanes_of(const plant::NodeId& node) {
+        for (const plant::NodeId& next : lanes.at(node)) {
+            if (!driven.insert(std::minmax(node, next)).second) continue;
+            drive_to(next);
+            drive_lanes_of(next);
+            drive_to(node);
+        }
+    }
+};
 
 }  // namespace
 
 Result<std::vector<Segment>> way_over_lanes(const plant::Plant& plant, const plant::HallId& hall,
-                                            const Pose2& from) {
+                                            const Pose2& from, const plant::VehicleType* turns_as) {
     const Lanes lanes = lanes_of(plant, hall);
     if (lanes.empty()) {
         return fail(Errc::kInvalid, "no_lanes",
@@ -79,12 +100,10 @@ Result<std::vector<Segment>> way_over_lanes(const plant::Plant& plant, const pla
     const auto nearest = std::ranges::min_element(lanes, {}, [&](const auto& lane) {
         return distance(plant::find_node(plant, lane.first)->position, from.position());
     });
-    std::vector<Segment> way;
-    Pose2 at = from;
-    append_drive(way, at, plant::find_node(plant, nearest->first)->position);
-    std::set<std::pair<plant::NodeId, plant::NodeId>> driven;
-    append_lanes(plant, lanes, nearest->first, driven, at, way);
-    return way;
+    LaneWay over{.plant = plant, .lanes = lanes, .turns_as = turns_as, .at = from};
+    over.drive_to(nearest->first);
+    over.drive_lanes_of(nearest->first);
+    return over.way;
 }
 
 std::deque<vda5050::OrderEdge> edges_over(const plant::Plant& plant, const plant::HallId& hall,
@@ -109,7 +128,8 @@ std::deque<vda5050::OrderEdge> edges_over(const plant::Plant& plant, const plant
 Result<mapping::OccupancyMap> map_hall(const simulation::World& world,
                                        const plant::Vehicle& vehicle, const plant::HallId& hall,
                                        const std::vector<Segment>& way, std::uint64_t seed,
-                                       const std::function<void(double)>& progress) {
+                                       const std::function<void(double)>& progress,
+                                       double within_m) {
     const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
     const bool loaded = plant::is_loaded(vehicle);
     const Pose2 start = way.front().start;
@@ -122,7 +142,7 @@ Result<mapping::OccupancyMap> map_hall(const simulation::World& world,
 
     auto ahead = edges_over(world.plant, hall, plant::cameras_of(type, loaded), way);
     for (const Segment& segment : way) drive.append(segment);
-    mapping::MapBuilder builder(start);
+    mapping::MapBuilder builder(start, within_m);
     std::vector<control::Scan> scans;
     Pose2 taken;  // by the trail
     bool corrected = false;
@@ -148,9 +168,17 @@ Result<mapping::OccupancyMap> map_hall(const simulation::World& world,
         if (!first && norm(driven.position()) < kEvery_m &&
             std::abs(driven.heading_rad) < kEvery_rad)
             continue;
+        const bool is_blurred = estimate.sigma_heading_rad() * within_m > kSharp_m;
+        if (within_m > mapping::MapBuilder::kWithin_m && is_blurred && !first) continue;
         scanners.scan(scans);
-        builder.take(driven, onboard::way_covariance(driven, estimate.noise()), scans);
-        if (corrected) builder.stands_at(estimate.pose(), estimate.covariance());
+        const auto covariance = onboard::way_covariance(driven, estimate.noise());
+        if (corrected) {  // before it draws
+            builder.take(driven, covariance, {});
+            builder.stands_at(estimate.pose(), estimate.covariance());
+            builder.take({}, Eigen::Matrix3d::Zero(), scans);
+        } else {
+            builder.take(driven, covariance, scans);
+        }
         taken = watch.trail().driven();
         first = corrected = false;
     }

@@ -24,7 +24,7 @@ constexpr auto kLookInterval = Vehicle::Steady::duration(2s);
 // Pictures of standing vehicles may cost this share of the processor, all together.
 constexpr int kLookShare = 10;
 constexpr double kRounding = 1e-9;
-constexpr double kSeen_m = 30;  // a scanner's range and two long bodies
+constexpr double kSeen_m = 50;  // a scanner's range and two long bodies
 
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> chargers(const plant::Plant& plant) {

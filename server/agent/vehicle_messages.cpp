@@ -55,7 +55,9 @@ vda5050::StateMessage Vehicle::state() {
     state.fixes = estimate_.fixes().newest();
     state.cameras = sensing_.readings();
     const auto covariance = estimate_.covariance();
-    state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1));
+    // The pose said is what the drive steers by, which is led slowly to where it is known to be.
+    state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1)) +
+                              norm(estimate_.to_lead().position());
     state.localization_score = estimate_.score();
     return state;
 }

@@ -55,6 +55,11 @@ def scanners(footprint):
             {"name": "back right", "pose": pose(min(xs), min(ys), -3 * PI / 4)}]
 
 
+def far_sighted(kind):
+    """For halls whose walls are out of an UST-10LX's sight: with the figures of an UST-30LX, at its farthest."""
+    return {**kind, "scanners": [{**one, "range_m": 30, "sigma_m": 0.02, "most_error_m": 0.05} for one in kind["scanners"]]}
+
+
 def wheel(name, x, y, driven, steered, diameter):
     return {"name": name, "position": point(x, y), "driven": driven, "steered": steered, "diameter_m": diameter}
 
@@ -270,7 +275,7 @@ def pulse_line(folder):
     grid(folder, "pulse-line", 110, 45,
          [(x - 0.35, 0, x + 0.35, 0.6) for x in range(10, 110, 10)] +
          [(x - 0.35, 44.4, x + 0.35, 45) for x in range(10, 110, 10)])
-    p.types = [PLATFORM]
+    p.types = [far_sighted(PLATFORM)]
     for n, where in TANG.items():
         p.station(n, WORK[n], where, PLATFORM)
     p.area("pulse-line", "zone", "Pulse line", box(1, 3, 105, 40))
@@ -362,7 +367,7 @@ def final_assembly(folder):
     for y in (10, 40, 50):
         columns += [(0, y - 0.35, 0.6, y + 0.35), (119.4, y - 0.35, 120, y + 0.35)]
     grid(folder, "final-assembly", 120, 60, columns)
-    p.types = [PLATFORM, MEASURING, OMNI, DELIVERY]
+    p.types = [far_sighted(kind) for kind in (PLATFORM, MEASURING, OMNI, DELIVERY)]
     small = [MEASURING, OMNI, DELIVERY]
 
     # A: the pulse line

@@ -15,8 +15,8 @@ constexpr double kLead_mps = 0.05;
 constexpr double kRest_m = 0.005;
 constexpr double kRest_rad = 0.002;
 // What a person errs by; where senses contradict by more, somebody has to look.
-constexpr double kErrs_m = 0.15;
-constexpr double kErrs_rad = 0.12;
+constexpr double kErrs_m = 0.2;
+constexpr double kErrs_rad = 0.175;
 constexpr double kLead_radps = 0.02;
 
 }  // namespace

@@ -65,6 +65,8 @@ public:
     const localisation::OdometryNoise& noise() const { return noise_; }
     /// Where it is now; the drive may believe something else until it was led there.
     geometry::Pose2 pose() const { return filter_.pose() * (inverse(driven_) * now_); }
+    /// From where the drive believes to be to there, seen from the body: it is led slowly.
+    geometry::Pose2 to_lead() const { return inverse(now_) * pose(); }
     /// Of x_m, y_m, heading_rad in the hall frame.
     Eigen::Matrix3d covariance() const;
     double sigma_xy_m() const;  // the worse direction

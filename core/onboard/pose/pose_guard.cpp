@@ -20,8 +20,10 @@ PoseGuard::PoseGuard(const plant::VehicleType& type, bool loaded) {
 }
 
 double PoseGuard::reach_m(const PoseEstimate& estimate) const {
-    return kReachSigmas *
-           std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+    const double unknown_m =
+        kReachSigmas * std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+    const auto to_lead = estimate.to_lead();
+    return unknown_m + norm(to_lead.position()) + radius_m_ * std::abs(to_lead.heading_rad);
 }
 
 PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, bool driving) {

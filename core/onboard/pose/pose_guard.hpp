@@ -25,7 +25,8 @@ public:
     enum class Advice { kDrive, kDriveSlowly, kLookAround, kAsk };
     /// `driving`: it has a way to drive. Who has none stays what it is, however little it knows.
     Advice step(double dt_s, const PoseEstimate& estimate, bool driving);
-    /// Three sigma of the point of the body that is known worst.
+    /// Three sigma of the point of the body that is known worst, and what the drive, which steers
+    /// by its own belief, has still to be led there.
     double reach_m(const PoseEstimate& estimate) const;
 
 private:

@@ -1,7 +1,10 @@
 #include "core/simulation/world/scanners.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+
+#include "core/plant/grid_blocks.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -10,7 +13,10 @@ using geometry::Polygon;
 
 std::vector<Polygon> standing_things(const World& world, const plant::HallId& id) {
     std::vector<Polygon> things;
-    if (const auto* hall = plant::find_hall(world.plant, id)) things.push_back(hall->outline);
+    if (const auto* hall = plant::find_hall(world.plant, id)) {
+        things.push_back(hall->outline);
+        std::ranges::move(plant::grid_blocks(*hall), std::back_inserter(things));
+    }
     for (const auto& area : world.plant.areas) {
         if (area.hall == id && area.kind == plant::AreaKind::kObstacle) {
             things.push_back(area.outline);

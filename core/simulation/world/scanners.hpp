@@ -11,8 +11,8 @@
 
 namespace pulseline::simulation {
 
-/// The scanners of a vehicle's type, which see the walls and obstacles of its hall, what
-/// put() places and the vehicles around.
+/// The scanners of a vehicle's type, which see the walls, columns (of its grid) and obstacles of
+/// its hall, what put() places and the vehicles around.
 class SimulatedScanners : public onboard::Scanners {
 public:
     /// `true_pose`: where the vehicle truly stands; must outlive it.

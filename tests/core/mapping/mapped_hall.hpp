@@ -44,9 +44,10 @@ inline Eigen::Matrix3d sigmas(double place_m, double heading_rad) {
 /// The scanners of a vehicle that is put where it shall stand.
 class Scanning {
 public:
-    explicit Scanning(std::uint64_t seed, plant::Plant plant = hall_with_jigs())
+    explicit Scanning(std::uint64_t seed, plant::Plant plant = hall_with_jigs(),
+                      const plant::VehicleType& type = pulseline::testing::mecanum())
         : world(simulation::make_world(std::move(plant), seed)),
-          scanners(world, plant::HallId("hall"), pulseline::testing::mecanum(), pose, seed) {}
+          scanners(world, plant::HallId("hall"), type, pose, seed) {}
 
     const std::vector<control::Scan>& from(const Pose2& place) {
         pose = place;

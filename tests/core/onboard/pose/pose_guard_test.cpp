@@ -60,6 +60,26 @@ TEST(PoseGuard, ALongLoadReachesFarther) {
     EXPECT_LT(loaded.stand_m, empty.stand_m);
 }
 
+/// Where walls have told it a moment ago, its drive believes what a person said still.
+TEST(PoseGuard, ItStandsUntilItsDriveBelievesWhatItKnows) {
+    const auto type = pulseline::testing::platform();
+    PoseEstimate estimate{geometry::Pose2{}, noise(type)};
+    estimate.start_at({});
+    localisation::BeaconFix seen;
+    seen.fix.method = localisation::Method::kContours;
+    seen.fix.pose = {0.05, -0.02, radians(5)};
+    seen.fix.covariance = {{{1e-6, 0, 0}, {0, 1e-6, 0}, {0, 0, 1e-8}}};
+    ASSERT_TRUE(estimate.see(seen));
+    PoseGuard guard(type, false);
+    EXPECT_NEAR(norm(estimate.to_lead().position()), 0.054, 0.003);
+    EXPECT_GT(guard.reach_m(estimate), 0.4) << "its ends, 5.4 m from its middle";
+    EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kLookAround);
+
+    estimate.led_to(estimate.pose());
+    EXPECT_LT(norm(estimate.to_lead().position()), 1e-12);
+    EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kDrive);
+}
+
 TEST(PoseGuard, FromWhereAPersonPointsToItLooksAroundAndThenAsks) {
     const auto type = pulseline::testing::differential();
     PoseEstimate estimate{geometry::Pose2{}, noise(type)};
