@@ -22,10 +22,12 @@ using geometry::Pose2;
 
 // Of one ray's end from what it met: the scanner's noise and half a cell.
 constexpr float kRaySigma_m = 0.04F;
-constexpr float kWithin_m = 0.3F;      // farther off something else was met
-constexpr float kByChance = 0.2F;      // of all rays, on what is not in the map
-constexpr std::size_t kEveryRay = 12;  // of a scan: neighbours tell the same
-constexpr std::size_t kNextRays = 5;   // of the next look, on from those of the one before
+constexpr float kWithin_m = 0.3F;  // farther off something else was met
+constexpr float kByChance = 0.2F;  // of all rays, on what is not in the map
+// Of a scan: neighbours tell the same. Where the place is known roughly, more: 20 m away the rays
+// are 1 m apart, and between them one does not see where a column ends.
+constexpr std::size_t kEveryRay = 12;
+constexpr std::size_t kEveryRayRoughly = 3;
 constexpr double kNothing = 1e4;
 // Around a ray's end, what stands there shows which way it lies: so far that a wall that the map
 // has in three rows of cells is still one.
@@ -182,7 +184,7 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
 struct MonteCarlo::Particles {
     std::shared_ptr<const MatchedMap> map;
     ParticleCloud cloud;
-    std::size_t looks = 0;
+    std::size_t rough_looks = 0;  // each by other rays
 };
 
 MonteCarlo::MonteCarlo(std::shared_ptr<const MatchedMap> map, std::uint64_t seed)
@@ -198,8 +200,9 @@ struct Outcome {
     geometry::Pose2 about;
     Eigen::Matrix3d looked_around;  // covariance that they were drawn with
     geometry::Pose2 mean;
-    Eigen::Matrix3d information;           // inverse covariance of what the rays tell
-    Eigen::Matrix3d by_particles;          // the same, as the particles have it
+    Eigen::Matrix3d information;  // inverse covariance of what the rays tell
+    /// The same as the particles have it, where these are many.
+    std::optional<Eigen::Matrix3d> by_particles;
     std::vector<Eigen::Vector3d> by_wall;  // how they answer to one sigma of each wall's own error
     Eigen::Matrix3d of_map;                // what all of it is off, covariance
 };
@@ -218,9 +221,9 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     const Eigen::Matrix3d drawn = directions.transpose() * by.looked_around.inverse() * directions;
     const Eigen::Matrix3d map = to_sphere * by.of_map * to_sphere.transpose();
     Eigen::Vector3d gain = worth.eigenvalues();
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; by.by_particles && i < 3; ++i) {
         // A column before a wall has corners, which tell little where rays are far apart.
-        const double seen = directions.col(i).dot(by.by_particles * directions.col(i));
+        const double seen = directions.col(i).dot(*by.by_particles * directions.col(i));
         gain[i] = std::min(gain[i], std::max(seen, 0.0));
     }
     Eigen::Vector3d of_walls = Eigen::Vector3d::Zero();
@@ -263,16 +266,17 @@ Pose2 moved(const Pose2& pose, Point2 by) {
     return {pose.x_m + by.x_m, pose.y_m + by.y_m, pose.heading_rad};
 }
 
-/// Some of the rays, evenly, from `first` on.
-std::vector<control::Scan> thinned(const std::vector<control::Scan>& scans, std::size_t first) {
+/// Every so many rays of each scan, from `first` on.
+std::vector<control::Scan> thinned(const std::vector<control::Scan>& scans, std::size_t every,
+                                   std::size_t first) {
     std::vector<control::Scan> thin;
     for (const control::Scan& scan : scans) {
         thin.push_back({scan.body_from_sensor,
                         scan.first_rad + static_cast<double>(first) * scan.step_rad,
-                        kEveryRay * scan.step_rad,
+                        static_cast<double>(every) * scan.step_rad,
                         {},
                         scan.blind});
-        for (std::size_t i = first; i < scan.ranges_m.size(); i += kEveryRay) {
+        for (std::size_t i = first; i < scan.ranges_m.size(); i += every) {
             thin.back().ranges_m.push_back(scan.ranges_m[i]);
         }
     }
@@ -295,8 +299,9 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
                                   const std::vector<control::Scan>& scans) {
     const Eigen::Matrix3d drawn = covariance + around;
     const MatchedMap& map = *particles_->map;
-    // Others each time: between two of them a column 20 m away is not seen at all.
-    const auto rays = thinned(scans, kNextRays * particles_->looks++ % kEveryRay);
+    const bool well_known = ParticleCloud::is_well_known(drawn);
+    const std::size_t every = well_known ? kEveryRay : kEveryRayRoughly;
+    const auto rays = thinned(scans, every, well_known ? 0 : particles_->rough_looks++ % every);
     const Point2 corner = map.map.corner;
     const auto told = particles_->cloud.look({moved(about, -1.0 * corner), drawn}, rays);
     const Pose2 mean = moved(told.mean, corner);
@@ -312,13 +317,15 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
         if (const auto& met = map.met_at(end)) surfaces.add(*met, by_pose(mean, end));
     });
     const double one_ray = told.power / square(kRaySigma_m);
-    Outcome outcome{about,
-                    drawn,
-                    mean,
-                    one_ray * surfaces.information(),
-                    told.covariance.inverse() - drawn.inverse(),
-                    surfaces.answers(),
-                    of_map};
+    Outcome outcome{
+        about,
+        drawn,
+        mean,
+        one_ray * surfaces.information(),
+        well_known ? std::nullopt
+                   : std::optional<Eigen::Matrix3d>(told.covariance.inverse() - drawn.inverse()),
+        surfaces.answers(),
+        of_map};
     for (auto& wall : outcome.by_wall) wall *= one_ray * kInCell * map.map.cell_m;
     look.news = read_backwards(outcome, covariance);
     look.check = read_backwards(outcome, drawn);

@@ -18,7 +18,7 @@ using geometry::Pose2;
 
 // Particles, where the place is known well and where it is not.
 constexpr unsigned kFewest = 600;
-constexpr unsigned kMost = 2000;
+constexpr unsigned kMost = 1000;
 constexpr double kWellKnown_m = 0.04;
 constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
@@ -49,11 +49,6 @@ double carrying(const std::vector<double>& weights) {
     return 1 / squares;
 }
 
-bool is_well_known(const Eigen::Matrix3d& covariance) {
-    return covariance(0, 0) + covariance(1, 1) < 2 * square(kWellKnown_m) &&
-           covariance(2, 2) < square(kWellKnown_rad);
-}
-
 }  // namespace
 
 ParticleCloud::ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_t seed)
@@ -62,6 +57,11 @@ ParticleCloud::ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_
     filter_.m_options.adaptiveSampleSize = false;
     filter_.m_options.BETA = 0;  // their weights are read, so that none are drawn again
     cloud_.options.metricMap = std::move(grid);
+}
+
+bool ParticleCloud::is_well_known(const Eigen::Matrix3d& covariance) {
+    return covariance(0, 0) + covariance(1, 1) < 2 * square(kWellKnown_m) &&
+           covariance(2, 2) < square(kWellKnown_rad);
 }
 
 ParticleCloud::Told ParticleCloud::look(const Around& prior,

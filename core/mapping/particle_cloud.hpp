@@ -26,6 +26,8 @@ struct Around {
 class ParticleCloud {
 public:
     ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_t seed);
+    /// Whether few particles and few rays are enough.
+    static bool is_well_known(const Eigen::Matrix3d& covariance);
 
     struct Told {
         geometry::Pose2 mean;
