@@ -37,6 +37,8 @@ constexpr double kLine = 0.15;
 constexpr int kNear_cells = 2;
 constexpr int kThick_cells = 4;  // of a wall, at most
 constexpr std::uint8_t kFreeFrom = 192;
+// What a look tells, read backwards, of what was known before: of less the particles tell chance.
+constexpr double kLeastWorth = 0.25;
 // One sigma of where in its cells a wall lies.
 const double kInCell = 1 / std::sqrt(12.0);
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
@@ -208,7 +210,7 @@ struct Outcome {
 };
 
 /// Bayes' rule, read backwards: what took the place from where the particles were drawn to their
-/// mean. Only in directions that are known better by it than with covariance `known`.
+/// mean. Only in directions in which the map is better than what was `known`, a covariance.
 MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known) {
     const Eigen::Matrix3d root = known.llt().matrixL();
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> worth(root.transpose() * by.information *
@@ -233,24 +235,25 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     const Eigen::Vector3d off = (drawn + Eigen::Matrix3d(gain.asDiagonal())) * to_sphere * moved;
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     Eigen::Vector3d variance = Eigen::Vector3d::Constant(kNothing);
-    Eigen::Vector3d of_told = Eigen::Vector3d::Zero();
+    Eigen::Vector3d of_map = Eigen::Vector3d::Zero();
     MonteCarlo::Told told;
     told.everything = true;
     for (int i = 0; i < 3; ++i) {
-        const double off2 =
-            gain[i] > 0 ? 1 / gain[i] + of_walls[i] / square(gain[i]) + map(i, i) : kNothing;
-        if (off2 > 1) {
+        const double off_by_map =
+            gain[i] > 0 ? of_walls[i] / square(gain[i]) + map(i, i) : kNothing;
+        if (off_by_map > 1 || gain[i] < kLeastWorth) {
             told.everything = false;
             continue;
         }
         place[i] = off[i] / gain[i];
-        variance[i] = of_told[i] = off2;
+        of_map[i] = off_by_map;
+        variance[i] = 1 / gain[i] + off_by_map;
         told.anything = true;
     }
     const Eigen::Vector3d at = directions * place;
     told.pose = {by.about.x_m + at[0], by.about.y_m + at[1], wrap(by.about.heading_rad + at[2])};
     told.covariance = directions * variance.asDiagonal() * directions.transpose();
-    told.of_told = directions * of_told.asDiagonal() * directions.transpose();
+    told.of_map = directions * of_map.asDiagonal() * directions.transpose();
     return told;
 }
 

@@ -33,7 +33,8 @@ public:
         bool everything = false;  // in all directions
         geometry::Pose2 pose;
         Eigen::Matrix3d covariance;  // huge in directions of which it tells nothing
-        Eigen::Matrix3d of_told;     // of the others alone: 0 in these
+        /// What of it the map is off, which looks from near there share; 0 where it tells nothing.
+        Eigen::Matrix3d of_map;
     };
     struct Look {
         Told news;        // in directions that it knows better than they were known before

@@ -17,17 +17,18 @@ namespace {
 using geometry::Pose2;
 
 // Particles, where the place is known well and where it is not.
-constexpr unsigned kFewest = 600;
+constexpr unsigned kFewest = 250;
 constexpr unsigned kMost = 1000;
 constexpr double kWellKnown_m = 0.04;
 constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
 // counts for less than it is worth and the next one begins nearer.
-constexpr double kCarry = 50;
+constexpr double kCarry = 35;
 constexpr double kLeastPower = 1e-4;
 // Where a person has pointed, rays end 2 m beside a wall 25 m away for its 5 deg, and few particles
 // see that it is there.
-constexpr int kRounds = 5;
+constexpr int kRounds = 3;
+constexpr int kRoundsRoughly = 5;
 constexpr int kFiner = 4;       // halvings of what a ray counts: a little more leaves too few
 constexpr double kWider = 1.5;  // than those that carry weight: they are few
 // One sigma at least, should one of them carry all.
@@ -67,7 +68,7 @@ bool ParticleCloud::is_well_known(const Eigen::Matrix3d& covariance) {
 ParticleCloud::Told ParticleCloud::look(const Around& prior,
                                         const std::vector<control::Scan>& rays) {
     const bool well_known = is_well_known(prior.covariance);
-    const int rounds = well_known ? 1 : kRounds;
+    const int rounds = well_known ? kRounds : kRoundsRoughly;
     Told told;
     Around drawn = prior;
     for (int round = 0; round < rounds && told.power < 1; ++round) {

@@ -78,6 +78,9 @@ public:
     /// What the vehicle has learned of its small moves, to be kept for its next start.
     const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
+    /// `held`: standing with nothing to drive, it begins no way, since its drive has still to be
+    /// led to the pose that it knows.
+    void hold(bool held) { held_ = held; }
     /// Codes read under way: the result of observeMarkers on the edge being driven.
     void note_codes(const std::vector<std::string>& payloads);
 
@@ -139,6 +142,7 @@ private:
     bool cancelled_ = false;
     bool paused_ = false;
     bool in_hand_ = false;
+    bool held_ = false;
 
     std::vector<vda5050::ActionState> order_actions_;
     std::vector<vda5050::ActionState> instant_actions_;

@@ -75,11 +75,13 @@ void Vehicle::log_refused() const {
     server::log::warn("code.refused", fields);
 }
 
-/// At a stop the procedure leads.
+/// At a stop the procedure leads. An order may come when its place was told a moment ago: it
+/// begins when the drive believes what is known since.
 void Vehicle::lead_at_rest(double dt_s) {
     const bool rests = drive_->idle() && drive_->standing() && !executor_.acting() &&
-                       !executor_.in_hand() && executor_.way_ahead().empty();
-    if (rests && executor_.position_initialized()) watch_.lead_at_rest(dt_s);
+                       !executor_.in_hand() && executor_.position_initialized();
+    if (rests) watch_.lead_at_rest(dt_s);
+    executor_.hold(rests && guard_ && watch_.has_to_lead() && guard_->should_be_led(estimate_));
 }
 
 /// By what the scanners see, the codes that it missed, how well it knows where it is and whether

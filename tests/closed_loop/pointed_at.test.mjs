@@ -42,7 +42,7 @@ for (const [plant, starts] of Object.entries(HALLS)) {
         const away = random() * 2 * Math.PI, turned = (random() < 0.5 ? 1 : -1) * PERSON_DEG * DEG;
         await client.post(`/api/v1/vehicles/${id}/init-position`, { x_m: at.x_m + PERSON_M * Math.cos(away), y_m: at.y_m + PERSON_M * Math.sin(away), heading_rad: at.heading_rad + turned });
       }
-      const found = await client.untilVehicle(id, (v) => v.pose_known && v.navigation?.by !== "person" && v.pose_deviation_m < DRIVES_M && Math.abs(angleBetween(v.pose.heading_rad, at.heading_rad)) < FOUND_DEG * DEG, "finds itself from there");
+      const found = await client.untilVehicle(id, (v) => v.pose_known && (first.pose_known || v.fixes.some(({ by }) => by === "person")) && v.navigation?.by !== "person" && v.pose_deviation_m < DRIVES_M && Math.abs(angleBetween(v.pose.heading_rad, at.heading_rad)) < FOUND_DEG * DEG, "finds itself from there");
       assert.ok(wayBetween(found.pose, at) <= found.pose_deviation_m, `${id} is ${wayBetween(found.pose, at)} m off and holds it for ${found.pose_deviation_m} m at most, by ${found.navigation.by}`);
 
       const order = await client.order(id, [to]);

@@ -181,8 +181,8 @@ void ContourWatch::correct(const mapping::MonteCarlo::Look& look) {
     fix.fix.method = localisation::Method::kContours;
     // What is its own counts the less, the less of it is new.
     const double share = drive_.standing() ? 1 : news_share_;
-    set_covariance(fix.fix, told.covariance + (1 - kLasting) * (1 / share - 1) * told.of_told);
-    fix.lasting = localisation::rows(kLasting * told.of_told);
+    set_covariance(fix.fix, told.covariance + (1 - kLasting) * (1 / share - 1) * told.of_map);
+    fix.lasting = localisation::rows(kLasting * told.of_map);
     if (correction_.take(fix, 0, news) == BeaconCorrection::Taken::kBegunAnew) {
         begun_ = estimate_.begun();
     }

@@ -98,13 +98,16 @@ void MarkerWatch::take(const WayReading& reading) {
     }
 }
 
-void MarkerWatch::lead_at_rest(double dt_s) {
+bool MarkerWatch::has_to_lead() const {
     const Pose2 off = inverse(trail_.believed()) * estimate_.pose();
     const double off_m = norm(off.position());
     const double turned_rad = std::abs(off.heading_rad);
-    if (off_m < kRest_m && turned_rad < kRest_rad) return;
-    if (off_m > kErrs_m || turned_rad > kErrs_rad) return;
-    lead_drive(dt_s * drive_.time_factor());
+    if (off_m < kRest_m && turned_rad < kRest_rad) return false;
+    return off_m <= kErrs_m && turned_rad <= kErrs_rad;
+}
+
+void MarkerWatch::lead_at_rest(double dt_s) {
+    if (has_to_lead()) lead_drive(dt_s * drive_.time_factor());
 }
 
 void MarkerWatch::lead_drive(double own_s) {

@@ -30,6 +30,8 @@ public:
     /// Where it stands with nothing to do, what is known better by now is taken on, too, so that it
     /// tells the pose that it knows; no more than a person errs by. After each such step.
     void lead_at_rest(double dt_s);
+    /// Whether it would, and is not done.
+    bool has_to_lead() const;
 
     /// A code comes into view soon, so that longer steps would pass it unseen: of the vehicle's own
     /// time, at most. A frame of its cameras.

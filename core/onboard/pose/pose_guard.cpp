@@ -10,6 +10,7 @@ constexpr double kReachSigmas = 3;
 // Of what is held; the rest of it is for braking.
 constexpr double kSlowFrom = 0.75;
 constexpr double kStandFrom = 0.97;
+constexpr double kLedBefore = 0.5;
 
 }  // namespace
 
@@ -22,8 +23,16 @@ PoseGuard::PoseGuard(const plant::VehicleType& type, bool loaded) {
 double PoseGuard::reach_m(const PoseEstimate& estimate) const {
     const double unknown_m =
         kReachSigmas * std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+    return unknown_m + to_lead_m(estimate);
+}
+
+double PoseGuard::to_lead_m(const PoseEstimate& estimate) const {
     const auto to_lead = estimate.to_lead();
-    return unknown_m + norm(to_lead.position()) + radius_m_ * std::abs(to_lead.heading_rad);
+    return norm(to_lead.position()) + radius_m_ * std::abs(to_lead.heading_rad);
+}
+
+bool PoseGuard::should_be_led(const PoseEstimate& estimate) const {
+    return to_lead_m(estimate) > kLedBefore * kHeld_m;
 }
 
 PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, bool driving) {

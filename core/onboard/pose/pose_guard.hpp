@@ -28,8 +28,12 @@ public:
     /// Three sigma of the point of the body that is known worst, and what the drive, which steers
     /// by its own belief, has still to be led there.
     double reach_m(const PoseEstimate& estimate) const;
+    /// Of that, what the drive has to be led: so much that it should be before a way begins.
+    bool should_be_led(const PoseEstimate& estimate) const;
 
 private:
+    double to_lead_m(const PoseEstimate& estimate) const;
+
     double radius_m_ = 0;  // of the body, around its origin
     double looked_s_ = 0;
 };

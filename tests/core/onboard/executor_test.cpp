@@ -19,6 +19,21 @@ TEST_F(ExecutorTest, StopsAtTheEndOfTheBaseAndAsksForMore) {
     EXPECT_TRUE(now.new_base_request);
 }
 
+TEST_F(ExecutorTest, HeldWhereItStandsItBeginsNoWayAndOnItsWayItDrivesOn) {
+    executor.hold(true);
+    executor.handle(order("a", 4, 2));
+    run(5);
+    EXPECT_TRUE(motion.idle());
+    EXPECT_EQ(furthest_x, 0);
+
+    executor.hold(false);
+    run(1);
+    EXPECT_FALSE(motion.standing());
+    executor.hold(true);
+    run(60);
+    EXPECT_NEAR(furthest_x, 2, 1e-5);
+}
+
 TEST_F(ExecutorTest, DrivesOnWithoutStoppingWhenTheBaseGrowsInTime) {
     executor.handle(order("a", 4, 2));
     while (motion.believed_pose().x_m < 1) run(kStep_s);

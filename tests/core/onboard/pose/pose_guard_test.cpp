@@ -74,9 +74,11 @@ TEST(PoseGuard, ItStandsUntilItsDriveBelievesWhatItKnows) {
     EXPECT_NEAR(norm(estimate.to_lead().position()), 0.054, 0.003);
     EXPECT_GT(guard.reach_m(estimate), 0.4) << "its ends, 5.4 m from its middle";
     EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kLookAround);
+    EXPECT_TRUE(guard.should_be_led(estimate));
 
     estimate.led_to(estimate.pose());
     EXPECT_LT(norm(estimate.to_lead().position()), 1e-12);
+    EXPECT_FALSE(guard.should_be_led(estimate));
     EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kDrive);
 }
 
