@@ -37,8 +37,8 @@ public:
         Eigen::Matrix3d of_map;
     };
     struct Look {
-        Told news;        // in directions that it knows better than they were known before
-        Told check;       // in all that it knows better than it had to look around
+        Told news;        // in directions in which the map is better than what was known before
+        Told check;       // in all in which it is better than how wide it had to look around
         int returns = 0;  // rays that met something
         /// Of them, how many ended where the map has something: the others met what is not in it.
         double explained = 0;

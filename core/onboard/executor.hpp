@@ -78,8 +78,8 @@ public:
     /// What the vehicle has learned of its small moves, to be kept for its next start.
     const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
-    /// `held`: standing with nothing to drive, it begins no way, since its drive has still to be
-    /// led to the pose that it knows.
+    /// While `held` it begins no way where it stands, since its drive has still to be led to the
+    /// pose that it knows: some seconds after a person's word. On its way it drives on.
     void hold(bool held) { held_ = held; }
     /// Codes read under way: the result of observeMarkers on the edge being driven.
     void note_codes(const std::vector<std::string>& payloads);

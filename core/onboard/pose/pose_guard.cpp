@@ -10,6 +10,7 @@ constexpr double kReachSigmas = 3;
 // Of what is held; the rest of it is for braking.
 constexpr double kSlowFrom = 0.75;
 constexpr double kStandFrom = 0.97;
+// Of what is held: by no more may the drive have to be led when a way begins.
 constexpr double kLedBefore = 0.5;
 
 }  // namespace

@@ -28,7 +28,8 @@ public:
     /// Three sigma of the point of the body that is known worst, and what the drive, which steers
     /// by its own belief, has still to be led there.
     double reach_m(const PoseEstimate& estimate) const;
-    /// Of that, what the drive has to be led: so much that it should be before a way begins.
+    /// Whether the drive has to be led so far that this should be done before a way begins: on its
+    /// way it would stand and look around, where nobody leads it.
     bool should_be_led(const PoseEstimate& estimate) const;
 
 private:
