@@ -17,13 +17,13 @@ namespace {
 using geometry::Pose2;
 
 // Particles, where the place is known well and where it is not.
-constexpr unsigned kFewest = 250;
-constexpr unsigned kMost = 1000;
+constexpr unsigned kFewest = 180;
+constexpr unsigned kMost = 700;
 constexpr double kWellKnown_m = 0.04;
 constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
 // counts for less than it is worth and the next one begins nearer.
-constexpr double kCarry = 35;
+constexpr double kCarry = 28;
 constexpr double kLeastPower = 1e-4;
 // Where a person has pointed, rays end 2 m beside a wall 25 m away for its 5 deg, and few particles
 // see that it is there.

@@ -4,12 +4,12 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { Client } from "../harness/client.mjs";
+import { Client, angleBetween } from "../harness/client.mjs";
 import { ROOT, System, until } from "../harness/processes.mjs";
 import { pick, randomOf } from "../harness/random.mjs";
 
 const ROUNDS = Number(process.env.PULSELINE_STARTS ?? 2), FACTOR = 8, LOOKS_S = 30, DEG = Math.PI / 180;
-const PERSON_M = 0.1, PERSON_DEG = 5;
+const PERSON_M = 0.1, PERSON_DEG = 5, FOUND_DEG = 0.5;
 const CELLS = { origin: -0.1, resolution: 0.1 }; // final-assembly.yaml
 
 const wayBetween = (a, b) => Math.hypot(a.x_m - b.x_m, a.y_m - b.y_m);
@@ -75,6 +75,12 @@ function holds(said, truth) {
   assert.ok(off_m <= said.pose_deviation_m, `${said.id} is ${off_m} m off and holds it for ${said.pose_deviation_m} m at most, by ${said.navigation?.by}; truth ${JSON.stringify(truth)}`);
 }
 
+/** Found: its heading, too, of which it says no sigma. */
+function isTurnedRight(said, truth) {
+  const off_deg = Math.abs(angleBetween(said.pose.heading_rad, truth.heading_rad)) / DEG;
+  assert.ok(off_deg < FOUND_DEG, `${said.id} holds itself to be turned ${off_deg} deg otherwise, by ${said.navigation?.by}`);
+}
+
 for (let round = 1; round <= ROUNDS; ++round) {
   test(`twelve vehicles switched on somewhere, round ${round}: each finds itself or asks, and knows how well it knows`, async (t) => {
     const system = await System.create("final-assembly");
@@ -97,6 +103,7 @@ for (let round = 1; round <= ROUNDS; ++round) {
       const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || (v.reason?.code === "pose_unknown" && lookedAround(begun_ms))), "finds itself or asks");
       if (first.pose_known) {
         holds(first, at);
+        isTurnedRight(first, at);
         ++done.itself;
         how.add("itself");
         continue;
@@ -115,6 +122,7 @@ for (let round = 1; round <= ROUNDS; ++round) {
       if (!said.pose_known) continue; // what it sees is not what a map has there: it asks again
       holds(said, at);
       if (said.navigation?.by === "person" || said.pose_deviation_m >= PERSON_M) continue;
+      isTurnedRight(said, at);
       ++done.found;
       if (said.navigation?.by !== "contours") continue;
       ++done.byWalls;
