@@ -27,7 +27,7 @@ constexpr float kByChance = 0.2F;  // of all rays, on what is not in the map
 // Of a scan: neighbours tell the same. Where the place is known roughly, more: 20 m away the rays
 // are 1 m apart, and between them one does not see where a column ends.
 constexpr std::size_t kEveryRay = 12;
-constexpr std::size_t kEveryRayRoughly = 4;
+constexpr std::size_t kEveryRayRoughly = 6;
 constexpr double kNothing = 1e4;
 // Around a ray's end, what stands there shows which way it lies: so far that a wall that the map
 // has in three rows of cells is still one.

@@ -18,7 +18,7 @@ using geometry::Pose2;
 
 // Particles, where the place is known well and where it is not.
 constexpr unsigned kFewest = 180;
-constexpr unsigned kMost = 700;
+constexpr unsigned kMost = 600;
 constexpr double kWellKnown_m = 0.04;
 constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
@@ -28,7 +28,7 @@ constexpr double kLeastPower = 1e-4;
 // Where a person has pointed, rays end 2 m beside a wall 25 m away for its 5 deg, and few particles
 // see that it is there.
 constexpr int kRounds = 3;
-constexpr int kRoundsRoughly = 5;
+constexpr int kRoundsRoughly = 4;
 constexpr int kFiner = 4;       // halvings of what a ray counts: a little more leaves too few
 constexpr double kWider = 1.5;  // than those that carry weight: they are few
 // One sigma at least, should one of them carry all.
