@@ -39,6 +39,9 @@ constexpr int kThick_cells = 4;  // of a wall, at most
 constexpr std::uint8_t kFreeFrom = 192;
 // What a look tells, read backwards, of what was known before: of less the particles tell chance.
 constexpr double kLeastWorth = 0.25;
+// Where the place is known roughly, how far n particles may have the spread too small by chance:
+// sigmas of sqrt(2 / n).
+constexpr double kChanceSigmas = 1.5;
 // One sigma of where in its cells a wall lies.
 const double kInCell = 1 / std::sqrt(12.0);
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
@@ -202,9 +205,9 @@ struct Outcome {
     geometry::Pose2 about;
     Eigen::Matrix3d looked_around;  // covariance that they were drawn with
     geometry::Pose2 mean;
-    Eigen::Matrix3d information;  // inverse covariance of what the rays tell
-    /// The same as the particles have it, where these are many.
-    std::optional<Eigen::Matrix3d> by_particles;
+    double particles = 0;                  // that carried weight
+    Eigen::Matrix3d information;           // inverse covariance of what the rays tell
+    Eigen::Matrix3d by_particles;          // the same as these have it
     std::vector<Eigen::Vector3d> by_wall;  // how they answer to one sigma of each wall's own error
     Eigen::Matrix3d of_map;                // what all of it is off, covariance
 };
@@ -223,9 +226,9 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
     const Eigen::Matrix3d drawn = directions.transpose() * by.looked_around.inverse() * directions;
     const Eigen::Matrix3d map = to_sphere * by.of_map * to_sphere.transpose();
     Eigen::Vector3d gain = worth.eigenvalues();
-    for (int i = 0; by.by_particles && i < 3; ++i) {
+    for (int i = 0; i < 3; ++i) {
         // A column before a wall has corners, which tell little where rays are far apart.
-        const double seen = directions.col(i).dot(*by.by_particles * directions.col(i));
+        const double seen = directions.col(i).dot(by.by_particles * directions.col(i));
         gain[i] = std::min(gain[i], std::max(seen, 0.0));
     }
     Eigen::Vector3d of_walls = Eigen::Vector3d::Zero();
@@ -247,7 +250,9 @@ MonteCarlo::Told read_backwards(const Outcome& by, const Eigen::Matrix3d& known)
         }
         place[i] = off[i] / gain[i];
         of_map[i] = off_by_map;
-        variance[i] = 1 / gain[i] + off_by_map;
+        // The mean of so many particles is off by chance, and more so read backwards.
+        const double chance = (drawn(i, i) + gain[i]) / (square(gain[i]) * by.particles);
+        variance[i] = 1 / gain[i] + chance + off_by_map;
         told.anything = true;
     }
     const Eigen::Vector3d at = directions * place;
@@ -295,6 +300,15 @@ void visit_ends(const Pose2& pose, const std::vector<control::Scan>& scans, Visi
     }
 }
 
+/// What the particles have learned, at least: few of them may lie near each other by chance
+/// (`sigmas` of it), and looks that were believed for it would add up to a place that nothing has
+/// told.
+Eigen::Matrix3d seen_by(const ParticleCloud::Told& told, const Eigen::Matrix3d& drawn,
+                        double sigmas) {
+    const double by_chance = 1 + sigmas * std::sqrt(2 / told.carrying);
+    return (by_chance * told.covariance).inverse() - drawn.inverse();
+}
+
 }  // namespace
 
 MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& covariance,
@@ -320,15 +334,14 @@ MonteCarlo::Look MonteCarlo::look(const Pose2& about, const Eigen::Matrix3d& cov
         if (const auto& met = map.met_at(end)) surfaces.add(*met, by_pose(mean, end));
     });
     const double one_ray = told.power / square(kRaySigma_m);
-    Outcome outcome{
-        about,
-        drawn,
-        mean,
-        one_ray * surfaces.information(),
-        well_known ? std::nullopt
-                   : std::optional<Eigen::Matrix3d>(told.covariance.inverse() - drawn.inverse()),
-        surfaces.answers(),
-        of_map};
+    Outcome outcome{about,
+                    drawn,
+                    mean,
+                    told.carrying,
+                    one_ray * surfaces.information(),
+                    seen_by(told, drawn, well_known ? 0 : kChanceSigmas),
+                    surfaces.answers(),
+                    of_map};
     for (auto& wall : outcome.by_wall) wall *= one_ray * kInCell * map.map.cell_m;
     look.news = read_backwards(outcome, covariance);
     look.check = read_backwards(outcome, drawn);

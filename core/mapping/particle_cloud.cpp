@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/square.hpp"
+#include "core/localisation/covariance.hpp"
 #include "core/mapping/mrpt_frames.hpp"
 
 namespace pulseline::mapping {
@@ -19,7 +20,7 @@ using geometry::Pose2;
 // Particles, where the place is known well and where it is not.
 constexpr unsigned kFewest = 180;
 constexpr unsigned kMost = 600;
-constexpr double kWellKnown_m = 0.04;
+constexpr double kWellKnown_m = 0.035;
 constexpr double kWellKnown_rad = 0.02;
 // That carry weight at least: with fewer, mean and covariance are chance, so that such a look
 // counts for less than it is worth and the next one begins nearer.
@@ -61,7 +62,7 @@ ParticleCloud::ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_
 }
 
 bool ParticleCloud::is_well_known(const Eigen::Matrix3d& covariance) {
-    return covariance(0, 0) + covariance(1, 1) < 2 * square(kWellKnown_m) &&
+    return localisation::worse_axis_m(covariance) < kWellKnown_m &&
            covariance(2, 2) < square(kWellKnown_rad);
 }
 
@@ -76,7 +77,7 @@ ParticleCloud::Told ParticleCloud::look(const Around& prior,
         weigh(rays);
         const auto [weights, power] = tempered(count_as(prior, drawn), well_known ? 0 : kFiner);
         drawn = gaussian_of(weights);
-        told = {drawn.about, drawn.covariance, power};
+        told = {drawn.about, drawn.covariance, power, carrying(weights)};
         drawn.covariance *= square(kWider);
         drawn.covariance.diagonal() +=
             Eigen::Vector3d(square(kLeast_m), square(kLeast_m), square(kLeast_rad));

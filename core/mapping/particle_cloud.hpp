@@ -32,7 +32,8 @@ public:
     struct Told {
         geometry::Pose2 mean;
         Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-        double power = 0;  // what one ray counted: 1, where enough particles see what it sees
+        double power = 0;     // what one ray counted: 1, where enough particles see what it sees
+        double carrying = 0;  // particles that carry weight: all of the above is known by so many
     };
     /// The mean of where it may stand, which was held to be `prior` before. Where that is known
     /// roughly it anneals: particles are drawn anew around those that carry weight, and count as if
