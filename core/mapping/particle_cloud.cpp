@@ -18,7 +18,7 @@ namespace {
 using geometry::Pose2;
 
 // Particles, where the place is known well and where it is not.
-constexpr unsigned kFewest = 180;
+constexpr unsigned kFewest = 300;
 constexpr unsigned kMost = 600;
 constexpr double kWellKnown_m = 0.035;
 constexpr double kWellKnown_rad = 0.02;

@@ -192,6 +192,10 @@ void Executor::queue_edges() {
     way_.hand_over();
 }
 
+bool Executor::waits_to_be_led() const {
+    return held_ && motion_.idle() && !way_.empty() && waiting_.empty() && !paused_;
+}
+
 bool Executor::may_go_round() const {
     const bool at_work = procedure_.running() || !waiting_.empty() || !cancel_id_.empty();
     return motion_.standing() && !motion_.stop_cause() && !way_.empty() && !at_work && !paused_ &&

@@ -81,6 +81,8 @@ public:
     /// While `held` it begins no way where it stands, since its drive has still to be led to the
     /// pose that it knows: some seconds after a person's word. On its way it drives on.
     void hold(bool held) { held_ = held; }
+    /// It would drive, were it not held.
+    bool waits_to_be_led() const;
     /// Codes read under way: the result of observeMarkers on the edge being driven.
     void note_codes(const std::vector<std::string>& payloads);
 

@@ -70,8 +70,16 @@ void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
     if (const auto& why_not = contours_->why_not()) status.why_not = why_not->reason.code;
 }
 
-/// That it knows too little where it is, and which sense leaves it alone.
+/// That it knows too little where it is, or has known it for a moment only, and which sense leaves
+/// it alone.
 void Vehicle::write_advice(vda5050::StateMessage& state) const {
+    if (executor_.waits_to_be_led()) {
+        state.errors.push_back({"poseTaken",
+                                false,
+                                "The vehicle knows a better place since a moment ago. It drives as "
+                                "soon as it steers by that, in some seconds.",
+                                {}});
+    }
     if (drive_->idle() || advice_ == onboard::PoseGuard::Advice::kDrive) return;
     using Lacks = onboard::ContourWatch::Lacks;
     const Lacks lacks = contours_ ? contours_->lacks() : Lacks::kNothing;

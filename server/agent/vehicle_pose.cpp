@@ -81,7 +81,9 @@ void Vehicle::lead_at_rest(double dt_s) {
     const bool rests = drive_->idle() && drive_->standing() && !executor_.acting() &&
                        !executor_.in_hand() && executor_.position_initialized();
     if (rests) watch_.lead_at_rest(dt_s);
+    const bool waited = executor_.waits_to_be_led();
     executor_.hold(rests && guard_ && watch_.has_to_lead() && guard_->should_be_led(estimate_));
+    state_due_ |= waited != executor_.waits_to_be_led();
 }
 
 /// By what the scanners see, the codes that it missed, how well it knows where it is and whether

@@ -10,6 +10,7 @@
 #include "core/geometry/polygon.hpp"
 #include "core/plant/grid_blocks.hpp"
 #include "tests/core/mapping/mapped_hall.hpp"
+#include "tests/core/mapping/wide_hall.hpp"
 
 namespace pulseline::mapping {
 namespace {
@@ -18,6 +19,7 @@ using geometry::Point2;
 using geometry::Pose2;
 using testing::Scanning;
 using testing::sigmas;
+using testing::wide_hall;
 
 const OccupancyMap& hall_map() {
     static const OccupancyMap kMap = testing::mapped();
@@ -72,57 +74,12 @@ struct Held {
     }
 };
 
-/// 60 m x 50 m and nothing but columns along two of its walls, with a margin for its map.
-plant::Plant wide_hall() {
-    plant::Plant plant;
-    plant::Hall hall;
-    hall.id = plant::HallId("hall");
-    hall.outline = {{0, 0}, {60, 0}, {60, 50}, {0, 50}};
-    hall.grid.resolution_m = 0.1;
-    hall.grid.width = 600;
-    hall.grid.height = 500;
-    hall.grid.occupied.assign(600 * 500, 0);
-    for (int row = 0; row < 500; ++row) {
-        if (row >= 6 && row < 494) continue;
-        for (int column = 0; column < 600; ++column) {
-            hall.grid.occupied[static_cast<std::size_t>(row) * 600 + column] = column % 100 < 7;
-        }
-    }
-    plant.halls = {hall};
-    return plant;
-}
-
-/// Its walls and columns where the drawing has them.
-OccupancyMap drawn(const plant::Hall& hall) {
-    OccupancyMap map;
-    map.corner = {-1, -1};
-    map.columns = 62 * 20;
-    map.rows = 52 * 20;
-    const auto stands = [&](Point2 place) {
-        const auto [column, row] = std::pair{static_cast<int>(std::floor(place.x_m * 10)),
-                                             static_cast<int>(std::floor(place.y_m * 10))};
-        return !geometry::contains(hall.outline, place) || hall.grid.is_occupied(column, row);
-    };
-    for (int row = 0; row < map.rows; ++row) {
-        for (int column = 0; column < map.columns; ++column) {
-            const Point2 middle = map.middle_of(column, row);
-            const auto [c, s] = std::pair{map.cell_m, map.cell_m};
-            const bool inside =
-                stands({middle.x_m + c, middle.y_m}) && stands({middle.x_m - c, middle.y_m}) &&
-                stands({middle.x_m, middle.y_m + s}) && stands({middle.x_m, middle.y_m - s});
-            map.free.push_back(!stands(middle) ? 255 : inside ? kNeverSeen : 0);
-        }
-    }
-    return map;
-}
-
 /// Walls and columns 20 m to 30 m away: half a step between rays is 5 cm there.
 TEST(MapBuilder, WhatItSeesFromAfarIsWhereTheDrawingHasIt) {
     const auto plant = wide_hall();
-    auto type = pulseline::testing::mecanum();
-    for (auto& scanner : type.scanners) scanner.range_m = 30;
+    const auto type = testing::sees_far();
     Scanning scanning(3, plant, type);
-    const Pose2 start{25, 25, 0};
+    const Pose2 start{-5, 0, 0};
     MapBuilder builder(start, 30);
     Pose2 at = start;
     builder.take({}, sigmas(1e-4, 1e-5), scanning.from(at));
@@ -155,14 +112,13 @@ TEST(MapBuilder, WhatItSeesFromAfarIsWhereTheDrawingHasIt) {
 /// A person errs by 5 deg: seen from there, a wall 25 m away ends 2 m beside where it stands.
 TEST(MonteCarlo, FarFromAllWallsNoLookIsLostFromADecimetreAndFiveDegreesOff) {
     const auto plant = wide_hall();
-    const auto map = prepare(drawn(plant.halls.front()));
-    auto type = pulseline::testing::mecanum();
-    for (auto& scanner : type.scanners) scanner.range_m = 30;
+    const auto map = prepare(testing::drawn(plant.halls.front()));
+    const auto type = testing::sees_far();
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         Scanning scanning(seed, plant, type);
         std::mt19937_64 random(seed);
-        std::uniform_real_distribution<double> x(20, 40);
-        std::uniform_real_distribution<double> y(22, 28);
+        std::uniform_real_distribution<double> x(-10, 10);
+        std::uniform_real_distribution<double> y(-3, 3);
         std::uniform_real_distribution<double> angle(-kPi, kPi);
         const Pose2 truth{x(random), y(random), angle(random)};
         const double away_rad = angle(random);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/core/mapping/mapped_hall.hpp"
+#include "tests/core/mapping/wide_hall.hpp"
 #include "tests/core/onboard/pose/straight_drive.hpp"
 
 namespace pulseline::onboard {
@@ -59,8 +60,9 @@ class Looking : public testing::StraightDrive {
 public:
     explicit Looking(std::uint64_t seed, const geometry::Pose2& true_pose = {},
                      plant::Plant plant = mapping::testing::hall_with_jigs(),
-                     std::shared_ptr<const mapping::MatchedMap> map = hall_map())
-        : StraightDrive(pulseline::testing::mecanum(), std::move(plant), true_pose, seed),
+                     std::shared_ptr<const mapping::MatchedMap> map = hall_map(),
+                     const plant::VehicleType& of = pulseline::testing::mecanum())
+        : StraightDrive(of, std::move(plant), true_pose, seed),
           scanners(world, plant::HallId("hall"), type, drive.true_pose(), seed),
           counted(scanners),
           contours(counted, drive, estimate, watch.trail(), std::move(map), seed) {}
@@ -118,6 +120,27 @@ TEST(ContourWatch, APersonsPlaceOf10CentimetresAnd5DegreesIsEnough) {
         EXPECT_LT(looking.off_m(), 4 * looking.estimate.sigma_xy_m()) << seed;
     }
     EXPECT_EQ(found, 20);
+}
+
+/// 25 m away rays are 0.1 m apart and more: one look knows little, and the next ones see anew.
+TEST(ContourWatch, LooksOfOneThatStandsFarFromAllWallsAddUp) {
+    const auto plant = mapping::testing::wide_hall();
+    const auto map = mapping::prepare(mapping::testing::drawn(plant.halls.front()));
+    double first_m = 0;
+    double last_m = 0;
+    double most_sigmas = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        const double angle_rad = static_cast<double>(seed);
+        Looking looking(seed, {0.1 * std::cos(angle_rad), 0.1 * std::sin(angle_rad), radians(-5.0)},
+                        plant, map, mapping::testing::sees_far());
+        while (!looking.contours.newest()) looking.step();
+        first_m += looking.estimate.sigma_xy_m();
+        looking.stand(8);
+        last_m += looking.estimate.sigma_xy_m();
+        most_sigmas = std::max(most_sigmas, looking.off_m() / looking.estimate.sigma_xy_m());
+    }
+    EXPECT_LT(last_m, 0.5 * first_m);
+    EXPECT_LT(most_sigmas, 3.5);
 }
 
 TEST(ContourWatch, WhatCodesHaveToldBetterIsOnlyChecked) {
