@@ -44,6 +44,7 @@ constexpr double kLeastWorth = 0.25;
 constexpr double kChanceSigmas = 1.5;
 // One sigma of where in its cells a wall lies.
 const double kInCell = 1 / std::sqrt(12.0);
+constexpr int kBlock_cells = 16;
 // A ray goes through a wall when it ends farther behind it than the pose and the map may be off.
 constexpr double kBehind_m = 0.5;
 
@@ -54,12 +55,23 @@ struct MatchedMap {
     /// Seen from the map's corner: MRPT moves a corner to a multiple of the cell.
     std::shared_ptr<LikelihoodField> grid;
 
-    bool is_occupied(Point2 place) const {
-        const Point2 in = place - map.corner;
-        const auto column = static_cast<int>(std::floor(in.x_m / map.cell_m));
-        const auto row = static_cast<int>(std::floor(in.y_m / map.cell_m));
-        return column >= 0 && column < map.columns && row >= 0 && row < map.rows &&
-               map.occupied(column, row);
+    /// By block of cells, whether one of them is occupied: most of a ray's way leads through air.
+    std::vector<bool> blocks;
+    int block_columns = 0;
+
+    void find_blocks() {
+        block_columns = (map.columns + kBlock_cells - 1) / kBlock_cells;
+        const int block_rows = (map.rows + kBlock_cells - 1) / kBlock_cells;
+        blocks.assign(static_cast<std::size_t>(block_columns * block_rows), false);
+        for (int row = 0; row < map.rows; ++row) {
+            for (int column = 0; column < map.columns; ++column) {
+                if (map.occupied(column, row)) blocks[block_of(column, row)] = true;
+            }
+        }
+    }
+    std::size_t block_of(int column, int row) const {
+        return static_cast<std::size_t>((row / kBlock_cells) * block_columns +
+                                        column / kBlock_cells);
     }
 
     /// Whether something stands on the way, but for its ends. Half a cell at least: a ray that
@@ -67,14 +79,39 @@ struct MatchedMap {
     bool has_something_between(Point2 from, Point2 to) const {
         const double way_m = distance(from, to) - kBehind_m;
         const double step_m = map.cell_m / 2;
-        const Point2 step = (step_m / distance(from, to)) * (to - from);
+        // In cells from the map's corner.
+        const Point2 start = (1 / map.cell_m) * (from - map.corner);
+        const Point2 step = (0.5 / distance(from, to)) * (to - from);
         bool before = false;
         for (int i = 1; i * step_m < way_m; ++i) {
-            const bool here = is_occupied(from + static_cast<double>(i) * step);
+            const Point2 at = start + static_cast<double>(i) * step;
+            if (at.x_m < 0 || at.y_m < 0 || at.x_m >= map.columns || at.y_m >= map.rows) {
+                before = false;
+                continue;
+            }
+            const auto column = static_cast<int>(at.x_m);
+            const auto row = static_cast<int>(at.y_m);
+            if (!blocks[block_of(column, row)]) {
+                i += std::max(0, static_cast<int>(steps_left_in_block(at, step)) - 1);
+                before = false;
+                continue;
+            }
+            const bool here = map.occupied(column, row);
             if (here && before) return true;
             before = here;
         }
         return false;
+    }
+
+    /// Until the next one begins; no more than all of a long way, for one that leads along its
+    /// edge.
+    static double steps_left_in_block(Point2 at, Point2 step) {
+        constexpr double kMost = 2 * kBlock_cells;
+        const auto along = [](double from, double by) {
+            const double edge = kBlock_cells * (std::floor(from / kBlock_cells) + (by > 0 ? 1 : 0));
+            return by == 0 ? kMost : (edge - from) / by;
+        };
+        return std::min({along(at.x_m, step.x_m), along(at.y_m, step.y_m), kMost});
     }
 
     /// What was met before, by cell: a vehicle that passes meets the same again and again.
@@ -183,6 +220,7 @@ std::shared_ptr<const MatchedMap> prepare(OccupancyMap map) {
     likelihood.LF_decimation = 1;
     likelihood.enableLikelihoodCache = false;  // LikelihoodField keeps them
     matched->map = std::move(map);
+    matched->find_blocks();
     return matched;
 }
 

@@ -1,6 +1,6 @@
 #include "core/mapping/particle_cloud.hpp"
 
-#include <mrpt/random/RandomGenerators.h>
+#include <mrpt/poses/CPose3D.h>
 
 #include <Eigen/Cholesky>
 #include <algorithm>
@@ -55,9 +55,6 @@ double carrying(const std::vector<double>& weights) {
 
 ParticleCloud::ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_t seed)
     : seed_(seed) {
-    filter_.m_options.PF_algorithm = mrpt::bayes::CParticleFilter::pfStandardProposal;
-    filter_.m_options.adaptiveSampleSize = false;
-    filter_.m_options.BETA = 0;  // their weights are read, so that none are drawn again
     cloud_.options.metricMap = std::move(grid);
 }
 
@@ -99,15 +96,16 @@ void ParticleCloud::spread(const Around& drawn, unsigned count) {
     }
 }
 
-/// Their weights are the logarithms of how well they explain what is seen.
+/// Their weights are the logarithms of how well they explain what is seen. What MRPT's filter would
+/// do besides, moving each by nothing and drawing new ones, took as long again.
 void ParticleCloud::weigh(const std::vector<control::Scan>& rays) {
-    // MRPT has one generator for all of a program: begun anew, each vehicle has its own numbers.
-    // A new one, for the old one keeps half of its last pair of numbers.
-    mrpt::random::getRandomGenerator() =
-        mrpt::random::CRandomGenerator(static_cast<std::uint32_t>(seed_ * 1000003 + drawn_));
-    const auto stays = movement({}, Eigen::Matrix3d::Zero());
     const auto seen = frame_of(rays);
-    filter_.executeOn(cloud_, &stays, &seen);
+    const mrpt::bayes::CParticleFilter::TParticleFilterOptions usual;
+    for (std::size_t i = 0; i < cloud_.m_particles.size(); ++i) {
+        auto& particle = cloud_.m_particles[i];
+        particle.log_w = cloud_.PF_SLAM_computeObservationLikelihoodForParticle(
+            usual, i, seen, mrpt::poses::CPose3D(mrpt::poses::CPose2D(particle.d)));
+    }
 }
 
 /// By particle, the logarithm of what makes those drawn from `drawn` count as if they had been

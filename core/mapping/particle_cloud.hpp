@@ -1,6 +1,5 @@
 #pragma once
 
-#include <mrpt/bayes/CParticleFilter.h>
 #include <mrpt/slam/CMonteCarloLocalization2D.h>
 
 #include <Eigen/Core>
@@ -21,8 +20,7 @@ struct Around {
 };
 
 /// Places where a vehicle may stand, each weighed by how well it explains what the scanners see, by
-/// MRPT. Frame: that of the grid, whose corner is the origin. Thread safety: none, and all of a
-/// program share MRPT's one random generator: they must be of one thread.
+/// MRPT. Frame: that of the grid, whose corner is the origin. Thread safety: none.
 class ParticleCloud {
 public:
     ParticleCloud(std::shared_ptr<LikelihoodField> grid, std::uint64_t seed);
@@ -56,7 +54,6 @@ private:
     std::uint64_t seed_;
     std::uint64_t drawn_ = 0;  // times
     mrpt::slam::CMonteCarloLocalization2D cloud_;
-    mrpt::bayes::CParticleFilter filter_;
 };
 
 }  // namespace pulseline::mapping
