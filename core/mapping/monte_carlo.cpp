@@ -103,8 +103,8 @@ struct MatchedMap {
         return false;
     }
 
-    /// Until the next one begins; no more than all of a long way, for one that leads along its
-    /// edge.
+    /// Until the next block begins, `at` and `step` in cells. Along an axis that the ray does not
+    /// follow none does: then as many as lead through a whole block along the other.
     static double steps_left_in_block(Point2 at, Point2 step) {
         constexpr double kMost = 2 * kBlock_cells;
         const auto along = [](double from, double by) {

@@ -97,7 +97,7 @@ void ParticleCloud::spread(const Around& drawn, unsigned count) {
 }
 
 /// Their weights are the logarithms of how well they explain what is seen. What MRPT's filter would
-/// do besides, moving each by nothing and drawing new ones, took as long again.
+/// do besides, moving each by nothing, took nearly as long again.
 void ParticleCloud::weigh(const std::vector<control::Scan>& rays) {
     const auto seen = frame_of(rays);
     const mrpt::bayes::CParticleFilter::TParticleFilterOptions usual;
