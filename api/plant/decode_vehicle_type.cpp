@@ -8,6 +8,7 @@ namespace {
 
 constexpr json::NumberLimits kTilt{-0.5, 0.5};  // radians
 constexpr json::NumberLimits kPercent{0, 100};
+constexpr json::NumberLimits kShare{0, 1};
 constexpr json::IntegerLimits kPixels{0, 100'000};
 
 Wheel decode_wheel(ObjectReader& in) {
@@ -78,6 +79,15 @@ void decode_limits(ObjectReader& in, VehicleType& type) {
     type.max_load_kg = in.number("max_load_kg", kQuantity);
 }
 
+LoadRules decode_load_rules(ObjectReader& in) {
+    LoadRules rules;
+    rules.bracket_rating_n = in.number_or("bracket_rating_n", 0, kQuantity);
+    rules.most_unbalance = in.number_or("most_unbalance", rules.most_unbalance, kShare);
+    rules.centre = decode_ring(in, "centre", false);
+    in.refuse_unknown();
+    return rules;
+}
+
 BatteryLimits decode_battery(ObjectReader& in) {
     BatteryLimits limits;
     limits.critical_percent = in.number("critical_percent", kPercent);
@@ -142,6 +152,7 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     type.footprint = decode_ring(in, "footprint");
     type.load_footprint = decode_ring(in, "load_footprint", false);
     decode_limits(in, type);
+    if (auto rules = in.object_if_any("load_rules")) type.load_rules = decode_load_rules(*rules);
     if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
     if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);
     if (auto sensor = in.object_if_any("slip_sensor")) {

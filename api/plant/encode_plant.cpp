@@ -163,6 +163,13 @@ Json encode(const NavigationScanner& s) {
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
 
+Json encode(const LoadRules& rules) {
+    Json json{{"most_unbalance", rules.most_unbalance}};
+    if (rules.bracket_rating_n > 0) json["bracket_rating_n"] = rules.bracket_rating_n;
+    if (!rules.centre.empty()) json["centre"] = encode(rules.centre);
+    return json;
+}
+
 Json encode(const VehicleType& t);
 Json encode(const Vehicle& v);
 Json encode(const RoadmapNode& n);
@@ -201,6 +208,7 @@ Json encode(const VehicleType& t) {
                   {{"critical_percent", t.battery.critical_percent},
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
+    if (!t.brackets.empty()) json["load_rules"] = encode(t.load_rules);
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
     json["scanners"] = encode_all(t.scanners);
     if (t.navigation_scanner) json["navigation_scanner"] = encode(*t.navigation_scanner);

@@ -31,6 +31,12 @@ std::vector<LaserScanner> usual_scanners(const Polygon& footprint) {
             {"back right", {box.min.x_m, box.min.y_m, -3 * kPi / 4}}};
 }
 
+Polygon wheel_base(const VehicleType& type) {
+    std::vector<Point2> wheels;
+    for (const Wheel& wheel : type.wheels) wheels.push_back(wheel.position);
+    return geometry::convex_hull(wheels);
+}
+
 const Hall* find_hall(const Plant& plant, const HallId& id) { return find_id(plant.halls, id); }
 const Station* find_station(const Plant& plant, const StationId& id) {
     return find_id(plant.stations, id);

@@ -226,6 +226,13 @@ struct Bracket {
     Point2 position;   // body frame
 };
 
+/// What a load has to be like for a vehicle to drive with it; how it is judged: load_rules.hpp.
+struct LoadRules {
+    double bracket_rating_n = 0;   // the most on one bracket; 0: the type states none
+    double most_unbalance = 0.10;  // of a bracket from the mean of its end, as a share of it
+    Polygon centre;  // where its centre of gravity may lie, body frame; empty: between the wheels
+};
+
 /// When the fleet sends a vehicle of its own accord to a charger, and takes it away again.
 struct BatteryLimits {
     double critical_percent = 15;  // below: it is given no order any more
@@ -272,6 +279,7 @@ struct VehicleType {
     std::vector<Bracket> brackets;
     double mass_kg = 0;
     double max_load_kg = 0;
+    LoadRules load_rules;
     BatteryLimits battery;
     Names names;
 };
@@ -354,6 +362,8 @@ const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
 const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
 /// Where a plant says nothing: two, at opposite corners, each looking away from the body.
 std::vector<LaserScanner> usual_scanners(const Polygon& footprint);
+/// The convex hull of the wheels' places, body frame.
+Polygon wheel_base(const VehicleType& type);
 /// Whether the vehicle carries something that counts with its outline.
 bool is_loaded(const Vehicle& vehicle);
 /// The cameras as they hang with or without load.

@@ -113,6 +113,8 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     if (t.slip_sensor) n.positive("/slip_sensor/noise_mps", t.slip_sensor->noise_mps);
     n.not_negative("/mass_kg", t.mass_kg);
     n.not_negative("/max_load_kg", t.max_load_kg);
+    n.not_negative("/load_rules/bracket_rating_n", t.load_rules.bracket_rating_n);
+    n.positive("/load_rules/most_unbalance", t.load_rules.most_unbalance);
     n.not_negative("/battery/critical_percent", t.battery.critical_percent);
     n.finite("/battery/low_percent", t.battery.low_percent);
     n.finite("/battery/enough_percent", t.battery.enough_percent);

@@ -195,4 +195,22 @@ std::vector<plant::Bracket> brackets_from_json(const std::string& text) {
     });
 }
 
+std::string load_rules_to_json(const plant::LoadRules& rules) {
+    Json centre = Json::array();
+    for (const Point2& corner : rules.centre) centre.push_back(encode(corner));
+    return Json{{"bracket_rating_n", number(rules.bracket_rating_n)},
+                {"most_unbalance", number(rules.most_unbalance)},
+                {"centre", centre}}
+        .dump();
+}
+plant::LoadRules load_rules_from_json(const std::string& text) {
+    const auto stored = list_from_json<plant::LoadRules>(
+        "[" + (text == "null" ? "" : text) + "]", [](const Json& j) {
+            plant::LoadRules rules{j.at("bracket_rating_n"), j.at("most_unbalance"), {}};
+            for (const Json& corner : j.at("centre")) rules.centre.push_back(decode_point(corner));
+            return rules;
+        });
+    return stored.empty() ? plant::LoadRules{} : stored.front();
+}
+
 }  // namespace pulseline::db

@@ -85,6 +85,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     scanners = scanners_to_json(type.scanners);
     navigation_scanner = scanner_to_json(type.navigation_scanner);
     brackets = brackets_to_json(type.brackets);
+    load_rules = load_rules_to_json(type.load_rules);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
     names = names_to_json(type.names);
@@ -109,6 +110,7 @@ plant::VehicleType VehicleTypeRow::get() const {
         scanners == "null" ? plant::usual_scanners(type.footprint) : scanners_from_json(scanners);
     type.navigation_scanner = scanner_from_json(navigation_scanner);
     type.brackets = brackets_from_json(brackets);
+    type.load_rules = load_rules_from_json(load_rules);
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();
     if (slip_sensor_noise_mps > 0) type.slip_sensor = {slip_sensor_noise_mps};

@@ -189,6 +189,26 @@ TEST(PlantStore, KeepsEveryFieldOfLaserScanners) {
     EXPECT_TRUE(PlantStore(database).load()->vehicle_types[0].scanners.empty());
 }
 
+TEST(PlantStore, KeepsTheLoadRulesOfATypeAndTheUsualOnesOfTypesOfBefore) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant.vehicle_types[0].load_rules = {71234.5, 0.07, {{-1.5, -0.2}, {1.1, -0.2}, {0, 0.3}}};
+    PlantStore(database).import(plant);
+
+    const plant::LoadRules kept = PlantStore(database).load()->vehicle_types[0].load_rules;
+    EXPECT_EQ(kept.bracket_rating_n, 71234.5);
+    EXPECT_EQ(kept.most_unbalance, 0.07);
+    EXPECT_EQ(kept.centre, plant.vehicle_types[0].load_rules.centre);
+
+    database.sql() << "UPDATE vehicle_types SET load_rules = 'null'";
+    const plant::LoadRules usual = PlantStore(database).load()->vehicle_types[0].load_rules;
+    EXPECT_EQ(usual.bracket_rating_n, 0);
+    EXPECT_EQ(usual.most_unbalance, 0.10);
+    EXPECT_TRUE(usual.centre.empty());
+    database.sql() << "UPDATE vehicle_types SET load_rules = '{}'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
 TEST(PlantStore, TypesOfBeforeHaveTheScannersThatAreUsual) {
     Database database(":memory:");
     PlantStore(database).import(demo("measuring-hall"));

@@ -79,7 +79,9 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "brackets": [{"name": n, "position": point(x, y)} for n, x, y in
                  [("front left", 2.4, 0.7), ("front right", 2.4, -0.7), ("back left", -3.0, 0.7),
                   ("back right", -3.0, -0.7)]],
-    "mass_kg": 10200, "max_load_kg": 22000}
+    "mass_kg": 10200, "max_load_kg": 22000,
+    # Between the brackets; across, their balance asks for less still.
+    "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]}}
 
 
 def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=(), scanner=None):

@@ -148,11 +148,12 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         // Before the first state of a vehicle only the plant knows what it carries.
         {"load_kg", !vehicle.last_heard && known != nullptr ? known->load_kg : state.load_kg},
         {"load_name", known != nullptr ? known->load_name : ""}};
-    if (const auto& worst = vehicle.worst_bracket) {
-        json["worst_bracket"] = {{"bracket", worst->bracket},
-                                 {"share", worst->share},
-                                 {"limit", fleet::kBracketBalance}};
+    if (const auto& worst = vehicle.load.worst) {
+        json["worst_bracket"] = {
+            {"bracket", worst->bracket}, {"share", worst->share}, {"limit", worst->limit}};
     }
+    if (vehicle.load.centre) json["load_centre"] = point_json(*vehicle.load.centre);
+    if (vehicle.load.fault) json["load_fault"] = reason_json(*vehicle.load.fault);
     if (vehicle.reason) json["reason"] = reason_json(*vehicle.reason);
     if (vehicle.last_heard) {
         json["last_heard_at"] = rfc3339(*vehicle.last_heard);

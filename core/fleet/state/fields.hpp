@@ -196,10 +196,10 @@ void fields(V& visit, S& it) {
     visit(id, station, mode, path, granted_points, granted_area, horizon_area, duration_s, progress,
           started, expected);
 }
-PULSELINE_FIELDS(BracketShare, bracket, share)
+PULSELINE_FIELDS(LoadView, force_n, centre, worst, fault)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,
-                 integration, needs_resume, needs_resume_reason, made_way, worst_bracket, state)
+                 integration, needs_resume, needs_resume_reason, made_way, load, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

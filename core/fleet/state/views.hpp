@@ -7,19 +7,17 @@
 #include "core/fleet/state/closure.hpp"
 #include "core/fleet/state/job_order.hpp"
 #include "core/planning/legs/leg_planner.hpp"
+#include "core/plant/load_rules.hpp"
 
 /// What the fleet shows of itself: plain copies, safe to hand to another thread.
 namespace pulseline::fleet {
 
-/// How far a bracket may differ from the mean of its end, front or back, as a share of it. Between
-/// the ends a load may lie where it likes, as aircraft do, inside the wheel base.
-constexpr double kBracketBalance = 0.10;
-
-/// The bracket that departs farthest from the mean of its end; of two that do so alike, the one
-/// farther from the mean of all. Nothing without a load.
-struct BracketShare {
-    std::string bracket;
-    double share = 0;  // of the mean of its end, signed
+/// What the brackets say of the load on them.
+struct LoadView {
+    double force_n = 0;
+    std::optional<geometry::Point2> centre;    // of gravity, body frame; there while it carries one
+    std::optional<plant::BracketShare> worst;  // there while it carries one
+    std::optional<Reason> fault;               // the rule of its type that the load breaks
 };
 
 /// How long the vehicle has been silent (no frame, no pong).
@@ -87,9 +85,9 @@ struct VehicleView {
     Integration integration = Integration::kUtilise;
     bool needs_resume = false;
     Reason needs_resume_reason;
-    std::vector<Time> made_way;                 // newest last; see LiveVehicle
-    std::optional<BracketShare> worst_bracket;  // there while it carries a load
-    vda5050::StateMessage state;                // as last reported; all defaults before the first
+    std::vector<Time> made_way;   // newest last; see LiveVehicle
+    LoadView load;                // of a vehicle with brackets
+    vda5050::StateMessage state;  // as last reported; all defaults before the first
 };
 
 struct StationView {

@@ -10,13 +10,12 @@ namespace pulseline::fleet {
 
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 
-std::optional<BracketShare> worst_bracket(const LiveVehicle& live);
+LoadView load_view(const LiveVehicle& live);
 
 struct Interlock {
     enum class Kind {
         kFeetDown,    // parking_feet_down {furthest_m}
-        kLoad,        // load_too_heavy {load_kg, max_load_kg}, load_unbalanced {bracket, unbalance,
-                      // limit}, load_outside_wheel_base {x_m, y_m}
+        kLoad,        // those of plant::load_fault
         kWheelFault,  // wheel_fault {wheel, fault}
         kCodes,       // codes_not_seen {found, cameras}
     };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/base/gravity.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -43,19 +42,17 @@ Check pose_check(const FleetState& fleet, const LiveVehicle& live) {
 
 std::optional<Check> load_check(const LiveVehicle& live) {
     if (live.state.brackets.empty()) return std::nullopt;
-    double total_n = 0;
-    for (const auto& bracket : live.state.brackets)
-        total_n += bracket.force_a_n + bracket.force_b_n;
-    const auto bracket = worst_bracket(live);
-    const double worst = bracket ? std::abs(bracket->share) : 0;
-    const bool too_heavy = total_n > live.type->max_load_kg * kGravity_mps2;
-    const auto result =
-        too_heavy || worst > kBracketBalance ? Check::Result::kFail : Check::Result::kPass;
-    return check("load", result,
-                 {{"total_n", total_n},
-                  {"unbalance", worst},
-                  {"limit", kBracketBalance},
-                  {"max_load_kg", live.type->max_load_kg}});
+    const LoadView load = load_view(live);
+    Params params{{"total_n", load.force_n}};
+    if (load.fault) {
+        params.push_back({"reason", load.fault->code});
+        for (const Param& param : load.fault->params) params.push_back(param);
+        return check("load", Check::Result::kFail, std::move(params));
+    }
+    params.push_back({"unbalance", load.worst ? std::abs(load.worst->share) : 0});
+    params.push_back({"limit", live.type->load_rules.most_unbalance});
+    params.push_back({"max_load_kg", live.type->max_load_kg});
+    return check("load", Check::Result::kPass, std::move(params));
 }
 
 std::optional<Check> feet_check(const LiveVehicle& live) {

@@ -197,7 +197,7 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
         view.order = order->id;
     }
     if (with_leg && live.has_leg()) view.leg = leg_view(fleet, live, now);
-    view.worst_bracket = worst_bracket(live);
+    view.load = load_view(live);
     view.paused = live.record.paused;
     view.stands_paused = stands_paused(live);
     view.integration = live.record.integration;

@@ -8,7 +8,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
-#include "core/base/gravity.hpp"
+#include "core/plant/load_rules.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::simulation {
@@ -19,7 +19,6 @@ constexpr double kChargePerSecond = 0.028;  // per cent: an hour from empty to f
 constexpr double kContact_m = 0.05;
 constexpr double kContact_rad = 2 * kPi / 180.0;
 constexpr double kFeetDown_m = 0.12;
-constexpr double kOverload = 1.5;  // of an even share of the greatest load, on one bracket
 // At most: an aircraft is set down with care across, and has its weight where it has it along.
 constexpr double kLoadAcross_m = 0.025;
 constexpr double kLoadAlong_m = 0.5;
@@ -54,8 +53,7 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, double load_kg, std::
         middle = middle + (1 / count) * bracket.position;
     }
     LiftParameters parameters;
-    parameters.most_force_n =
-        kOverload * kGravity_mps2 * std::max(type.max_load_kg, load_kg) / count;
+    parameters.most_force_n = plant::bracket_rating_n(type);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> share(-1, 1);
     const double along_m = kLoadAlong_m * share(random);

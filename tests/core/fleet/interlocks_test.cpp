@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "core/fleet/vehicle/interlocks.hpp"
@@ -96,6 +97,7 @@ TEST_F(Interlocks, ALoadThatLeansToOneSideStays) {
 TEST_F(Interlocks, ALoadOutsideTheWheelBaseStays) {
     // All on the front end, which the brackets may and the wheels may not: they end before it.
     for (auto& wheel : world.plant.vehicle_types.front().wheels) wheel.position.x_m *= 0.5;
+    world.plant.vehicle_types.front().load_rules.bracket_rating_n = 2000;
     World narrow(world.plant);
     narrow.connect_all();
     for (const auto& bracket : narrow.plant.vehicle_types.front().brackets) {
@@ -107,6 +109,47 @@ TEST_F(Interlocks, ALoadOutsideTheWheelBaseStays) {
     ASSERT_TRUE(made) << made.error().what;
     narrow.run(10);
     EXPECT_EQ(narrow.fleet->order(made->order.id)->reason.code, "load_outside_wheel_base");
+}
+
+/// Tang's platform with its engines in: heavy behind. A bracket has a rating of its own.
+TEST_F(Interlocks, ABracketBeyondItsRatingStays) {
+    load(499, -0.6, 0);  // 199.6 kg on each of the back ones, 187.5 by what is usual
+    expect_barred("bracket_overloaded", [&] { load(400, -0.6, 0); });
+}
+
+TEST_F(Interlocks, ALoadBesideTheLimitsOfItsTypeStaysAndTheChecksSayWhy) {
+    world.plant.vehicle_types.front().load_rules.centre = {
+        {-0.3, -0.2}, {0.3, -0.2}, {0.3, 0.2}, {-0.3, 0.2}};
+    World strict(world.plant);
+    strict.connect_all();
+    strict.vehicle("V1").state.brackets = world.vehicle("V1").state.brackets;
+    for (auto& bracket : strict.vehicle("V1").state.brackets) {
+        const double more = bracket.name.starts_with("back") ? 1.4 : 0.6;  // 0.4 m aft
+        bracket.force_a_n *= more;
+        bracket.force_b_n *= more;
+    }
+    strict.run(2);
+    const auto made = strict.order("V1", {2});
+    ASSERT_TRUE(made) << made.error().what;
+    strict.run(10);
+    EXPECT_EQ(strict.fleet->order(made->order.id)->reason.code, "load_outside_limits");
+
+    const auto view = strict.fleet->vehicle(kV1, strict.now);
+    ASSERT_TRUE(view->load.fault);
+    EXPECT_EQ(view->load.fault->code, "load_outside_limits");
+    ASSERT_TRUE(view->load.centre);
+    EXPECT_NEAR(view->load.centre->x_m, -0.4, 1e-9);
+    ASSERT_TRUE(view->load.worst);
+    EXPECT_NEAR(view->load.worst->share, 0, 1e-9);
+
+    NewOrder dry;
+    dry.vehicle = kV1;
+    dry.steps = {{3, MotionMode::kAuto}};
+    const auto checks = strict.fleet->preview(dry, strict.now).checks;
+    const auto check = std::ranges::find(checks, "load", &Check::code);
+    ASSERT_NE(check, checks.end());
+    EXPECT_EQ(check->result, Check::Result::kFail);
+    EXPECT_EQ(check->params[1], (Param{"reason", std::string("load_outside_limits")}));
 }
 
 TEST_F(Interlocks, AtAMeasuredStationBothCamerasHaveToSeeTheirCodes) {

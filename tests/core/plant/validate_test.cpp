@@ -277,6 +277,25 @@ const Case kCases[] = {
      "/stations/1/charger", "charger_no_resting_place"},
     {"BatteryLimitsOutOfOrder", [](Plant& p) { p.vehicle_types[0].battery.low_percent = 5; },
      "/vehicle_types/0/battery", "battery_limits"},
+    {"LoadCentreBeyondTheWheels",
+     [](Plant& p) {
+         VehicleType& type = p.vehicle_types[0];
+         type.brackets = {{"middle", {0, 0}}};
+         type.wheels = {{"a", {1, 1}, false, false, 0.2},
+                        {"b", {-1, 1}, false, false, 0.2},
+                        {"c", {0, -1}, false, false, 0.2}};
+         type.load_rules.centre = {{-0.3, -0.9}, {0.3, -0.9}, {0, 0.5}};
+     },
+     "/vehicle_types/0/load_rules/centre", "outside_wheel_base"},
+    {"LoadCentreWithoutBrackets",
+     [](Plant& p) {
+         p.vehicle_types[0].brackets.clear();
+         p.vehicle_types[0].wheels.clear();
+         p.vehicle_types[0].load_rules.centre = {{0, 0}, {0.1, 0}, {0, 0.1}};
+     },
+     "/vehicle_types/0/load_rules/centre", "without_brackets"},
+    {"LoadWithNoUnbalanceAtAll", [](Plant& p) { p.vehicle_types[0].load_rules.most_unbalance = 0; },
+     "/vehicle_types/0/load_rules/most_unbalance", "not_positive"},
     {"HomeOfAnotherType",
      [](Plant& p) {
          VehicleType other = p.vehicle_types[0];

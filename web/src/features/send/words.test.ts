@@ -195,6 +195,14 @@ describe("checkWords", () => {
     ],
     [{ code: "load", params: { total_n: 12, unbalance: 0 } }, "No load"],
     [
+      {
+        code: "load",
+        result: "fail",
+        params: { total_n: 196133, reason: "load_unbalanced", unbalance: 0.11, limit: 0.1 },
+      },
+      "196.1\u00a0kN: why load_unbalanced",
+    ],
+    [
       { code: "clearance", params: { clearance_m: 2.25, limit_m: 0.5, nearest: "A-104" } },
       "2.25\u00a0m to A-104, limit 0.50\u00a0m",
     ],

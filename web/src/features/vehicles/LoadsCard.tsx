@@ -2,6 +2,7 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { Card } from "@/shared/ui";
 import { age, fixed } from "@/shared/words/format";
+import { useWords } from "@/shared/words/useWords";
 import { feetDown } from "./drawing/faceplate";
 import { summarise, titleOf } from "./drawing/loads";
 import { PlatformDrawing } from "./drawing/PlatformDrawing";
@@ -19,15 +20,18 @@ export function LoadsCard({
   heard_s: number | undefined;
 }) {
   const { t } = useTranslation("vehicles");
+  const words = useWords();
   const summary = summarise(vehicle, type);
   const parts: string[] = [];
   if (summary) {
     parts.push(
       summary.total_n < 1000
         ? t("loads.no_load")
-        : summary.balanced
+        : summary.fault === undefined
           ? t("loads.balanced", { count: summary.brackets.length * 2 })
-          : t("loads.unbalanced", { percent: fixed(summary.worst * 100, 1) }),
+          : summary.fault.code === "load_unbalanced"
+            ? t("loads.unbalanced", { percent: fixed(summary.worst * 100, 1) })
+            : words.reason(summary.fault),
     );
   }
   if (vehicle.parking_feet.length > 0) {

@@ -115,7 +115,7 @@ function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stal
         return {
           name: t("why.load"),
           value: t("why.load_line", {
-            state: t(`why.${row.balanced}`),
+            state: row.fault ? words.reason(row.fault) : t(row.empty ? "why.no_load" : "why.balanced"),
             feet: t(row.down ? "loads.feet_lowered" : "loads.feet_raised"),
           }),
         };

@@ -1,5 +1,4 @@
-import type { StationState, Vehicle, VehicleType } from "@/shared/api/types";
-import { bracketFault } from "@/shared/live/brackets";
+import type { Reason, StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { faultKey } from "@/shared/words/faults";
 import { feetDown, wheelState } from "./drawing/faceplate";
 import { summarise } from "./drawing/loads";
@@ -13,7 +12,8 @@ export type WhyRow =
   | {
       kind: "load";
       result: "pass" | "note" | "fail";
-      balanced: "balanced" | "unbalanced" | "no_load";
+      fault: Reason | undefined; // the rule that the load breaks
+      empty: boolean;
       down: boolean;
     }
   | { kind: "wheel"; result: "note" | "fail"; wheel: Vehicle["wheels"][number] }
@@ -45,11 +45,11 @@ export function whyRows(
   }
   const load = summarise(vehicle, type);
   if (load) {
-    const balanced = load.total_n < 1000 ? "no_load" : load.balanced ? "balanced" : "unbalanced";
     rows.push({
       kind: "load",
-      result: bracketFault(vehicle) ? "fail" : balanced === "unbalanced" ? "note" : "pass",
-      balanced,
+      result: load.fault ? "fail" : "pass",
+      fault: load.fault,
+      empty: load.total_n < 1000,
       down: feetDown(vehicle.parking_feet),
     });
   }

@@ -33,7 +33,10 @@ const wheel = (over: object) => ({
   fault: "",
   ...over,
 });
-const worst = (share: number) => ({ worst_bracket: { bracket: "front left", share, limit: 0.1 } });
+const worst = (share: number) => ({
+  worst_bracket: { bracket: "front left", share, limit: 0.1 },
+  ...(Math.abs(share) > 0.1 && { load_fault: { code: "load_unbalanced", params: {} } }),
+});
 const because = (code: string) => ({ reason: { code, params: {} } });
 const kNow = Date.parse("2026-11-24T20:15:00Z");
 const ago = (s: number) => new Date(kNow - s * 1000).toISOString();
@@ -50,6 +53,7 @@ it.each<[string, Partial<Vehicle>, string | undefined, string | undefined]>([
   ["a bracket 40 % over", worst(0.17), "bracket", "high"],
   ["a bracket that carries too little", worst(-0.11), "bracket", "high"],
   ["brackets that lean a little", worst(0.1), undefined, undefined],
+  ["a load too heavy for it", { load_fault: { code: "load_too_heavy", params: {} } }, "load", "high"],
   ["an unknown pose", { pose_known: false }, "pose", "high"],
   [
     "a pose that it lost, and why",

@@ -62,7 +62,9 @@ const kByReason: Readonly<Record<string, [AlarmKind, Priority]>> = {
   left_its_base: ["traffic", "critical"],
   load_too_heavy: ["load", "high"],
   load_unbalanced: ["load", "high"],
+  bracket_overloaded: ["load", "high"],
   load_outside_wheel_base: ["load", "high"],
+  load_outside_limits: ["load", "high"],
   stop_not_measured: ["stop", "high"],
   out_of_tolerance: ["tolerance", "high"],
   order_rejected: ["refused", "high"],
@@ -90,7 +92,9 @@ function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
   const wheel = v.wheels.find((w) => w.fault !== "");
   if (wheel !== undefined) yield { kind: "wheel", priority: "high", wheel: wheel.name, fault: wheel.fault };
   const bracket = bracketFault(v);
+  const load = v.load_fault;
   if (bracket !== undefined) yield { kind: "bracket", priority: "high", ...bracket };
+  else if (load !== undefined) yield { kind: "load", priority: "high", reason: load };
   if (v.claimed_pose !== undefined)
     yield {
       kind: "doubt",

@@ -62,6 +62,8 @@ function worded(name: string, value: string, names: Names, t: Translate): string
   if (name === "why") return whyText(value, t);
   if (name === "state" && value === "Aborted") return t("words:job.given_up"); // a refusal does not tell which of the two it was
   if (kFaults.includes(name)) return faultText(value, t);
+  if (name === "bracket")
+    return t(`alarms:bracket_name.${value.toLowerCase().replaceAll(" ", "_")}`, { defaultValue: value });
   const code = Object.hasOwn(kCodes, name) ? codeText(`${kCodes[name]}${value}`, t) : undefined;
   const kinds = Object.hasOwn(kIds, name) ? (kIds[name] ?? []) : [];
   return code ?? kinds.map((kind) => names[kind](value)).find((text) => text !== undefined) ?? value;

@@ -1,6 +1,6 @@
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { footCorner, wheelHalf_m, wheelPlace, wheelRing_m, wheelState, type Sheet } from "./faceplate";
-import { centreOfLoad, kPinOffset_m } from "./loads";
+import { kPinOffset_m } from "./loads";
 
 // Shapes of the drawing, in metres of the body frame with y turned down.
 
@@ -82,11 +82,12 @@ export function Foot({ name, index, sheet }: { name: string; index: number; shee
 }
 
 export function Centre({ vehicle, type }: { vehicle: Vehicle; type: VehicleType | undefined }) {
-  const at = centreOfLoad(vehicle.brackets, type);
+  const at = vehicle.load_centre;
   if (!at) return null;
+  const allowed = type?.load_rules?.centre;
   return (
     <>
-      <ellipse className="tol" cx={at.x_m} cy={0} rx=".62" ry=".2" />
+      {allowed && <polygon className="tol" points={allowed.map((c) => `${c.x_m},${-c.y_m}`).join(" ")} />}
       <path className="col" d={`M${at.x_m - 0.2} ${-at.y_m}h.4M${at.x_m} ${-at.y_m - 0.2}v.4`} />
       <circle className="colc" cx={at.x_m} cy={-at.y_m} r=".09" />
     </>

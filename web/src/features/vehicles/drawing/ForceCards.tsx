@@ -1,7 +1,7 @@
 import { useTranslation } from "react-i18next";
 import { kilonewtons } from "@/shared/words/format";
 import { bracketKey, onSheet, type OnSheetProps } from "./faceplate";
-import { kBandShare, summarise, type SensorShare } from "./loads";
+import { summarise, type SensorShare } from "./loads";
 
 /** A card a bracket with the forces of its two pins. */
 export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
@@ -24,8 +24,8 @@ export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
                 {kilonewtons(b.sum_n)} <u>kN</u>
               </b>
             </div>
-            <Sensor name="a" sensor={b.a} />
-            <Sensor name="b" sensor={b.b} />
+            <Sensor name="a" sensor={b.a} limit={summary.limit} />
+            <Sensor name="b" sensor={b.b} limit={summary.limit} />
           </div>
         );
       })}
@@ -33,23 +33,16 @@ export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
   );
 }
 
-/** Force of one pin against the mean of its end: the band is +-10 %, the bar +-20 %. */
-function Sensor({ name, sensor }: { name: string; sensor: SensorShare }) {
-  const kScale = 0.2;
-  const x = 50 + 50 * Math.max(-1, Math.min(1, sensor.share / kScale));
-  const off = Math.abs(sensor.share) > kBandShare;
+/** Force of one pin against the mean of its end: the band is as wide as the type allows, the bar twice as wide. */
+function Sensor({ name, sensor, limit }: { name: string; sensor: SensorShare; limit: number }) {
+  const x = 50 + 25 * Math.max(-2, Math.min(2, limit > 0 ? sensor.share / limit : 0));
+  const off = Math.abs(sensor.share) > limit;
   return (
     <div className={`sb ${off ? "off" : ""}`}>
       <i>{name}</i>
       <svg viewBox="0 0 100 14" preserveAspectRatio="none" aria-hidden="true">
         <rect y="5" width="100" height="4" fill="var(--surface-3)" />
-        <rect
-          x={50 - (50 * kBandShare) / kScale}
-          y="1.5"
-          width={(100 * kBandShare) / kScale}
-          height="11"
-          fill="var(--band)"
-        />
+        <rect x={25} y="1.5" width={50} height="11" fill="var(--band)" />
         <rect x={x - 0.9} y="0" width="1.8" height="14" fill="var(--needle)" />
       </svg>
       <b>{kilonewtons(sensor.force_n)}</b>

@@ -1,13 +1,13 @@
 import { useTranslation } from "react-i18next";
 import { kilonewtons, mass, millimetres } from "@/shared/words/format";
 import { onSheet, type OnSheetProps } from "./faceplate";
-import { centreOfLoad, summarise } from "./loads";
+import { summarise } from "./loads";
 
 /** Weight and centre of the load. */
 export function LoadLabels({ vehicle, type, sheet }: OnSheetProps) {
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle, type);
-  const centre = centreOfLoad(vehicle.brackets, type);
+  const centre = vehicle.load_centre;
   if (type?.brackets.length === 0) return null;
   if (!summary) {
     return (

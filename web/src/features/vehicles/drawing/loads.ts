@@ -1,26 +1,21 @@
-import type { Vehicle, VehicleType } from "@/shared/api/types";
-import { bracketFault } from "@/shared/live/brackets";
-
-export type BracketReading = Vehicle["brackets"][number];
-
-/** Half-width of the band around a pin's bar, as a share of the mean of its end. */
-export const kBandShare = 0.1;
+import type { Reason, Vehicle, VehicleType } from "@/shared/api/types";
 
 export interface LoadSummary {
   total_n: number;
   mean_n: number;
   brackets: { name: string; sum_n: number; a: SensorShare; b: SensorShare }[];
   worst: number; // largest departure of a bracket from the mean of its end, as a share
-  balanced: boolean;
+  limit: number; // of it, by the rules of the vehicle's type
+  fault: Reason | undefined; // the rule that the load breaks: the server's word, which bars the drive by it
 }
 export interface SensorShare {
   force_n: number;
   share: number; // (force - reference) / reference
 }
 
-/** The forces beside the mean of their end; whether they are balanced is the server's word, which bars the drive by it. */
+/** The forces beside the mean of their end. */
 export function summarise(
-  vehicle: Pick<Vehicle, "brackets" | "worst_bracket">,
+  vehicle: Pick<Vehicle, "brackets" | "worst_bracket" | "load_fault">,
   type: VehicleType | undefined,
 ): LoadSummary | undefined {
   const { brackets } = vehicle;
@@ -32,11 +27,11 @@ export function summarise(
     const x = places.find((b) => b.name === name)?.position.x_m;
     return x === undefined ? 0 : Math.sign(x - middle);
   };
-  const fault = bracketFault(vehicle);
+  const off = vehicle.load_fault?.code === "load_unbalanced" ? vehicle.worst_bracket?.bracket : undefined;
   const reference = (name: string) => {
     const ofEnd = brackets.filter((b) => endOf(b.name) === endOf(name));
     // A bracket that is far off would make its sound neighbour look wrong.
-    const sound = ofEnd.filter((b) => b.name !== fault?.bracket);
+    const sound = ofEnd.filter((b) => b.name !== off);
     const same = sound.length > 0 ? sound : ofEnd;
     return same.reduce((s, b) => s + b.force_a_n + b.force_b_n, 0) / (2 * same.length);
   };
@@ -50,32 +45,13 @@ export function summarise(
     mean_n: total / (2 * brackets.length),
     brackets: rows,
     worst: Math.abs(vehicle.worst_bracket?.share ?? 0),
-    balanced: fault === undefined,
+    limit: type?.load_rules?.most_unbalance ?? vehicle.worst_bracket?.limit ?? 0,
+    fault: vehicle.load_fault,
   };
 }
 
 /** Half the distance between a bracket's two pins, along the body: ours, Tang 2020 does not give it. */
 export const kPinOffset_m = 0.25;
-
-/** Where the load's weight acts in the body frame; nothing without load or without known brackets. */
-export function centreOfLoad(
-  brackets: readonly BracketReading[],
-  type: VehicleType | undefined,
-): { x_m: number; y_m: number } | undefined {
-  let total = 0;
-  let mx = 0;
-  let my = 0;
-  for (const b of brackets) {
-    const at = type?.brackets.find((t) => t.name === b.name)?.position;
-    if (!at) return undefined;
-    const sum = b.force_a_n + b.force_b_n;
-    total += sum;
-    mx += b.force_a_n * (at.x_m + kPinOffset_m) + b.force_b_n * (at.x_m - kPinOffset_m);
-    my += sum * at.y_m;
-  }
-  if (total <= 100) return undefined; // under 10 kg it is noise
-  return { x_m: mx / total, y_m: my / total };
-}
 
 /** The words over the drawing name only what this vehicle has. */
 export function titleOf(
