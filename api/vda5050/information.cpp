@@ -220,9 +220,10 @@ void keep(std::vector<T>& list, T item, const Values& in) {
 
 void decode_entry(const std::string& type, Values& in, StateMessage& state) {
     if (type == "bracketLoad") {
-        BracketLoad load{in.text("name"), in.number("force_a_n", limits::kForce_n),
-                         in.number("force_b_n", limits::kForce_n)};
-        keep(state.brackets, std::move(load), in);
+        BracketStatus bracket{in.text("name"), in.number("force_a_n", limits::kForce_n),
+                              in.number("force_b_n", limits::kForce_n)};
+        if (in.has("height_m")) bracket.height_m = in.number("height_m", limits::kOnVehicle_m);
+        keep(state.brackets, std::move(bracket), in);
     } else if (type == "wheel") {
         WheelStatus wheel{in.text("name"), in.number("steering_rad", limits::kAngle_rad),
                           in.number("speed_mps", limits::kVelocity_mps),
@@ -231,6 +232,7 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
         keep(state.wheels, std::move(wheel), in);
     } else if (type == "parkingFoot") {
         ParkingFoot foot{in.text("name"), in.number("extension_m", limits::kOnVehicle_m)};
+        if (in.has("force_n")) foot.force_n = in.number("force_n", limits::kForce_n);
         keep(state.parking_feet, std::move(foot), in);
     } else if (type == "camera") {
         keep(state.cameras, decode_camera(in), in);
@@ -259,9 +261,11 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
 Json encode_information(const StateMessage& state) {
     Json list = Json::array();
     for (const auto& bracket : state.brackets) {
-        list.push_back(entry("bracketLoad", {{"name", bracket.name},
-                                             {"force_a_n", number_text(bracket.force_a_n)},
-                                             {"force_b_n", number_text(bracket.force_b_n)}}));
+        References references{{"name", bracket.name},
+                              {"force_a_n", number_text(bracket.force_a_n)},
+                              {"force_b_n", number_text(bracket.force_b_n)}};
+        if (bracket.height_m) references.emplace_back("height_m", number_text(*bracket.height_m));
+        list.push_back(entry("bracketLoad", references));
     }
     for (const auto& wheel : state.wheels) {
         References references{{"name", wheel.name},
@@ -277,8 +281,9 @@ Json encode_information(const StateMessage& state) {
     if (!state.navigation.by.empty()) list.push_back(encode_navigation(state.navigation));
     for (const auto& fix : state.fixes) list.push_back(encode_fix(fix));
     for (const auto& foot : state.parking_feet) {
-        list.push_back(entry(
-            "parkingFoot", {{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}}));
+        References references{{"name", foot.name}, {"extension_m", number_text(foot.extension_m)}};
+        if (foot.force_n) references.emplace_back("force_n", number_text(*foot.force_n));
+        list.push_back(entry("parkingFoot", references));
     }
     list.push_back(entry("load", {{"load_kg", number_text(state.load_kg)}}));
     return list;

@@ -133,10 +133,12 @@ struct VehicleError {
     std::vector<std::pair<std::string, std::string>> references;
 };
 
-struct BracketLoad {
+/// Of a mechanism that holds the load; those without a sensor leave its value out.
+struct BracketStatus {
     std::string name;
     double force_a_n = 0;
     double force_b_n = 0;
+    std::optional<double> height_m = {};  // above its lower end
 };
 
 struct WheelStatus {
@@ -204,6 +206,7 @@ inline constexpr std::size_t kMostPoseFixes = 10;
 struct ParkingFoot {
     std::string name;
     double extension_m = 0;
+    std::optional<double> force_n = {};  // by which it stands on the floor
 };
 
 struct NodeState {
@@ -239,7 +242,7 @@ struct StateMessage {
     bool field_violation = false;
     std::vector<ActionState> action_states;
     std::vector<VehicleError> errors;
-    std::vector<BracketLoad> brackets;
+    std::vector<BracketStatus> brackets;
     std::vector<WheelStatus> wheels;
     std::vector<CameraReading> cameras;
     std::vector<ReceiverReading> receivers;

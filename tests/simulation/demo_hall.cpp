@@ -2,7 +2,11 @@
 // hours, nothing going wrong. Held against what people can live with: every order ends, no vehicle
 // is moved aside twice for one order, and none waits for others more than ten times what it takes
 // alone. Virtual clock; a seed gives the same run.
-//   test_demo_hall [--hours H] [--seeds N] [--first N] [--plant FILE] [--trace 1]
+//   test_demo_hall [--hours H] [--seeds N] [--first N] [--plant FILE] [--every S] [--cancel-every
+//   S]
+//                  [--type TYPE] [--trace 1]
+// With --cancel-every a person cancels orders under way, wherever their vehicles are: then the
+// manners towards single orders are not judged, only that each ends and nobody waits for ever.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -33,10 +37,12 @@ constexpr double kStop_s = 20;           // a stop alone, measured and corrected
 constexpr double kShortest_s = 60;       // what an order counts at least as its own drive
 constexpr std::uint64_t kMostTold = 20;  // failures of a run
 constexpr double kMostWait = 10;         // times its own drive
-constexpr double kEvery_s = 75;          // between two orders, on the average
 
 struct Options {
     double hours = 1;
+    double every_s = 75;        // between two orders, on the average
+    double cancel_every_s = 0;  // of those under way; 0: nobody does
+    std::string type;           // only for vehicles of it, each by name; empty: all
     std::uint64_t first = 1;
     std::uint64_t seeds = 1;
     bool trace = false;
@@ -81,6 +87,7 @@ public:
         const double end_s = options_.hours * 3600;
         while (now_s_ < end_s) {
             if (now_s_ >= next_order_s_) order();
+            if (options_.cancel_every_s > 0 && now_s_ >= next_cancel_s_) cancel();
             step();
         }
         while (!all_over() && now_s_ < end_s + kDrain_s) step();
@@ -154,9 +161,14 @@ private:
 
     /// One that some vehicle can do: stations of one type, for it by name, by type or for anybody.
     void order() {
-        next_order_s_ = now_s_ + kEvery_s * 2 * (static_cast<double>(random_() % 1000) / 1000);
-        const auto& vehicle = plant_.vehicles[static_cast<std::size_t>(
-            pick(0, static_cast<int>(plant_.vehicles.size()) - 1))];
+        next_order_s_ =
+            now_s_ + options_.every_s * 2 * (static_cast<double>(random_() % 1000) / 1000);
+        std::vector<const plant::Vehicle*> asked;
+        for (const auto& one : plant_.vehicles) {
+            if (options_.type.empty() || one.type.str() == options_.type) asked.push_back(&one);
+        }
+        const auto& vehicle =
+            *asked[static_cast<std::size_t>(pick(0, static_cast<int>(asked.size()) - 1))];
         std::vector<int> numbers;
         for (const auto& station : plant_.stations) {
             const auto& types = station.vehicle_types;
@@ -165,7 +177,7 @@ private:
             if (fits) numbers.push_back(station.number);
         }
         fleet::NewOrder wanted;
-        const int kind = pick(0, 2);
+        const int kind = options_.type.empty() ? pick(0, 2) : 0;
         if (kind == 0) wanted.vehicle = vehicle.id;
         if (kind == 1) wanted.vehicle_type = vehicle.type;
         wanted.actor = "mes";
@@ -182,6 +194,19 @@ private:
             return;
         }
         ++sums_.orders;
+        settle();
+    }
+
+    /// A person has thought better of one that is under way.
+    void cancel() {
+        next_cancel_s_ = now_s_ + pick(1, static_cast<int>(2 * options_.cancel_every_s));
+        std::vector<fleet::JobOrderId> running;
+        for (const auto& id : open_) {
+            if (store_.orders.at(id).state == JobState::kRunning) running.push_back(id);
+        }
+        if (running.empty()) return;
+        const auto which = static_cast<std::size_t>(pick(0, static_cast<int>(running.size()) - 1));
+        static_cast<void>(fleet_->cancel_order(running[which], std::nullopt, "person", now()));
         settle();
     }
 
@@ -276,7 +301,7 @@ private:
                      " has not ended: " + fleet::to_string(order.state) + " " + order.reason.code);
             }
             for (const auto& [vehicle, times] : watched.moved_aside) {
-                if (times > 1) {
+                if (times > 1 && options_.cancel_every_s == 0) {
                     fail(vehicle.str() + " was moved aside " + std::to_string(times) +
                          " times for " + name(id));
                 }
@@ -322,6 +347,7 @@ private:
     std::uint64_t late_views_ = 0;
     double now_s_ = 0;
     double next_order_s_ = 10;
+    double next_cancel_s_ = 100;
     double next_help_s_ = 0;
     Sums sums_;
 };
@@ -339,6 +365,12 @@ Options options_from(int argc, char** argv) {
             options.first = std::strtoull(value, nullptr, 10);
         } else if (name == "--plant") {
             options.plant = value;
+        } else if (name == "--every") {
+            options.every_s = std::strtod(value, nullptr);
+        } else if (name == "--cancel-every") {
+            options.cancel_every_s = std::strtod(value, nullptr);
+        } else if (name == "--type") {
+            options.type = value;
         } else if (name == "--trace") {
             options.trace = *value == '1';
         } else {

@@ -27,9 +27,11 @@ Json error_json(const vda5050::VehicleError& error) {
     return {{"type", error.type}, {"fatal", error.fatal}, {"description", error.description}};
 }
 
-Json bracket_json(const vda5050::BracketLoad& bracket) {
-    return {
+Json bracket_json(const vda5050::BracketStatus& bracket) {
+    Json json{
         {"name", bracket.name}, {"force_a_n", bracket.force_a_n}, {"force_b_n", bracket.force_b_n}};
+    if (bracket.height_m) json["height_m"] = *bracket.height_m;
+    return json;
 }
 
 Json wheel_json(const vda5050::WheelStatus& wheel) {
@@ -41,7 +43,9 @@ Json wheel_json(const vda5050::WheelStatus& wheel) {
 }
 
 Json foot_json(const vda5050::ParkingFoot& foot) {
-    return {{"name", foot.name}, {"extension_m", foot.extension_m}};
+    Json json{{"name", foot.name}, {"extension_m", foot.extension_m}};
+    if (foot.force_n) json["force_n"] = *foot.force_n;
+    return json;
 }
 
 Json camera_json(const plant::VehicleType* type, const CameraImages& images,

@@ -264,7 +264,9 @@ void park_idle(FleetState& fleet, Time now) {
             // stands on that way, or on the way out of the one at rest.
             const bool others_in_vain = in_vain > (leaves_in_vain(live, now) ? 1 : 0);
             const bool clears = long_idle && (others_in_vain || !wanted().named.empty());
-            const bool by_itself = (stuck || clears) && !is_loaded(live);
+            // A load stays where it was brought, and not where its way was cut off.
+            const bool may_go = !is_loaded(live) || !has_place(fleet, live);
+            const bool by_itself = (stuck || clears) && may_go;
             if (soon || (!by_itself && !is_wanted_away(live))) continue;
             if (ends_charging(fleet, live, now)) continue;
             if (plan.place == traffic::kNoPlace) {

@@ -20,6 +20,8 @@ namespace {
 
 // So long an order may try in vain before younger ones for the same floor wait for it.
 constexpr Duration kElder = std::chrono::seconds(60);
+// So long a leg of which nothing was sent keeps its vehicle when its plan was given up.
+constexpr Duration kRelent = std::chrono::seconds(10);
 
 bool waits_to_try(const LiveVehicle& live, Time now) {
     return live.floor.next_try && now < *live.floor.next_try;
@@ -66,14 +68,21 @@ bool leave_dead_end(FleetState& fleet, LiveVehicle& live, Time now) {
 
 /// Nothing of the leg was sent yet, and its plan was given up so that others can pass. One that
 /// would have left has nobody to leave for any more; beside all places traffic finds no way back,
-/// and the step begins anew.
+/// and the step begins anew. At a place traffic looks for another way; where there is none for long
+/// the vehicle may itself stand in the way of who bars it, and only without a leg it makes way.
 bool drop_unsent(FleetState& fleet, LiveVehicle& live, Time now) {
     const Leg& leg = live.leg();
     if (live.delivery.cancelling() || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty())
         return false;
     const auto& plan = fleet.floor.traffic.plan(live.floor.vehicle);
-    if (plan.last() > plan.passed) return false;
-    if (!leg.order.empty() && plan.place != traffic::kNoPlace) return false;
+    if (plan.last() > plan.passed) {
+        live.floor.in_vain_since.reset();
+        return false;
+    }
+    if (!leg.order.empty() && plan.place != traffic::kNoPlace) {
+        if (!live.floor.in_vain_since) live.floor.in_vain_since = now;
+        if (now - *live.floor.in_vain_since < kRelent) return false;
+    }
     end_leg(fleet, live, LegEnd::kUnsent, now);
     return true;
 }

@@ -14,7 +14,9 @@ using Kind = Interlock::Kind;
 
 std::vector<plant::BracketForce> forces_on(const LiveVehicle& live) {
     std::vector<plant::BracketForce> forces;
-    for (const auto& [name, a_n, b_n] : live.state.brackets) forces.push_back({name, a_n + b_n});
+    for (const auto& bracket : live.state.brackets) {
+        forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
+    }
     return forces;
 }
 

@@ -14,11 +14,15 @@ constexpr double kStill_rad = 0.0005;
 // Of the bracket's force: the limit of their balance is a tenth.
 constexpr double kForceShare = 0.005;
 constexpr double kForce_n = 20;
-constexpr double kFoot_m = 0.001;
+constexpr double kLift_m = 0.001;  // of feet and brackets
 constexpr double kBattery_percent = 0.5;
 constexpr double kLoad_kg = 0.5;
 
 bool near(double a, double b, double within) { return std::abs(a - b) <= within; }
+
+bool both_near(const std::optional<double>& a, const std::optional<double>& b, double within) {
+    return a && b && near(*a, *b, within);
+}
 
 bool same_force(double a, double b) {
     return near(a, b, kForce_n + kForceShare * std::max(std::abs(a), std::abs(b)));
@@ -53,9 +57,10 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
         }
     };
     pairs(known.brackets, next.brackets,
-          [](const vda5050::BracketLoad& from, vda5050::BracketLoad& to) {
+          [](const vda5050::BracketStatus& from, vda5050::BracketStatus& to) {
               if (same_force(from.force_a_n, to.force_a_n)) to.force_a_n = from.force_a_n;
               if (same_force(from.force_b_n, to.force_b_n)) to.force_b_n = from.force_b_n;
+              if (both_near(from.height_m, to.height_m, kLift_m)) to.height_m = from.height_m;
           });
     pairs(known.wheels, next.wheels,
           [](const vda5050::WheelStatus& from, vda5050::WheelStatus& to) {
@@ -65,8 +70,10 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
           });
     pairs(known.parking_feet, next.parking_feet,
           [](const vda5050::ParkingFoot& from, vda5050::ParkingFoot& to) {
-              if (near(from.extension_m, to.extension_m, kFoot_m))
+              if (near(from.extension_m, to.extension_m, kLift_m))
                   to.extension_m = from.extension_m;
+              const bool both = from.force_n && to.force_n;
+              if (both && same_force(*from.force_n, *to.force_n)) to.force_n = from.force_n;
           });
     // A vehicle that has lost its pose is told it from what its cameras and receivers see.
     if (!next.position_initialized) return;

@@ -186,7 +186,8 @@ void VehicleEquipment::write_state(vda5050::StateMessage& state) {
     }
     for (std::size_t i = 0; i < brackets_->places().size(); ++i) {
         const auto forces = brackets_->forces(i);
-        state.brackets.push_back({brackets_->places()[i].name, forces.a_n, forces.b_n});
+        state.brackets.push_back(
+            {brackets_->places()[i].name, forces.a_n, forces.b_n, brackets_->height_m(i)});
     }
 }
 

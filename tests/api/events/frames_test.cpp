@@ -83,9 +83,9 @@ TEST(Frames, AFullyEquippedVehicleFitsTheDocument) {
     ApiWorld api;
     fleet::VehicleView view = *api.world.fleet->vehicle(plant::VehicleId("V1"), api.world.now);
     view.state.errors = {{"wheelFault", true, "hot", {}}};
-    view.state.brackets = {{"front left", 1.0, 2.0}};
+    view.state.brackets = {{"front left", 1.0, 2.0, 0.3}};
     view.state.wheels = {{"FL", 0.1, 0.2, 40, "overheated"}};
-    view.state.parking_feet = {{"front", 0.1}};
+    view.state.parking_feet = {{"front", 0.1, 4.0}};
     vda5050::CameraReading reading;
     reading.camera = "front";
     reading.found = true;

@@ -181,10 +181,14 @@ TEST(State, RoundTripKeepsWhatTheServerUses) {
     EXPECT_EQ(read->action_states[1].result_description, "no_marker_in_view");
     EXPECT_EQ(read->errors[0].references, sent.errors[0].references);
     EXPECT_EQ(read->brackets[0].force_a_n, 27000.5);
+    EXPECT_EQ(read->brackets[0].height_m, 0.125);
+    EXPECT_FALSE(read->brackets[1].height_m);
     EXPECT_EQ(read->wheels[1].fault, "overheated");
     EXPECT_EQ(read->cameras[0].code, sent.cameras[0].code);
     EXPECT_EQ(read->cameras[1].why_not, "no_code");
     EXPECT_EQ(read->parking_feet[0].extension_m, 0.1);
+    EXPECT_EQ(read->parking_feet[0].force_n, 52300);
+    EXPECT_FALSE(read->parking_feet[1].force_n);
     EXPECT_EQ(read->load_kg, 11000);
 }
 

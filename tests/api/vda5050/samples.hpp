@@ -168,7 +168,7 @@ inline vda5050::StateMessage state() {
          "no_marker_in_view",
          {}}};
     state.errors = {{"orderError", false, "not here", {{"orderId", "b"}, {"orderUpdateId", "0"}}}};
-    state.brackets = {{"front left", 27000.5, 26900}};
+    state.brackets = {{"front left", 27000.5, 26900, 0.125}, {"front right", 1, 2}};
     state.wheels = {{"FL", 0.2, 0.31, 33.5, ""}, {"FR", 0.2, 0.31, 61, "overheated"}};
     vda5050::CameraReading seen;
     seen.camera = "front";
@@ -182,7 +182,7 @@ inline vda5050::StateMessage state() {
     blind.camera = "back";
     blind.why_not = "no_code";
     state.cameras = {seen, blind};
-    state.parking_feet = {{"left", 0.1}};
+    state.parking_feet = {{"left", 0.1, 52300}, {"right", 0.1}};
     state.load_kg = 11000;
     return state;
 }

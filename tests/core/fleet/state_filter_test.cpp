@@ -19,10 +19,10 @@ vda5050::StateMessage standing() {
     state.node_states = {{"s2", 2, true}};
     state.edge_states = {{"e1", 1, true}};
     state.action_states = {{"a", "measureStop", vda5050::ActionStatus::kRunning, "", {}}};
-    state.brackets = {{"front left", 5000, 5000}};
+    state.brackets = {{"front left", 5000, 5000, 0.2}};
     state.wheels = {{"w1", 0, 0, 30, ""}};
     state.cameras = {{"front", true, "P1", {1, 0}, 0.1, 1e-4, 0.1, ""}};
-    state.parking_feet = {{"foot", 0.1}};
+    state.parking_feet = {{"foot", 0.1, 60000}};
     return state;
 }
 
@@ -71,6 +71,9 @@ TEST(StateFilter, WhatTheFleetDecidesByPassesAtOnce) {
             s.errors.push_back({"motor", true, "", {}});
         },
         [](auto& s) { s.brackets[0].force_b_n = 5200; },
+        [](auto& s) { s.brackets[0].height_m = 0.202; },
+        [](auto& s) { s.brackets[0].height_m.reset(); },
+        [](auto& s) { s.parking_feet[0].force_n = 0; },
         [](auto& s) { s.wheels[0].fault = "hot"; },
         [](auto& s) { s.cameras[0].found = false; },
         [](auto& s) { s.cameras[0].payload = "P2"; },
@@ -91,6 +94,8 @@ TEST(StateFilter, NoiseOfSensorsDoesNot) {
         s.velocity_mps = 0.01;
         s.turn_rate_radps = 0.01;
         s.brackets[0].force_a_n += 30;
+        s.brackets[0].height_m = 0.2003;
+        s.parking_feet[0].force_n = 60100;
         s.wheels[0].temperature_c += 1;
         s.wheels[0].steering_rad += 0.1;
         s.cameras[0].code.x_m += 0.001;

@@ -1,9 +1,9 @@
 import { useTranslation } from "react-i18next";
-import { kilonewtons } from "@/shared/words/format";
+import { kilonewtons, millimetres } from "@/shared/words/format";
 import { bracketKey, onSheet, type OnSheetProps } from "./faceplate";
 import { summarise, type SensorShare } from "./loads";
 
-/** A card a bracket with the forces of its two pins. */
+/** A card a bracket: how high it is, and the forces of its two pins. */
 export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
   const { t } = useTranslation("vehicles");
   const summary = summarise(vehicle, type);
@@ -20,6 +20,11 @@ export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
           <div key={b.name} className="bc" style={style}>
             <div className="bh">
               <span>{t(`loads.bracket.${bracketKey(type, b.name)}`, { defaultValue: b.name })}</span>
+              {b.height_m !== undefined && (
+                <span className="high">
+                  {millimetres(b.height_m, { decimals: 1 })} <u>mm</u>
+                </span>
+              )}
               <b>
                 {kilonewtons(b.sum_n)} <u>kN</u>
               </b>

@@ -68,6 +68,11 @@ export function WheelLabels({ vehicle, type, sheet }: OnSheetProps) {
         return (
           <span key={f.name} className={`wl ${corner.x < 0 ? "to" : "from"}`} style={place}>
             {t("loads.foot")} {millimetres(f.extension_m, { decimals: 1 })} <u>mm</u>
+            {f.force_n !== undefined && f.force_n > kStands_n && (
+              <span>
+                {kilonewtons(f.force_n)} <u>kN</u>
+              </span>
+            )}
           </span>
         );
       })}

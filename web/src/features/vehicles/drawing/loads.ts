@@ -3,7 +3,7 @@ import type { Reason, Vehicle, VehicleType } from "@/shared/api/types";
 export interface LoadSummary {
   total_n: number;
   mean_n: number;
-  brackets: { name: string; sum_n: number; a: SensorShare; b: SensorShare }[];
+  brackets: { name: string; height_m?: number | undefined; sum_n: number; a: SensorShare; b: SensorShare }[];
   worst: number; // largest departure of a bracket from the mean of its end, as a share
   limit: number; // of it, by the rules of the vehicle's type
   fault: Reason | undefined; // the rule that the load breaks: the server's word, which bars the drive by it
@@ -38,7 +38,8 @@ export function summarise(
   const rows = brackets.map((b) => {
     const ref = reference(b.name);
     const share = (f: number): SensorShare => ({ force_n: f, share: ref > 0 ? (f - ref) / ref : 0 });
-    return { name: b.name, sum_n: b.force_a_n + b.force_b_n, a: share(b.force_a_n), b: share(b.force_b_n) };
+    const sum_n = b.force_a_n + b.force_b_n;
+    return { name: b.name, height_m: b.height_m, sum_n, a: share(b.force_a_n), b: share(b.force_b_n) };
   });
   return {
     total_n: total,
