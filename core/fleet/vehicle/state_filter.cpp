@@ -72,8 +72,8 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
           [](const vda5050::ParkingFoot& from, vda5050::ParkingFoot& to) {
               if (near(from.extension_m, to.extension_m, kLift_m))
                   to.extension_m = from.extension_m;
-              const bool both = from.force_n && to.force_n;
-              if (both && same_force(*from.force_n, *to.force_n)) to.force_n = from.force_n;
+              const bool told = from.force_n && to.force_n;
+              if (told && same_force(*from.force_n, *to.force_n)) to.force_n = from.force_n;
           });
     // A vehicle that has lost its pose is told it from what its cameras and receivers see.
     if (!next.position_initialized) return;
