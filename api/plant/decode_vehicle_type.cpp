@@ -79,6 +79,25 @@ void decode_limits(ObjectReader& in, VehicleType& type) {
     type.max_load_kg = in.number("max_load_kg", kQuantity);
 }
 
+ParkingFoot decode_foot(ObjectReader& in) {
+    ParkingFoot foot;
+    foot.name = in.text("name", kName);
+    foot.position = decode_point(in.object("position"));
+    return foot;
+}
+
+ParkingGear decode_parking(ObjectReader& in) {
+    ParkingGear parking;
+    decode_all(in, "feet", kFew, parking.feet, decode_foot);
+    parking.stroke_m = in.number("stroke_m", kMetres);
+    parking.clearance_m = in.number("clearance_m", kMetres);
+    parking.lift_m = in.number("lift_m", kMetres);
+    parking.speed_mps = in.number("speed_mps", kQuantity);
+    parking.rating_n = in.number("rating_n", kQuantity);
+    in.refuse_unknown();
+    return parking;
+}
+
 LoadRules decode_load_rules(ObjectReader& in) {
     LoadRules rules;
     rules.bracket_rating_n = in.number_or("bracket_rating_n", 0, kQuantity);
@@ -152,6 +171,7 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     type.footprint = decode_ring(in, "footprint");
     type.load_footprint = decode_ring(in, "load_footprint", false);
     decode_limits(in, type);
+    if (auto parking = in.object_if_any("parking")) type.parking = decode_parking(*parking);
     if (auto rules = in.object_if_any("load_rules")) type.load_rules = decode_load_rules(*rules);
     if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
     if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);

@@ -163,6 +163,19 @@ Json encode(const NavigationScanner& s) {
 
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
 
+Json encode(const ParkingGear& parking) {
+    Json feet = Json::array();
+    for (const ParkingFoot& foot : parking.feet) {
+        feet.push_back({{"name", foot.name}, {"position", encode(foot.position)}});
+    }
+    return {{"feet", std::move(feet)},
+            {"stroke_m", parking.stroke_m},
+            {"clearance_m", parking.clearance_m},
+            {"lift_m", parking.lift_m},
+            {"speed_mps", parking.speed_mps},
+            {"rating_n", parking.rating_n}};
+}
+
 Json encode(const LoadRules& rules) {
     Json json{{"most_unbalance", rules.most_unbalance}};
     if (rules.bracket_rating_n > 0) json["bracket_rating_n"] = rules.bracket_rating_n;
@@ -208,6 +221,7 @@ Json encode(const VehicleType& t) {
                   {{"critical_percent", t.battery.critical_percent},
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
+    if (t.parking) json["parking"] = encode(*t.parking);
     if (!t.brackets.empty()) json["load_rules"] = encode(t.load_rules);
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
     json["scanners"] = encode_all(t.scanners);

@@ -31,6 +31,14 @@ std::vector<LaserScanner> usual_scanners(const Polygon& footprint) {
             {"back right", {box.min.x_m, box.min.y_m, -3 * kPi / 4}}};
 }
 
+ParkingGear usual_parking(const Polygon& footprint) {
+    const geometry::Box box = geometry::bounding_box(footprint);
+    return {{{"front left", {box.max.x_m, box.max.y_m}},
+             {"front right", {box.max.x_m, box.min.y_m}},
+             {"back left", {box.min.x_m, box.max.y_m}},
+             {"back right", {box.min.x_m, box.min.y_m}}}};
+}
+
 Polygon wheel_base(const VehicleType& type) {
     std::vector<Point2> wheels;
     for (const Wheel& wheel : type.wheels) wheels.push_back(wheel.position);

@@ -233,6 +233,22 @@ struct LoadRules {
     Polygon centre;  // where its centre of gravity may lie, body frame; empty: between the wheels
 };
 
+struct ParkingFoot {
+    std::string name;  // "front left"
+    Point2 position;   // body frame
+};
+
+/// Feet on which a vehicle stands while it is worked on (Tang 2020, section 2.1: parking
+/// mechanism).
+struct ParkingGear {
+    std::vector<ParkingFoot> feet;
+    double stroke_m = 0.15;     // from the upper switch to the lower one
+    double clearance_m = 0.10;  // over even floor, all up
+    double lift_m = 0.02;       // by so much all raise the vehicle once they stand
+    double speed_mps = 0.02;
+    double rating_n = 1.2e5;  // of each of them
+};
+
 /// When the fleet sends a vehicle of its own accord to a charger, and takes it away again.
 struct BatteryLimits {
     double critical_percent = 15;  // below: it is given no order any more
@@ -277,6 +293,7 @@ struct VehicleType {
     UsualCode usual_code;
     std::optional<SlipSensor> slip_sensor;  // none: nobody sees a wheel that slips alone
     std::vector<Bracket> brackets;
+    std::optional<ParkingGear> parking = {};  // none: it stands on its wheels only
     double mass_kg = 0;
     double max_load_kg = 0;
     LoadRules load_rules;
@@ -362,6 +379,8 @@ const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
 const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
 /// Where a plant says nothing: two, at opposite corners, each looking away from the body.
 std::vector<LaserScanner> usual_scanners(const Polygon& footprint);
+/// Of a type with brackets that was stored before its feet were: at the corners of the footprint.
+ParkingGear usual_parking(const Polygon& footprint);
 /// The convex hull of the wheels' places, body frame.
 Polygon wheel_base(const VehicleType& type);
 /// Whether the vehicle carries something that counts with its outline.

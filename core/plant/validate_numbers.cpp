@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <cmath>
 
+#include "core/base/gravity.hpp"
+#include "core/geometry/convex.hpp"
 #include "core/plant/validate_parts.hpp"
 
 namespace pulseline::plant::detail {
@@ -98,6 +101,36 @@ void check_navigation_scanner(const NavigationScanner& s, Numbers n) {
     check_step(s.step_rad, n);
 }
 
+void check_parking(const VehicleType& t, const std::string& element, Faults& faults) {
+    const ParkingGear& parking = *t.parking;
+    Numbers n(element, faults);
+    n.positive("/stroke_m", parking.stroke_m);
+    n.not_negative("/clearance_m", parking.clearance_m);
+    n.positive("/lift_m", parking.lift_m);
+    n.positive("/speed_mps", parking.speed_mps);
+    n.positive("/rating_n", parking.rating_n);
+    if (parking.clearance_m + parking.lift_m > parking.stroke_m) {
+        n.fault("/stroke_m", "stroke_too_short", "The feet end before they have raised it.",
+                "Make stroke_m more than clearance_m and lift_m together.");
+    }
+    std::vector<Point2> places;
+    for (std::size_t i = 0; i < parking.feet.size(); ++i) {
+        Numbers(element + "/feet/" + std::to_string(i), faults)
+            .point("/position", parking.feet[i].position);
+        places.push_back(parking.feet[i].position);
+    }
+    if (places.size() < 3 || !geometry::contains(geometry::convex_hull(places), {0, 0})) {
+        n.fault("/feet", "feet_do_not_hold", "On these feet the vehicle would tip.",
+                "List three at least, round its middle.");
+    }
+    const double even_n = (t.mass_kg + t.max_load_kg) * kGravity_mps2 /
+                          static_cast<double>(std::max<std::size_t>(1, places.size()));
+    if (std::isfinite(parking.rating_n) && parking.rating_n < even_n) {
+        n.fault("/rating_n", "feet_too_weak", "Its largest load is more than they may carry.",
+                "Write the rating of one foot in newtons, or correct the masses.");
+    }
+}
+
 void check_type(const VehicleType& t, const std::string& element, Faults& faults) {
     Numbers n(element, faults);
     n.positive("/max_speed_mps", t.max_speed_mps);
@@ -146,6 +179,7 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     if (t.navigation_scanner) {
         check_navigation_scanner(*t.navigation_scanner, {element + "/navigation_scanner", faults});
     }
+    if (t.parking) check_parking(t, element + "/parking", faults);
     for (std::size_t i = 0; i < t.brackets.size(); ++i) {
         Numbers(element + "/brackets/" + std::to_string(i), faults)
             .point("/position", t.brackets[i].position);

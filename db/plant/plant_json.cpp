@@ -195,6 +195,38 @@ std::vector<plant::Bracket> brackets_from_json(const std::string& text) {
     });
 }
 
+std::string parking_to_json(const std::optional<plant::ParkingGear>& parking) {
+    if (!parking) return "null";
+    Json feet = Json::array();
+    for (const plant::ParkingFoot& foot : parking->feet) {
+        feet.push_back({{"name", foot.name}, {"position", encode(foot.position)}});
+    }
+    return Json{{"feet", feet},
+                {"stroke_m", number(parking->stroke_m)},
+                {"clearance_m", number(parking->clearance_m)},
+                {"lift_m", number(parking->lift_m)},
+                {"speed_mps", number(parking->speed_mps)},
+                {"rating_n", number(parking->rating_n)}}
+        .dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+std::optional<plant::ParkingGear> parking_from_json(const std::string& text) {
+    const auto stored = list_from_json<plant::ParkingGear>(
+        "[" + (text == "null" ? "" : text) + "]", [](const Json& j) {
+            plant::ParkingGear parking{{},
+                                       j.at("stroke_m"),
+                                       j.at("clearance_m"),
+                                       j.at("lift_m"),
+                                       j.at("speed_mps"),
+                                       j.at("rating_n")};
+            for (const Json& foot : j.at("feet")) {
+                parking.feet.push_back({foot.at("name"), decode_point(foot.at("position"))});
+            }
+            return parking;
+        });
+    if (stored.empty()) return std::nullopt;
+    return stored.front();
+}
+
 std::string load_rules_to_json(const plant::LoadRules& rules) {
     Json centre = Json::array();
     for (const Point2& corner : rules.centre) centre.push_back(encode(corner));

@@ -24,6 +24,8 @@ std::string scanner_to_json(const std::optional<plant::NavigationScanner>& scann
 std::optional<plant::NavigationScanner> scanner_from_json(const std::string& text);
 std::string brackets_to_json(const std::vector<plant::Bracket>& brackets);
 std::vector<plant::Bracket> brackets_from_json(const std::string& text);
+std::string parking_to_json(const std::optional<plant::ParkingGear>& parking);
+std::optional<plant::ParkingGear> parking_from_json(const std::string& text);
 /// "null" becomes the rules of a type that states none.
 std::string load_rules_to_json(const plant::LoadRules& rules);
 plant::LoadRules load_rules_from_json(const std::string& text);

@@ -69,6 +69,9 @@ plant::RoadmapEdge EdgeRow::get() const {
     return edge;
 }
 
+// What the migration that brought feet wrote for the types that it found.
+static constexpr const char* kBeforeParking = "before";
+
 void VehicleTypeRow::set(const plant::VehicleType& type) {
     element = type;
     id = type.id.str();
@@ -85,6 +88,7 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     scanners = scanners_to_json(type.scanners);
     navigation_scanner = scanner_to_json(type.navigation_scanner);
     brackets = brackets_to_json(type.brackets);
+    parking = parking_to_json(type.parking);
     load_rules = load_rules_to_json(type.load_rules);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
@@ -110,6 +114,10 @@ plant::VehicleType VehicleTypeRow::get() const {
         scanners == "null" ? plant::usual_scanners(type.footprint) : scanners_from_json(scanners);
     type.navigation_scanner = scanner_from_json(navigation_scanner);
     type.brackets = brackets_from_json(brackets);
+    // Before feet were stored, all types with brackets stood on such.
+    type.parking = parking == kBeforeParking && !type.brackets.empty()
+                       ? plant::usual_parking(type.footprint)
+                       : parking_from_json(parking == kBeforeParking ? "null" : parking);
     type.load_rules = load_rules_from_json(load_rules);
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();

@@ -209,6 +209,34 @@ TEST(PlantStore, KeepsTheLoadRulesOfATypeAndTheUsualOnesOfTypesOfBefore) {
     EXPECT_THROW(PlantStore(database).load(), Error);
 }
 
+TEST(PlantStore, KeepsTheFeetOfATypeAndTheUsualOnesOfTypesOfBefore) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant.vehicle_types[0].parking = plant::ParkingGear{
+        {{"a", {1.5, 0.5}}, {"b", {-1, 0.7}}, {"c", {0.1, -0.8}}}, 0.2, 0.11, 0.03, 0.015, 91000};
+    PlantStore(database).import(plant);
+    const auto kept = PlantStore(database).load()->vehicle_types[0].parking;
+    ASSERT_TRUE(kept);
+    ASSERT_EQ(kept->feet.size(), 3u);
+    EXPECT_EQ(kept->feet[1].name, "b");
+    EXPECT_EQ(kept->feet[1].position, (geometry::Point2{-1, 0.7}));
+    EXPECT_EQ(kept->stroke_m, 0.2);
+    EXPECT_EQ(kept->clearance_m, 0.11);
+    EXPECT_EQ(kept->lift_m, 0.03);
+    EXPECT_EQ(kept->speed_mps, 0.015);
+    EXPECT_EQ(kept->rating_n, 91000);
+
+    plant.vehicle_types[0].parking.reset();
+    PlantStore(database).import(plant);
+    EXPECT_FALSE(PlantStore(database).load()->vehicle_types[0].parking);
+    database.sql() << "UPDATE vehicle_types SET parking = 'before'";
+    const auto usual = PlantStore(database).load()->vehicle_types[0].parking;
+    ASSERT_TRUE(usual);
+    EXPECT_EQ(usual->feet.size(), 4u);
+    database.sql() << "UPDATE vehicle_types SET parking = '[1'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
 TEST(PlantStore, TypesOfBeforeHaveTheScannersThatAreUsual) {
     Database database(":memory:");
     PlantStore(database).import(demo("measuring-hall"));

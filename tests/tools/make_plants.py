@@ -79,6 +79,10 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "brackets": [{"name": n, "position": point(x, y)} for n, x, y in
                  [("front left", 2.4, 0.7), ("front right", 2.4, -0.7), ("back left", -3.0, 0.7),
                   ("back right", -3.0, -0.7)]],
+    "parking": {"feet": [{"name": n, "position": point(x, y)} for n, x, y in
+                         [("front left", 5.25, 1.25), ("front right", 5.25, -1.25), ("back left", -5.25, 1.25),
+                          ("back right", -5.25, -1.25)]],
+                "stroke_m": 0.15, "clearance_m": 0.1, "lift_m": 0.02, "speed_mps": 0.02, "rating_n": 120000},
     "mass_kg": 10200, "max_load_kg": 22000,
     # Between the brackets; across, their balance asks for less still.
     "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]}}

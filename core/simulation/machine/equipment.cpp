@@ -18,49 +18,32 @@ constexpr double kBatteryPerMetre = 5e-4;   // per cent
 constexpr double kChargePerSecond = 0.028;  // per cent: an hour from empty to full
 constexpr double kContact_m = 0.05;
 constexpr double kContact_rad = 2 * kPi / 180.0;
-constexpr double kFeetDown_m = 0.12;
-// At most: an aircraft is set down with care across, and has its weight where it has it along.
+// At most.
 constexpr double kLoadAcross_m = 0.025;
 constexpr double kLoadAlong_m = 0.5;
-// Feet have no force sensors: nothing stops them but their ends.
-constexpr LiftParameters kFeet{.stroke_m = 0.15, .speed_mps = 0.02, .accel_mps2 = 0.05};
 
 bool meets(const Pose2& charger, const Pose2& vehicle) {
     return geometry::distance(charger.position(), vehicle.position()) <= kContact_m &&
            std::abs(wrap(charger.heading_rad - vehicle.heading_rad)) <= kContact_rad;
 }
 
-/// At the corners of the vehicle (Tang 2020, section 2.1).
-std::vector<LiftPlace> foot_places(const plant::VehicleType& type) {
-    double x_m = 0;
-    double y_m = 0;
-    for (const auto& corner : type.footprint) {
-        x_m = std::max(x_m, std::abs(corner.x_m));
-        y_m = std::max(y_m, std::abs(corner.y_m));
-    }
-    return {{"front left", {x_m, y_m}},
-            {"front right", {x_m, -y_m}},
-            {"back left", {-x_m, y_m}},
-            {"back right", {-x_m, -y_m}}};
-}
-
-LiftingDrive bracket_lifts(const plant::VehicleType& type, double load_kg, std::uint64_t seed) {
-    std::vector<LiftPlace> places;
+/// Where the weight of what lies on the brackets acts: an aircraft is set down with care across,
+/// and has its weight where it has it along.
+geometry::Point2 load_centre(const plant::VehicleType& type, std::mt19937_64& random) {
     geometry::Point2 middle;
     const auto count = static_cast<double>(type.brackets.size());
-    for (const auto& bracket : type.brackets) {
-        places.push_back({bracket.name, bracket.position});
-        middle = middle + (1 / count) * bracket.position;
-    }
-    LiftParameters parameters;
-    parameters.most_force_n = plant::bracket_rating_n(type);
-    std::mt19937_64 random(seed);
+    for (const auto& bracket : type.brackets) middle = middle + (1 / count) * bracket.position;
     std::uniform_real_distribution<double> share(-1, 1);
     const double along_m = kLoadAlong_m * share(random);
-    const geometry::Point2 beside{along_m, kLoadAcross_m * share(random)};
-    LiftingDrive lifts(std::move(places), parameters, random());
-    lifts.set_load(load_kg, middle + beside);
-    return lifts;
+    return middle + geometry::Point2{along_m, kLoadAcross_m * share(random)};
+}
+
+LiftingDrive bracket_lifts(const plant::VehicleType& type, std::mt19937_64& random) {
+    std::vector<LiftPlace> places;
+    for (const auto& bracket : type.brackets) places.push_back({bracket.name, bracket.position});
+    LiftParameters parameters;
+    parameters.most_force_n = plant::bracket_rating_n(type);
+    return {std::move(places), parameters, random()};
 }
 
 const ParamValue* find(const Params& params, const std::string& name) {
@@ -94,22 +77,36 @@ std::string sentence(const Reason& reason) {
 
 VehicleEquipment::VehicleEquipment(const plant::VehicleType& type, const Pose2& true_pose,
                                    std::vector<Pose2> chargers, double battery_percent,
-                                   double time_factor, double load_kg, std::uint64_t seed)
+                                   double time_factor, double load_kg, std::uint64_t seed,
+                                   FloorHeight floor_height)
     : true_pose_(true_pose),
       action_types_{vda5050::kStartCharging, vda5050::kStopCharging},
       chargers_(std::move(chargers)),
       time_factor_(time_factor),
       battery_percent_(battery_percent),
       load_kg_(load_kg) {
-    if (type.brackets.empty()) return;
-    action_types_.insert(action_types_.end(), {vda5050::kRaiseParking, vda5050::kLowerParking,
-                                               vda5050::kSetBracketHeight});
-    feet_.emplace(foot_places(type), kFeet, seed);
-    brackets_.emplace(bracket_lifts(type, load_kg, seed + 1));
+    std::mt19937_64 random(seed);
+    geometry::Point2 centre;
+    if (!type.brackets.empty()) {
+        action_types_.emplace_back(vda5050::kSetBracketHeight);
+        centre = load_centre(type, random);
+        brackets_.emplace(bracket_lifts(type, random));
+        brackets_->set_load(load_kg, centre);
+    }
+    if (!type.parking) return;
+    action_types_.insert(action_types_.end(), {vda5050::kRaiseParking, vda5050::kLowerParking});
+    feet_.emplace(
+        type,
+        [&pose = true_pose, height = std::move(floor_height)](geometry::Point2 body) {
+            return height(pose * body);
+        },
+        random());
+    feet_->set_load(load_kg, centre);
 }
 
 std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action) {
     lifting_ = action.type == vda5050::kSetBracketHeight;
+    parking_ = action.type == vda5050::kLowerParking || action.type == vda5050::kRaiseParking;
     if (action.type == vda5050::kStopCharging) {
         charging_ = false;
     } else if (action.type == vda5050::kStartCharging) {
@@ -119,9 +116,10 @@ std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action
         charging_ = true;
     } else if (lifting_) {
         return begin_bracket(action);
-    } else if (auto why_not = feet_->begin(
-                   std::nullopt, action.type == vda5050::kLowerParking ? kFeetDown_m : 0)) {
-        return sentence(*why_not);
+    } else if (action.type == vda5050::kLowerParking) {
+        feet_->lower();
+    } else {
+        feet_->raise();
     }
     return std::nullopt;
 }
@@ -147,8 +145,9 @@ bool VehicleEquipment::busy() const {
 }
 
 std::optional<std::string> VehicleEquipment::failure() const {
-    if (!lifting_ || !brackets_->stop_cause()) return std::nullopt;
-    return sentence(*brackets_->stop_cause());
+    const std::optional<Reason> none;
+    const auto& cause = lifting_ ? brackets_->stop_cause() : parking_ ? feet_->stop_cause() : none;
+    return cause ? std::optional(sentence(*cause)) : std::nullopt;
 }
 
 void VehicleEquipment::abort() {
@@ -165,7 +164,7 @@ void VehicleEquipment::step(double dt_s, double way_m) {
 }
 
 bool VehicleEquipment::holds_vehicle() const {
-    return charging_ || busy() || (feet_ && feet_->height_m(0) > 0);
+    return charging_ || busy() || (feet_ && feet_->extended());
 }
 
 std::optional<double> VehicleEquipment::bracket_height_m(const std::string& name) const {
@@ -180,11 +179,10 @@ void VehicleEquipment::write_state(vda5050::StateMessage& state) {
     state.load_kg = load_kg_;
     state.parking_feet.clear();
     state.brackets.clear();
-    if (!feet_) return;
-    for (std::size_t i = 0; i < feet_->places().size(); ++i) {
-        state.parking_feet.push_back({feet_->places()[i].name, feet_->height_m(i)});
+    for (std::size_t i = 0; feet_ && i < feet_->count(); ++i) {
+        state.parking_feet.push_back({feet_->name(i), feet_->extension_m(i), feet_->force_n(i)});
     }
-    for (std::size_t i = 0; i < brackets_->places().size(); ++i) {
+    for (std::size_t i = 0; brackets_ && i < brackets_->places().size(); ++i) {
         const auto forces = brackets_->forces(i);
         state.brackets.push_back(
             {brackets_->places()[i].name, forces.a_n, forces.b_n, brackets_->height_m(i)});

@@ -8,24 +8,28 @@
 #include "core/onboard/equipment.hpp"
 #include "core/plant/plant.hpp"
 #include "core/simulation/machine/lifting_drive.hpp"
+#include "core/simulation/machine/parking_gear.hpp"
+#include "core/simulation/world/floor_height.hpp"
 #include "core/vda5050/messages.hpp"
 
 namespace pulseline::simulation {
 
 using geometry::Pose2;
 
-/// What a simulated vehicle does standing besides measuring: it charges at a charger, and one with
-/// brackets lowers and raises its parking feet (in step) and its brackets, one or all in step, by
-/// setBracketHeight {bracket: name or "all", height_m}. Speeds are times the time factor.
-/// Thread safety: none. No clock: time passes by step().
+/// What a simulated vehicle does standing besides measuring: it charges at a charger, lowers and
+/// raises its parking feet, and its brackets, one or all in step, by setBracketHeight {bracket:
+/// name or "all", height_m}. Speeds are times the time factor. Thread safety: none. No clock: time
+/// passes by step().
 class VehicleEquipment : public onboard::Equipment {
 public:
     /// `true_pose`: where the vehicle truly stands; must outlive it. `chargers`: true poses at
-    /// which the contacts meet. `load_kg` lies on the brackets, nearly in their middle. REQUIRES: 0
-    /// <= battery_percent <= 100.
+    /// which the contacts meet. `load_kg` lies on the brackets, nearly in their middle.
+    /// `floor_height`: of the hall, below its feet and wheels. REQUIRES: 0 <= battery_percent <=
+    /// 100.
     VehicleEquipment(const plant::VehicleType& type, const Pose2& true_pose,
                      std::vector<Pose2> chargers, double battery_percent, double time_factor,
-                     double load_kg = 0, std::uint64_t seed = 1);
+                     double load_kg = 0, std::uint64_t seed = 1,
+                     FloorHeight floor_height = usual_floor_height);
 
     const std::vector<std::string>& action_types() const override { return action_types_; }
     std::optional<std::string> begin(const vda5050::Action& action) override;
@@ -50,8 +54,9 @@ private:
     double battery_percent_;
     bool charging_ = false;
     bool lifting_ = false;  // what was begun last moves brackets
+    bool parking_ = false;  // what was begun last moves feet
     double load_kg_;
-    std::optional<LiftingDrive> feet_;
+    std::optional<ParkingGear> feet_;
     std::optional<LiftingDrive> brackets_;
 };
 

@@ -1,12 +1,12 @@
 #include "core/simulation/machine/lifting_drive.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "core/base/gravity.hpp"
+#include "core/simulation/machine/resting_body.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -142,33 +142,15 @@ void LiftingDrive::advance(double sign) {
     }
 }
 
-/// A rigid body on springs that only push: forces from heights, weight and its centre. Springs that
-/// would pull are left out, one by one.
 void LiftingDrive::share_load() {
-    const double weight_n = load_kg_ * kGravity_mps2;
-    const double k = parameters_.stiffness_npm;
-    std::vector<bool> carries(lifts_.size(), true);
-    for (std::size_t round = 0; round < lifts_.size(); ++round) {
-        Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
-        Eigen::Vector3d moment = -weight_n * Eigen::Vector3d(1, centre_.x_m, centre_.y_m);
-        for (std::size_t i = 0; i < lifts_.size(); ++i) {
-            if (!carries[i]) continue;
-            const Eigen::Vector3d place(1, places_[i].position.x_m, places_[i].position.y_m);
-            stiffness += k * place * place.transpose();
-            moment += k * lifts_[i].axis.position() * place;
-        }
-        const Eigen::Vector3d plane = stiffness.completeOrthogonalDecomposition().solve(moment);
-        double least_n = 0;
-        std::size_t least = 0;
-        for (std::size_t i = 0; i < lifts_.size(); ++i) {
-            const Eigen::Vector3d place(1, places_[i].position.x_m, places_[i].position.y_m);
-            lifts_[i].force_n = carries[i] ? k * (lifts_[i].axis.position() - place.dot(plane)) : 0;
-            if (lifts_[i].force_n >= least_n) continue;
-            least_n = lifts_[i].force_n;
-            least = i;
-        }
-        if (least_n > -1) return;  // a newton: rounding
-        carries[least] = false;
+    std::vector<Support> supports;
+    for (std::size_t i = 0; i < lifts_.size(); ++i) {
+        supports.push_back(
+            {places_[i].position, lifts_[i].axis.position(), parameters_.stiffness_npm});
+    }
+    const auto rest = rest_on(supports, load_kg_ * kGravity_mps2, centre_);
+    for (std::size_t i = 0; i < lifts_.size(); ++i) {
+        lifts_[i].force_n = rest ? rest->force_n[i] : 0;
     }
 }
 

@@ -27,6 +27,7 @@ inline plant::VehicleType platform() {
                      {"front right", {2.4, -0.7}},
                      {"back left", {-3.0, 0.7}},
                      {"back right", {-3.0, -0.7}}};
+    type.parking = plant::usual_parking(type.footprint);
     type.slip_sensor = plant::SlipSensor{0.002};
     type.scanners = plant::usual_scanners(type.footprint);
     return type;

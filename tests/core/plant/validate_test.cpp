@@ -277,6 +277,24 @@ const Case kCases[] = {
      "/stations/1/charger", "charger_no_resting_place"},
     {"BatteryLimitsOutOfOrder", [](Plant& p) { p.vehicle_types[0].battery.low_percent = 5; },
      "/vehicle_types/0/battery", "battery_limits"},
+    {"FeetOnOneSide",
+     [](Plant& p) {
+         p.vehicle_types[0].parking = usual_parking(p.vehicle_types[0].footprint);
+         for (auto& foot : p.vehicle_types[0].parking->feet) foot.position.x_m += 100;
+     },
+     "/vehicle_types/0/parking/feet", "feet_do_not_hold"},
+    {"FeetTooShort",
+     [](Plant& p) {
+         p.vehicle_types[0].parking = usual_parking(p.vehicle_types[0].footprint);
+         p.vehicle_types[0].parking->lift_m = 0.06;
+     },
+     "/vehicle_types/0/parking/stroke_m", "stroke_too_short"},
+    {"FeetTooWeak",
+     [](Plant& p) {
+         p.vehicle_types[0].parking = usual_parking(p.vehicle_types[0].footprint);
+         p.vehicle_types[0].mass_kg = 60000;
+     },
+     "/vehicle_types/0/parking/rating_n", "feet_too_weak"},
     {"LoadCentreBeyondTheWheels",
      [](Plant& p) {
          VehicleType& type = p.vehicle_types[0];

@@ -1,0 +1,230 @@
+#include "core/simulation/machine/parking_gear.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "core/base/gravity.hpp"
+
+namespace pulseline::simulation {
+namespace {
+
+constexpr double kFootStiffness_npm = 5e7;
+constexpr double kWheelStiffness_npm = 2e7;  // solid tyres with their bearings
+constexpr double kTouches_n = 1500;          // by which a foot knows that it stands
+constexpr double kLost_n = 200;              // below, one that stood does so no more
+constexpr double kNear_m = 0.012;            // of even floor: from here on it is felt for
+constexpr double kFeels_mps = 0.002;
+constexpr double kThere_m = 5e-5;
+constexpr double kSettle_s = 0.1;
+constexpr double kSensorNoise = 0.004;  // share, one sigma
+constexpr double kInStep_m = 0.0005;    // one that lags by more makes the others wait
+constexpr double kScrewCurrent_a = 20;
+constexpr double kScrewInertia_kg = 5000;
+
+ServoParameters screw(const plant::ParkingGear& parking) {
+    ServoParameters p;
+    p.coulomb_friction = 0.05 * parking.rating_n;
+    p.force_per_ampere = 2 * parking.rating_n / kScrewCurrent_a;
+    p.current_limit_a = kScrewCurrent_a;
+    p.rotor_inertia = kScrewInertia_kg;
+    p.viscous_friction = 1e4;
+    p.tuned_inertia = kScrewInertia_kg;
+    p.position_gain_per_s = 10;
+    p.speed_limit = 1.3 * parking.speed_mps;
+    p.increment = 1e-7;
+    return p;
+}
+
+}  // namespace
+
+ParkingGear::ParkingGear(const plant::VehicleType& type, FloorUnder floor_under, std::uint64_t seed)
+    : parking_(*type.parking), type_(type), floor_under_(std::move(floor_under)), random_(seed) {
+    assert(!parking_.feet.empty());
+    for (std::size_t i = 0; i < parking_.feet.size(); ++i) {
+        feet_.push_back({ServoAxis(screw(parking_), random_()), 0, 0, false});
+    }
+}
+
+void ParkingGear::set_load(double load_kg, geometry::Point2 centre) {
+    load_kg_ = load_kg;
+    load_centre_ = centre;
+}
+
+bool ParkingGear::extended() const {
+    return std::ranges::any_of(feet_, [](const Foot& foot) { return foot.axis.position() > 0; });
+}
+
+void ParkingGear::lower() {
+    for (Foot& foot : feet_) foot.touches = false;
+    lifted_m_ = 0;
+    begin(Phase::kFeels);
+}
+
+void ParkingGear::raise() { begin(Phase::kSinks); }
+
+void ParkingGear::begin(Phase phase) {
+    settle();
+    for (Foot& foot : feet_) {
+        foot.axis.brake();
+        foot.axis.preload(foot.force_n);
+        foot.commanded_m = foot.axis.measured_position();
+    }
+    cause_.reset();
+    settled_s_ = 0;
+    phase_ = phase;
+}
+
+void ParkingGear::stop() {
+    for (Foot& foot : feet_) foot.axis.brake();
+    phase_ = Phase::kStands;
+}
+
+void ParkingGear::step(double dt_s) {
+    pending_s_ += dt_s;
+    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
+         pending_s_ -= ServoAxis::kCycle_s) {
+        if (moving()) cycle();
+    }
+}
+
+void ParkingGear::cycle() {
+    switch (phase_) {
+        case Phase::kStands:
+            return;
+        case Phase::kFeels:
+            feel();
+            break;
+        case Phase::kLifts:
+            move_in_step(1);
+            break;
+        case Phase::kSinks:
+            move_in_step(-1);
+            break;
+        case Phase::kRetracts:
+            retract();
+            break;
+    }
+    settle();
+    if (!check()) return;
+    const bool there = std::ranges::all_of(feet_, [](const Foot& foot) {
+        return std::abs(foot.commanded_m - foot.axis.measured_position()) <= kThere_m;
+    });
+    settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
+    if (settled_s_ < kSettle_s) return;
+    const bool all_touch = std::ranges::all_of(feet_, &Foot::touches);
+    const bool none_presses =
+        std::ranges::all_of(feet_, [](const Foot& foot) { return foot.force_n < kTouches_n; });
+    if (phase_ == Phase::kFeels && all_touch) {
+        phase_ = Phase::kLifts;
+    } else if (phase_ == Phase::kLifts && lifted_m_ >= parking_.lift_m) {
+        stop();
+    } else if (phase_ == Phase::kSinks && none_presses) {
+        phase_ = Phase::kRetracts;
+    } else if (phase_ == Phase::kRetracts &&
+               std::ranges::all_of(feet_, [](const Foot& f) { return f.commanded_m == 0; })) {
+        stop();
+        for (Foot& foot : feet_) foot.axis.home(0);
+    }
+}
+
+void ParkingGear::move(Foot& foot, double to_m) {
+    const double before_m = std::exchange(foot.commanded_m, to_m);
+    foot.axis.set_external_force(-foot.force_n);
+    foot.axis.cycle(to_m, (to_m - before_m) / ServoAxis::kCycle_s);
+}
+
+/// Each by itself: the floor is not even.
+void ParkingGear::feel() {
+    for (Foot& foot : feet_) {
+        foot.touches |= foot.force_n >= kTouches_n;
+        const bool near = foot.commanded_m >= parking_.clearance_m - kNear_m;
+        const double speed_mps =
+            near ? std::min(kFeels_mps, parking_.speed_mps) : parking_.speed_mps;
+        const double further_m = foot.touches ? 0 : speed_mps * ServoAxis::kCycle_s;
+        move(foot, std::min(foot.commanded_m + further_m, parking_.stroke_m));
+    }
+}
+
+/// By the same way, so that what the floor did to the vehicle's slope stays as it is.
+void ParkingGear::move_in_step(double sign) {
+    const bool in_step = std::ranges::all_of(
+        feet_, [](const Foot& foot) { return std::abs(foot.axis.following_error()) <= kInStep_m; });
+    double way_m = in_step ? parking_.speed_mps / 2 * ServoAxis::kCycle_s : 0;
+    if (sign > 0) way_m = std::min(way_m, std::max(0.0, parking_.lift_m - lifted_m_));
+    const bool presses =
+        std::ranges::any_of(feet_, [](const Foot& foot) { return foot.force_n >= kTouches_n; });
+    if (sign < 0 && !presses) way_m = 0;
+    lifted_m_ += sign * way_m;
+    for (Foot& foot : feet_) {
+        move(foot, std::clamp(foot.commanded_m + sign * way_m, 0.0, parking_.stroke_m));
+    }
+}
+
+void ParkingGear::retract() {
+    for (Foot& foot : feet_)
+        move(foot, std::max(0.0, foot.commanded_m - parking_.speed_mps * ServoAxis::kCycle_s));
+}
+
+/// The vehicle on its wheels and on those feet that reach the floor.
+void ParkingGear::settle() {
+    std::vector<Support> supports;
+    for (const auto& wheel : type_.wheels) {
+        if (const auto floor_m = floor_under_(wheel.position))
+            supports.push_back({wheel.position, *floor_m, kWheelStiffness_npm});
+    }
+    std::vector<std::optional<std::size_t>> of_foot(feet_.size());
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        const auto floor_m = floor_under_(parking_.feet[i].position);
+        if (!floor_m) continue;
+        of_foot[i] = supports.size();
+        supports.push_back({parking_.feet[i].position,
+                            *floor_m + feet_[i].axis.position() - parking_.clearance_m,
+                            kFootStiffness_npm});
+    }
+    const double mass_kg = type_.mass_kg + load_kg_;
+    const auto centre = (load_kg_ / mass_kg) * load_centre_;  // the vehicle's own is its origin
+    const auto rest = rest_on(supports, mass_kg * kGravity_mps2, centre);
+    if (rest) plane_ = rest->plane;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        feet_[i].force_n = rest && of_foot[i] ? rest->force_n[*of_foot[i]] : 0;
+    }
+}
+
+/// False: the movement has failed.
+bool ParkingGear::check() {
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        Foot& foot = feet_[i];
+        const bool at_end = foot.axis.position() >= parking_.stroke_m - kThere_m;
+        if (phase_ == Phase::kFeels && at_end && !foot.touches) {
+            fail({"foot_without_floor", {{"foot", name(i)}, {"extension_m", foot.axis.position()}}},
+                 Phase::kSinks);
+            return false;
+        }
+        if (foot.force_n > parking_.rating_n && phase_ != Phase::kSinks) {
+            fail({"foot_overloaded",
+                  {{"foot", name(i)}, {"force_n", foot.force_n}, {"limit_n", parking_.rating_n}}},
+                 Phase::kSinks);
+            return false;
+        }
+        if (phase_ == Phase::kLifts && foot.force_n < kLost_n) {
+            fail({"foot_lost_contact", {{"foot", name(i)}}}, Phase::kSinks);
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What has begun to carry lets down again, in step.
+void ParkingGear::fail(Reason cause, Phase next) {
+    begin(next);
+    cause_ = std::move(cause);
+}
+
+double ParkingGear::force_n(std::size_t foot) {
+    std::normal_distribution<double> noise(1, kSensorNoise);
+    return feet_[foot].force_n * noise(random_);
+}
+
+}  // namespace pulseline::simulation
