@@ -1,8 +1,11 @@
 import { useTranslation } from "react-i18next";
 import { StatusSymbol } from "@/shared/ui";
-import { degrees, fixed, millimetres } from "@/shared/words/format";
+import { degrees, fixed, kilonewtons, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { footCorner, onSheet, wheelPlace, wheelRing_m, wheelState, type OnSheetProps } from "./faceplate";
+
+/** From here on a foot stands: below, its sensor shows noise. */
+const kStands_n = 500;
 
 /** Where words beside the body stand, as a share of half its length. */
 const kBeside = 1.06;
