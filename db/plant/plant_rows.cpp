@@ -7,6 +7,9 @@
 namespace pulseline::db {
 namespace {
 
+// What the migration that brought feet wrote for the types that it found.
+constexpr const char* kBeforeParking = "before";
+
 template <class K>
 std::string keys_to_json(const std::vector<K>& keys) {
     std::vector<std::string> texts;
@@ -68,9 +71,6 @@ plant::RoadmapEdge EdgeRow::get() const {
     if (corridor != plant::Corridor{}) edge.corridor = corridor;
     return edge;
 }
-
-// What the migration that brought feet wrote for the types that it found.
-static constexpr const char* kBeforeParking = "before";
 
 void VehicleTypeRow::set(const plant::VehicleType& type) {
     element = type;

@@ -78,6 +78,7 @@ PULSELINE_FIELDS(LightPlane, a, b, offset_m)
 PULSELINE_FIELDS(Transmitter, id, hall, position, z_m, roll_rad, pitch_rad, heading_rad, rate_hz,
                  first, second, range_m, elevation_rad, sigma_rad, sigma_place_m, sigma_turn_rad)
 PULSELINE_FIELDS(Reflector, id, hall, position, sigma_m)
+PULSELINE_FIELDS(BracketShare, bracket, share, limit)
 }  // namespace plant
 
 namespace vda5050 {

@@ -144,7 +144,7 @@ TEST_F(Interlocks, ALoadBesideTheLimitsOfItsTypeStaysAndTheChecksSayWhy) {
 
     NewOrder dry;
     dry.vehicle = kV1;
-    dry.steps = {{3, MotionMode::kAuto}};
+    dry.steps = {{3, plant::MotionMode::kAuto}};
     const auto checks = strict.fleet->preview(dry, strict.now).checks;
     const auto check = std::ranges::find(checks, "load", &Check::code);
     ASSERT_NE(check, checks.end());
