@@ -15,7 +15,7 @@ export function manyVehicles(count) {
   const plant = {
     ...base, id: `load-${count}`, name: `Load, ${count} carriers`, areas: [], stations: [], markers: [], vehicles: [], roadmap: { nodes: [], edges: [] },
     halls: [{ id: hall.id, name: hall.name, outline: [[0, 0], [width, 0], [width, height], [0, height]].map(([x_m, y_m]) => ({ x_m, y_m })) }],
-    vehicle_types: [{ ...base.vehicle_types[0], id: "carrier", name: "Small carrier", footprint: box(2, 1), load_footprint: [], brackets: [], clearance_m: 0.3, max_speed_mps: 1, max_accel_mps2: 0.5, max_turn_rate_radps: 0.5, max_turn_accel_radps2: 0.5,
+    vehicle_types: [{ ...base.vehicle_types[0], id: "carrier", name: "Small carrier", footprint: box(2, 1), load_footprint: [], brackets: [], load_rules: undefined, parking: undefined, clearance_m: 0.3, max_speed_mps: 1, max_accel_mps2: 0.5, max_turn_rate_radps: 0.5, max_turn_accel_radps2: 0.5,
       wheels: base.vehicle_types[0].wheels.map((w) => ({ ...w, position: { x_m: Math.sign(w.position.x_m) * 0.8, y_m: Math.sign(w.position.y_m) * 0.4 } })),
       cameras: [["front", 0.7], ["back", -0.7]].map(([name, x_m]) => ({ ...camera, name, body_from_camera: { x_m, y_m: 0, heading_rad: 0 } })) }],
   };

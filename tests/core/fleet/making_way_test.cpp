@@ -332,20 +332,25 @@ TEST(MakingWay, AnIdleOneThatKeepsAnotherFromLeavingGoesToRestThoughNobodyNamesI
 // Fleet judge, seed 1720: an order waited for ever for one who rests, another stood on that one's
 // way out.
 TEST(MakingWay, AnIdleOneOnTheRoadLeavesItForOneAtRestThatCannotMakeWay) {
-    World world(plant_of({{"east", 90, 40, 1},
-                          {"west", 30, 40, 2},
-                          {"left", 10, 70, 3},
-                          {"right", 50, 70, 4},
-                          {"fork", 30, 70}},
-                         {{"east", "west"}, {"west", "fork"}, {"fork", "left"}, {"fork", "right"}},
-                         3));
-    world.vehicle("V3").state.pose = {30, 55, kPi / 2};  // as a cancelled leg leaves it
-    confirm_poses(world);
+    for (const char* load : {"", "A-101"}) {  // a load stays where it was brought, not halfway
+        plant::Plant plant =
+            plant_of({{"east", 90, 40, 1},
+                      {"west", 30, 40, 2},
+                      {"left", 10, 70, 3},
+                      {"right", 50, 70, 4},
+                      {"fork", 30, 70}},
+                     {{"east", "west"}, {"west", "fork"}, {"fork", "left"}, {"fork", "right"}}, 3);
+        plant.vehicles[2].load_name = load;
+        World world(plant);
+        world.vehicle("V3").state.pose = {30, 55, kPi / 2};  // as a cancelled leg leaves it
+        confirm_poses(world);
 
-    ASSERT_TRUE(world.order("V1", {2}));
-    world.run(300);
+        ASSERT_TRUE(world.order("V1", {2}));
+        world.run(300);
 
-    EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << order_of(world, "V1").reason.code;
+        EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded)
+            << load << order_of(world, "V1").reason.code;
+    }
 }
 
 TEST(MakingWay, TwoHeadOnBetweenPlacesAfterARestartFindAWayApart) {
