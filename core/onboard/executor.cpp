@@ -192,7 +192,7 @@ void Executor::queue_edges() {
     way_.hand_over();
 }
 
-bool Executor::waits_to_be_led() const {
+bool Executor::waits_to_begin() const {
     return held_ && motion_.idle() && !way_.empty() && waiting_.empty() && !paused_;
 }
 

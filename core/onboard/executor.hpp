@@ -78,11 +78,12 @@ public:
     /// What the vehicle has learned of its small moves, to be kept for its next start.
     const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
-    /// While `held` it begins no way where it stands, since its drive has still to be led to the
-    /// pose that it knows: some seconds after a person's word. On its way it drives on.
+    /// While `held` it begins no way where it stands, since it knows too little where that is or
+    /// its drive has still to be led to the pose that it knows: some time after a person's word. On
+    /// its way it drives on.
     void hold(bool held) { held_ = held; }
     /// It would drive, were it not held.
-    bool waits_to_be_led() const;
+    bool waits_to_begin() const;
     /// Codes read under way: the result of observeMarkers on the edge being driven.
     void note_codes(const std::vector<std::string>& payloads);
 

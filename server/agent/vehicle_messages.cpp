@@ -73,14 +73,16 @@ void Vehicle::write_navigation(vda5050::NavigationStatus& status) const {
 /// That it knows too little where it is, or has known it for a moment only, and which sense leaves
 /// it alone.
 void Vehicle::write_advice(vda5050::StateMessage& state) const {
-    if (executor_.waits_to_be_led()) {
+    const bool waits = executor_.waits_to_begin();
+    if (waits && advice_ != onboard::PoseGuard::Advice::kLookAround) {
         state.errors.push_back({"poseTaken",
                                 false,
                                 "The vehicle knows a better place since a moment ago. It drives as "
                                 "soon as it steers by that, in some seconds.",
                                 {}});
     }
-    if (drive_->idle() || advice_ == onboard::PoseGuard::Advice::kDrive) return;
+    const bool stays = drive_->idle() && !waits;
+    if (stays || advice_ == onboard::PoseGuard::Advice::kDrive) return;
     using Lacks = onboard::ContourWatch::Lacks;
     const Lacks lacks = contours_ ? contours_->lacks() : Lacks::kNothing;
     if (lacks == Lacks::kThingsNear) {

@@ -75,15 +75,16 @@ void Vehicle::log_refused() const {
     server::log::warn("code.refused", fields);
 }
 
-/// At a stop the procedure leads. An order may come when its place was told a moment ago: it
-/// begins when the drive believes what is known since.
+/// At a stop the procedure leads. An order may come when its place was told a moment ago: it begins
+/// when that is known well enough and the drive believes it.
 void Vehicle::lead_at_rest(double dt_s) {
     const bool rests = drive_->idle() && drive_->standing() && !executor_.acting() &&
                        !executor_.in_hand() && executor_.position_initialized();
     if (rests) watch_.lead_at_rest(dt_s);
-    const bool waited = executor_.waits_to_be_led();
-    executor_.hold(rests && guard_ && watch_.has_to_lead() && guard_->should_be_led(estimate_));
-    state_due_ |= waited != executor_.waits_to_be_led();
+    const bool waited = executor_.waits_to_begin();
+    const bool led_soon = guard_ && watch_.has_to_lead() && guard_->should_be_led(estimate_);
+    executor_.hold(rests && (led_soon || (guard_ && guard_->is_vague(estimate_))));
+    state_due_ |= waited != executor_.waits_to_begin();
 }
 
 /// By what the scanners see, the codes that it missed, how well it knows where it is and whether
@@ -100,9 +101,13 @@ void Vehicle::limit_speed() {
 void Vehicle::guard_pose(double dt_s) {
     if (!guard_) return;
     using Advice = onboard::PoseGuard::Advice;
+    using Way = onboard::PoseGuard::Way;
     const bool located = executor_.position_initialized() && !executor_.acting();
-    const bool driving = located && !drive_->idle() && !executor_.in_hand();
-    const Advice advice = guard_->step(dt_s * drive_->time_factor(), estimate_, driving);
+    const bool by_itself = located && !executor_.in_hand();
+    const Way way = by_itself && !drive_->idle()              ? Way::kUnderWay
+                    : by_itself && executor_.waits_to_begin() ? Way::kToBegin
+                                                              : Way::kNone;
+    const Advice advice = guard_->step(dt_s * drive_->time_factor(), estimate_, way);
     state_due_ |= advice != advice_;
     advice_ = located ? advice : Advice::kDrive;
     if (advice_ != Advice::kAsk) return;

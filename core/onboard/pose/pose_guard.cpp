@@ -21,10 +21,13 @@ PoseGuard::PoseGuard(const plant::VehicleType& type, bool loaded) {
     }
 }
 
+double PoseGuard::unknown_m(const PoseEstimate& estimate) const {
+    return kReachSigmas *
+           std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
+}
+
 double PoseGuard::reach_m(const PoseEstimate& estimate) const {
-    const double unknown_m =
-        kReachSigmas * std::hypot(estimate.sigma_xy_m(), radius_m_ * estimate.sigma_heading_rad());
-    return unknown_m + to_lead_m(estimate);
+    return unknown_m(estimate) + to_lead_m(estimate);
 }
 
 double PoseGuard::to_lead_m(const PoseEstimate& estimate) const {
@@ -36,11 +39,16 @@ bool PoseGuard::should_be_led(const PoseEstimate& estimate) const {
     return to_lead_m(estimate) > kLedBefore * kHeld_m;
 }
 
-PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, bool driving) {
-    const double reach = reach_m(estimate);
-    if (reach > kStandFrom * kHeld_m && driving) {
+bool PoseGuard::is_vague(const PoseEstimate& estimate) const {
+    return unknown_m(estimate) > kStandFrom * kHeld_m;
+}
+
+PoseGuard::Advice PoseGuard::step(double dt_s, const PoseEstimate& estimate, Way way) {
+    const double reach = way == Way::kToBegin ? unknown_m(estimate) : reach_m(estimate);
+    if (reach > kStandFrom * kHeld_m && way != Way::kNone) {
         looked_s_ += dt_s;
-        return looked_s_ <= kLook_s ? Advice::kLookAround : Advice::kAsk;
+        const double patience_s = way == Way::kToBegin ? kFind_s : kLook_s;
+        return looked_s_ <= patience_s ? Advice::kLookAround : Advice::kAsk;
     }
     looked_s_ = 0;
     return reach > kSlowFrom * kHeld_m ? Advice::kDriveSlowly : Advice::kDrive;

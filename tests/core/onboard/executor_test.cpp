@@ -22,19 +22,19 @@ TEST_F(ExecutorTest, StopsAtTheEndOfTheBaseAndAsksForMore) {
 TEST_F(ExecutorTest, HeldWhereItStandsItBeginsNoWayAndOnItsWayItDrivesOn) {
     executor.hold(true);
     run(1);
-    EXPECT_FALSE(executor.waits_to_be_led()) << "nobody has sent it anywhere";
+    EXPECT_FALSE(executor.waits_to_begin()) << "nobody has sent it anywhere";
     executor.handle(order("a", 4, 2));
     run(5);
     EXPECT_TRUE(motion.idle());
     EXPECT_EQ(furthest_x, 0);
-    EXPECT_TRUE(executor.waits_to_be_led());
+    EXPECT_TRUE(executor.waits_to_begin());
 
     executor.hold(false);
-    EXPECT_FALSE(executor.waits_to_be_led());
+    EXPECT_FALSE(executor.waits_to_begin());
     run(1);
     EXPECT_FALSE(motion.standing());
     executor.hold(true);
-    EXPECT_FALSE(executor.waits_to_be_led());
+    EXPECT_FALSE(executor.waits_to_begin());
     run(60);
     EXPECT_NEAR(furthest_x, 2, 1e-5);
 }

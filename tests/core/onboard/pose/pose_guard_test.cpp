@@ -8,6 +8,7 @@ namespace pulseline::onboard {
 namespace {
 
 using Advice = PoseGuard::Advice;
+using Way = PoseGuard::Way;
 
 PoseEstimate measured(const localisation::OdometryNoise& noise) {
     PoseEstimate estimate{geometry::Pose2{}, noise};
@@ -28,7 +29,7 @@ Ways ways(const plant::VehicleType& type, bool loaded, PoseEstimate estimate) {
     Ways found;
     for (double at_m = 0; at_m < 2000 && found.stand_m < 0; at_m += 0.1) {
         estimate.drive_to({at_m, 0, 0});
-        const Advice advice = guard.step(0.1, estimate, true);
+        const Advice advice = guard.step(0.1, estimate, Way::kUnderWay);
         if (advice != Advice::kDrive && found.slow_m < 0) found.slow_m = at_m;
         if (speed_share(advice) == 0) found.stand_m = at_m;
         if (speed_share(advice) > 0) {
@@ -73,13 +74,13 @@ TEST(PoseGuard, ItStandsUntilItsDriveBelievesWhatItKnows) {
     PoseGuard guard(type, false);
     EXPECT_NEAR(norm(estimate.to_lead().position()), 0.054, 0.003);
     EXPECT_GT(guard.reach_m(estimate), 0.4) << "its ends, 5.4 m from its middle";
-    EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kLookAround);
+    EXPECT_EQ(guard.step(0.1, estimate, Way::kUnderWay), Advice::kLookAround);
     EXPECT_TRUE(guard.should_be_led(estimate));
 
     estimate.led_to(estimate.pose());
     EXPECT_LT(norm(estimate.to_lead().position()), 1e-12);
     EXPECT_FALSE(guard.should_be_led(estimate));
-    EXPECT_EQ(guard.step(0.1, estimate, true), Advice::kDrive);
+    EXPECT_EQ(guard.step(0.1, estimate, Way::kUnderWay), Advice::kDrive);
 }
 
 TEST(PoseGuard, FromWhereAPersonPointsToItLooksAroundAndThenAsks) {
@@ -88,12 +89,23 @@ TEST(PoseGuard, FromWhereAPersonPointsToItLooksAroundAndThenAsks) {
     estimate.start_at({});
     PoseGuard guard(type, false);
 
-    EXPECT_GT(speed_share(guard.step(60, estimate, false)), 0) << "nobody has sent it";
+    EXPECT_GT(speed_share(guard.step(60, estimate, Way::kNone)), 0) << "nobody has sent it";
     for (double looked_s = 0; looked_s < PoseGuard::kLook_s - 0.5; looked_s += 0.5) {
-        EXPECT_EQ(guard.step(0.5, estimate, true), Advice::kLookAround) << looked_s;
+        EXPECT_EQ(guard.step(0.5, estimate, Way::kUnderWay), Advice::kLookAround) << looked_s;
     }
-    guard.step(0.5, estimate, true);
-    EXPECT_EQ(guard.step(0.5, estimate, true), Advice::kAsk);
+    guard.step(0.5, estimate, Way::kUnderWay);
+    EXPECT_EQ(guard.step(0.5, estimate, Way::kUnderWay), Advice::kAsk);
+}
+
+TEST(PoseGuard, BeforeItBeginsItsLooksHaveTimeToAddUp) {
+    const auto type = pulseline::testing::differential();
+    PoseEstimate estimate{geometry::Pose2{}, noise(type)};
+    estimate.start_at({});
+    PoseGuard guard(type, false);
+    EXPECT_TRUE(guard.is_vague(estimate));
+    EXPECT_FALSE(guard.is_vague(measured(noise(type))));
+    EXPECT_EQ(guard.step(PoseGuard::kFind_s - 1, estimate, Way::kToBegin), Advice::kLookAround);
+    EXPECT_EQ(guard.step(2, estimate, Way::kToBegin), Advice::kAsk);
 }
 
 // In a wide hall no wall tells it better, and its next code lies 9 m on.
@@ -112,12 +124,12 @@ TEST(PoseGuard, WhatTellsItWhileItLooksLetsItDrive) {
     PoseEstimate estimate{geometry::Pose2{}, noise(type)};
     estimate.start_at({});
     PoseGuard guard(type, false);
-    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, true), Advice::kLookAround);
+    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, Way::kUnderWay), Advice::kLookAround);
 
     PoseEstimate told = measured(noise(type));
-    EXPECT_EQ(guard.step(1, told, true), Advice::kDrive);
+    EXPECT_EQ(guard.step(1, told, Way::kUnderWay), Advice::kDrive);
 
-    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, true), Advice::kLookAround)
+    EXPECT_EQ(guard.step(PoseGuard::kLook_s - 1, estimate, Way::kUnderWay), Advice::kLookAround)
         << "it begins to look anew";
 }
 
@@ -125,7 +137,7 @@ TEST(PoseGuard, WhereCodesHaveToldItItDrivesAtOnce) {
     const auto type = pulseline::testing::differential();
     PoseEstimate estimate{geometry::Pose2{}, noise(type)};
     estimate.start_at({}, 0.002, 0.002);
-    EXPECT_EQ(PoseGuard(type, false).step(0.1, estimate, true), Advice::kDrive);
+    EXPECT_EQ(PoseGuard(type, false).step(0.1, estimate, Way::kUnderWay), Advice::kDrive);
 }
 
 }  // namespace
