@@ -7,6 +7,7 @@
 
 #include "core/base/gravity.hpp"
 #include "core/simulation/machine/resting_body.hpp"
+#include "core/simulation/machine/screw.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -14,23 +15,6 @@ namespace {
 constexpr double kLevel_m = 1e-7;  // heights that count as the same
 constexpr double kLiftThere_m = 1e-4;
 constexpr double kLiftSettle_s = 0.1;
-constexpr double kScrewCurrent_a = 20;
-constexpr double kScrewInertia_kg = 5000;  // motor and screw, seen from the nut
-constexpr double kScrewFriction = 0.05;    // of the greatest force
-
-ServoParameters screw(const LiftParameters& lift) {
-    ServoParameters p;
-    p.coulomb_friction = kScrewFriction * lift.most_force_n;
-    p.force_per_ampere = 2 * lift.most_force_n / kScrewCurrent_a;
-    p.current_limit_a = kScrewCurrent_a;
-    p.rotor_inertia = kScrewInertia_kg;
-    p.viscous_friction = 1e4;
-    p.tuned_inertia = kScrewInertia_kg;
-    p.position_gain_per_s = 10;
-    p.speed_limit = 1.3 * lift.speed_mps;
-    p.increment = 1e-7;
-    return p;
-}
 
 }  // namespace
 
@@ -41,7 +25,8 @@ LiftingDrive::LiftingDrive(std::vector<LiftPlace> places, const LiftParameters& 
     std::uniform_real_distribution<double> uneven(-parameters_.uneven, parameters_.uneven);
     for (std::size_t i = 0; i < places_.size(); ++i) {
         lifts_.push_back(
-            {ServoAxis(screw(parameters_), random_()), 0, 0, uneven(random_), 0, 0, false});
+            {ServoAxis(screw(parameters_.most_force_n, parameters_.speed_mps), random_()), 0, 0,
+             uneven(random_), 0, 0, false});
     }
 }
 

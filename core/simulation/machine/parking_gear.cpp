@@ -6,36 +6,21 @@
 #include <utility>
 
 #include "core/base/gravity.hpp"
+#include "core/simulation/machine/screw.hpp"
 
 namespace pulseline::simulation {
 namespace {
 
 constexpr double kFootStiffness_npm = 5e7;
 constexpr double kWheelStiffness_npm = 2e7;  // solid tyres with their bearings
-constexpr double kTouches_n = 1500;          // by which a foot knows that it stands
-constexpr double kLost_n = 200;              // below, one that stood does so no more
-constexpr double kNear_m = 0.012;            // of even floor: from here on it is felt for
+constexpr double kFootTouches_n = 1500;      // by which a foot knows that it stands
+constexpr double kFootLost_n = 200;          // below, one that stood does so no more
+constexpr double kFloorNear_m = 0.012;       // of even floor: from here on it is felt for
 constexpr double kFeels_mps = 0.002;
-constexpr double kThere_m = 5e-5;
-constexpr double kSettle_s = 0.1;
-constexpr double kSensorNoise = 0.004;  // share, one sigma
-constexpr double kInStep_m = 0.0005;    // one that lags by more makes the others wait
-constexpr double kScrewCurrent_a = 20;
-constexpr double kScrewInertia_kg = 5000;
-
-ServoParameters screw(const plant::ParkingGear& parking) {
-    ServoParameters p;
-    p.coulomb_friction = 0.05 * parking.rating_n;
-    p.force_per_ampere = 2 * parking.rating_n / kScrewCurrent_a;
-    p.current_limit_a = kScrewCurrent_a;
-    p.rotor_inertia = kScrewInertia_kg;
-    p.viscous_friction = 1e4;
-    p.tuned_inertia = kScrewInertia_kg;
-    p.position_gain_per_s = 10;
-    p.speed_limit = 1.3 * parking.speed_mps;
-    p.increment = 1e-7;
-    return p;
-}
+constexpr double kFootThere_m = 5e-5;
+constexpr double kFootSettle_s = 0.1;
+constexpr double kFootNoise = 0.004;      // share, one sigma
+constexpr double kFeetInStep_m = 0.0005;  // one that lags by more makes the others wait
 
 }  // namespace
 
@@ -43,7 +28,8 @@ ParkingGear::ParkingGear(const plant::VehicleType& type, FloorUnder floor_under,
     : parking_(*type.parking), type_(type), floor_under_(std::move(floor_under)), random_(seed) {
     assert(!parking_.feet.empty());
     for (std::size_t i = 0; i < parking_.feet.size(); ++i) {
-        feet_.push_back({ServoAxis(screw(parking_), random_()), 0, 0, false});
+        feet_.push_back(
+            {ServoAxis(screw(parking_.rating_n, parking_.speed_mps), random_()), 0, 0, false});
     }
 }
 
@@ -109,13 +95,13 @@ void ParkingGear::cycle() {
     settle();
     if (!check()) return;
     const bool there = std::ranges::all_of(feet_, [](const Foot& foot) {
-        return std::abs(foot.commanded_m - foot.axis.measured_position()) <= kThere_m;
+        return std::abs(foot.commanded_m - foot.axis.measured_position()) <= kFootThere_m;
     });
     settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
-    if (settled_s_ < kSettle_s) return;
+    if (settled_s_ < kFootSettle_s) return;
     const bool all_touch = std::ranges::all_of(feet_, &Foot::touches);
     const bool none_presses =
-        std::ranges::all_of(feet_, [](const Foot& foot) { return foot.force_n < kTouches_n; });
+        std::ranges::all_of(feet_, [](const Foot& foot) { return foot.force_n < kFootTouches_n; });
     if (phase_ == Phase::kFeels && all_touch) {
         phase_ = Phase::kLifts;
     } else if (phase_ == Phase::kLifts && lifted_m_ >= parking_.lift_m) {
@@ -138,8 +124,8 @@ void ParkingGear::move(Foot& foot, double to_m) {
 /// Each by itself: the floor is not even.
 void ParkingGear::feel() {
     for (Foot& foot : feet_) {
-        foot.touches |= foot.force_n >= kTouches_n;
-        const bool near = foot.commanded_m >= parking_.clearance_m - kNear_m;
+        foot.touches |= foot.force_n >= kFootTouches_n;
+        const bool near = foot.commanded_m >= parking_.clearance_m - kFloorNear_m;
         const double speed_mps =
             near ? std::min(kFeels_mps, parking_.speed_mps) : parking_.speed_mps;
         const double further_m = foot.touches ? 0 : speed_mps * ServoAxis::kCycle_s;
@@ -149,12 +135,13 @@ void ParkingGear::feel() {
 
 /// By the same way, so that what the floor did to the vehicle's slope stays as it is.
 void ParkingGear::move_in_step(double sign) {
-    const bool in_step = std::ranges::all_of(
-        feet_, [](const Foot& foot) { return std::abs(foot.axis.following_error()) <= kInStep_m; });
+    const bool in_step = std::ranges::all_of(feet_, [](const Foot& foot) {
+        return std::abs(foot.axis.following_error()) <= kFeetInStep_m;
+    });
     double way_m = in_step ? parking_.speed_mps / 2 * ServoAxis::kCycle_s : 0;
     if (sign > 0) way_m = std::min(way_m, std::max(0.0, parking_.lift_m - lifted_m_));
     const bool presses =
-        std::ranges::any_of(feet_, [](const Foot& foot) { return foot.force_n >= kTouches_n; });
+        std::ranges::any_of(feet_, [](const Foot& foot) { return foot.force_n >= kFootTouches_n; });
     if (sign < 0 && !presses) way_m = 0;
     lifted_m_ += sign * way_m;
     for (Foot& foot : feet_) {
@@ -196,7 +183,7 @@ void ParkingGear::settle() {
 bool ParkingGear::check() {
     for (std::size_t i = 0; i < feet_.size(); ++i) {
         Foot& foot = feet_[i];
-        const bool at_end = foot.axis.position() >= parking_.stroke_m - kThere_m;
+        const bool at_end = foot.axis.position() >= parking_.stroke_m - kFootThere_m;
         if (phase_ == Phase::kFeels && at_end && !foot.touches) {
             fail({"foot_without_floor", {{"foot", name(i)}, {"extension_m", foot.axis.position()}}},
                  Phase::kSinks);
@@ -208,7 +195,7 @@ bool ParkingGear::check() {
                  Phase::kSinks);
             return false;
         }
-        if (phase_ == Phase::kLifts && foot.force_n < kLost_n) {
+        if (phase_ == Phase::kLifts && foot.force_n < kFootLost_n) {
             fail({"foot_lost_contact", {{"foot", name(i)}}}, Phase::kSinks);
             return false;
         }
@@ -223,7 +210,7 @@ void ParkingGear::fail(Reason cause, Phase next) {
 }
 
 double ParkingGear::force_n(std::size_t foot) {
-    std::normal_distribution<double> noise(1, kSensorNoise);
+    std::normal_distribution<double> noise(1, kFootNoise);
     return feet_[foot].force_n * noise(random_);
 }
 

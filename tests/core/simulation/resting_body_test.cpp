@@ -68,7 +68,9 @@ TEST(RestingBody, IsInBalanceOnAnySupports) {
             across_nm += force_n * supports[i].place.y_m;
             const double body_m = rest->plane[0] + rest->plane[1] * supports[i].place.x_m +
                                   rest->plane[2] * supports[i].place.y_m;
-            if (force_n == 0) EXPECT_GE(body_m, supports[i].height_m);
+            if (force_n == 0) {
+                EXPECT_GE(body_m, supports[i].height_m);
+            }
         }
         EXPECT_NEAR(sum_n, weight_n, 1e-6 * weight_n);
         EXPECT_NEAR(along_nm, weight_n * centre.x_m, 1e-5 * weight_n);
