@@ -9,7 +9,8 @@ namespace {
 
 constexpr int kMostRounds = 60;
 constexpr int kMostHalvings = 40;
-constexpr double kBalance = 1e-9;    // of the weight, what may be left unbalanced
+constexpr double kBalance = 1e-8;    // of the weight, what may be left unbalanced
+constexpr double kRounding = 1e-12;  // of the energy: less is no step uphill
 constexpr double kSlack_m = 1.0;     // a body that sinks or tilts by more has found no rest
 constexpr double kFirstSag_m = 0.1;  // below all supports: each of them pushes at the beginning
 
@@ -73,7 +74,8 @@ std::optional<Rest> rest_on(const std::vector<Support>& supports, double weight_
         double share = 1;
         const double before = energy.value(plane);
         for (int halved = 0; halved < kMostHalvings; ++halved, share /= 2) {
-            if (energy.value(plane + share * step) <= before) break;
+            const double rounding = kRounding * (std::abs(before) + energy.load.norm());
+            if (energy.value(plane + share * step) <= before + rounding) break;
         }
         plane += share * step;
         if (std::abs(plane[0] - lowest_m) > kSlack_m || plane.tail<2>().norm() > kSlack_m) {
