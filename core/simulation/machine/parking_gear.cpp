@@ -25,8 +25,12 @@ constexpr double kFeetInStep_m = 0.0005;  // one that lags by more makes the oth
 }  // namespace
 
 ParkingGear::ParkingGear(const plant::VehicleType& type, FloorUnder floor_under, std::uint64_t seed)
-    : parking_(*type.parking), type_(type), floor_under_(std::move(floor_under)), random_(seed) {
+    : parking_(*type.parking),
+      mass_kg_(type.mass_kg),
+      floor_under_(std::move(floor_under)),
+      random_(seed) {
     assert(!parking_.feet.empty());
+    for (const auto& wheel : type.wheels) wheels_.push_back(wheel.position);
     for (std::size_t i = 0; i < parking_.feet.size(); ++i) {
         feet_.push_back(
             {ServoAxis(screw(parking_.rating_n, parking_.speed_mps), random_()), 0, 0, false});
@@ -124,7 +128,7 @@ void ParkingGear::move(Foot& foot, double to_m) {
 /// Each by itself: the floor is not even.
 void ParkingGear::feel() {
     for (Foot& foot : feet_) {
-        foot.touches |= foot.force_n >= kFootTouches_n;
+        foot.touches = foot.force_n >= kFootTouches_n;  // another's push may take it off again
         const bool near = foot.commanded_m >= parking_.clearance_m - kFloorNear_m;
         const double speed_mps =
             near ? std::min(kFeels_mps, parking_.speed_mps) : parking_.speed_mps;
@@ -157,9 +161,9 @@ void ParkingGear::retract() {
 /// The vehicle on its wheels and on those feet that reach the floor.
 void ParkingGear::settle() {
     std::vector<Support> supports;
-    for (const auto& wheel : type_.wheels) {
-        if (const auto floor_m = floor_under_(wheel.position))
-            supports.push_back({wheel.position, *floor_m, kWheelStiffness_npm});
+    for (const geometry::Point2 wheel : wheels_) {
+        if (const auto floor_m = floor_under_(wheel))
+            supports.push_back({wheel, *floor_m, kWheelStiffness_npm});
     }
     std::vector<std::optional<std::size_t>> of_foot(feet_.size());
     for (std::size_t i = 0; i < feet_.size(); ++i) {
@@ -170,7 +174,7 @@ void ParkingGear::settle() {
                             *floor_m + feet_[i].axis.position() - parking_.clearance_m,
                             kFootStiffness_npm});
     }
-    const double mass_kg = type_.mass_kg + load_kg_;
+    const double mass_kg = mass_kg_ + load_kg_;
     const auto centre = (load_kg_ / mass_kg) * load_centre_;  // the vehicle's own is its origin
     const auto rest = rest_on(supports, mass_kg * kGravity_mps2, centre);
     if (rest) plane_ = rest->plane;

@@ -72,8 +72,9 @@ private:
     bool check();
     void fail(Reason cause, Phase next);
 
-    const plant::ParkingGear& parking_;
-    const plant::VehicleType& type_;
+    plant::ParkingGear parking_;
+    std::vector<geometry::Point2> wheels_;
+    double mass_kg_;  // of the vehicle alone
     FloorUnder floor_under_;
     std::mt19937_64 random_;
     std::vector<Foot> feet_;
