@@ -15,6 +15,7 @@ constexpr double kFootStiffness_npm = 5e7;
 constexpr double kWheelStiffness_npm = 2e7;  // solid tyres with their bearings
 constexpr double kFootTouches_n = 1500;      // by which a foot knows that it stands
 constexpr double kFootLost_n = 200;          // below, one that stood does so no more
+constexpr double kFootFirm_m = 0.005;        // raised so far, all feet have taken their share
 constexpr double kFloorNear_m = 0.012;       // of even floor: from here on it is felt for
 constexpr double kFeels_mps = 0.002;
 constexpr double kFootThere_m = 5e-5;
@@ -199,7 +200,8 @@ bool ParkingGear::check() {
                  Phase::kSinks);
             return false;
         }
-        if (phase_ == Phase::kLifts && foot.force_n < kFootLost_n) {
+        const bool firm = phase_ == Phase::kLifts && lifted_m_ > kFootFirm_m;
+        if (firm && foot.force_n < kFootLost_n) {
             fail({"foot_lost_contact", {{"foot", name(i)}}}, Phase::kSinks);
             return false;
         }

@@ -114,7 +114,7 @@ TEST_F(Parking, FloorThatGivesWayUnderAFootIsToldAndAllComeDown) {
     };
     ParkingGear feet = gear(floor);
     feet.lower();
-    while (feet.moving() && feet.plane()[0] < 0.005) feet.step(0.01);
+    while (feet.moving() && feet.plane()[0] < 0.01) feet.step(0.01);
     ASSERT_TRUE(feet.moving());
     gone = true;
     run(feet);
