@@ -56,8 +56,10 @@ vda5050::StateMessage Vehicle::state() {
     state.cameras = sensing_.readings();
     const auto covariance = estimate_.covariance();
     // The pose said is what the drive steers by, which is led slowly to where it is known to be.
-    state.deviation_range_m = kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1)) +
-                              norm(estimate_.to_lead().position());
+    const double to_lead_m =
+        guard_ ? guard_->to_lead_m(estimate_) : norm(estimate_.to_lead().position());
+    state.deviation_range_m =
+        kRangeSigmas * std::sqrt(covariance(0, 0) + covariance(1, 1)) + to_lead_m;
     state.localization_score = estimate_.score();
     return state;
 }

@@ -16,7 +16,7 @@ test("an order that waits until the drive is led to the pose known since has a r
   const client = new Client(system.url, system.apiToken);
   const line = { t_ms: Date.now(), vehicle: "TP-01", ...AT, moving: false, order_id: "", last_node_seq: 0, base_end_seq: 0 };
   writeFileSync(`${system.truthLog}.TP-01`, `${JSON.stringify(line)}\n`);
-  system.startAgent("TP-01", { seed: 70, timeFactor: 2, sensing: "analytic", extra: ["--drive", "servo", "--maps", "db/maps/pulse-line"] });
+  system.startAgent("TP-01", { seed: 70, timeFactor: 6, sensing: "analytic", extra: ["--drive", "servo", "--maps", "db/maps/pulse-line"] });
   await client.untilVehicle("TP-01", (v) => v.link === "live" && v.reason?.code === "pose_unknown", "asks");
   const order = await client.order("TP-01", [5]);
   await client.untilOrder(order.id, (o) => o.reason !== undefined, "waits for its pose");

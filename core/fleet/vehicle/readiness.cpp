@@ -53,6 +53,7 @@ constexpr Condition kConditions[] = {
     {Bar::kPaused,         true,  true,  true},
     {Bar::kOrderPaused,    false, true,  false},
     {Bar::kPoseUnknown,    true,  true,  false},
+    {Bar::kPoseVague,      true,  false, false},
     {Bar::kPoseOld,        false, false, true},
     {Bar::kNotAutomatic,   true,  true,  true},
     {Bar::kSafetyStop,     true,  true,  false},
@@ -64,6 +65,17 @@ constexpr Condition kConditions[] = {
     {Bar::kBusy,           true,  false, false},
     // clang-format on
 };
+
+// What is held around a vehicle beside its way: one that is known less well finds itself first, and
+// a way planned from where it was pointed to would not begin where it stands.
+constexpr double kHeld_m = 0.10;
+// So near to where a person said it is its pose still that word.
+constexpr double kDrivenOff_m = 1;
+
+bool rests_on_a_word(const VehicleRecord& record) {
+    return record.basis && record.basis->kind == PoseBasis::Kind::kStatement &&
+           record.basis->driven_m < kDrivenOff_m;
+}
 
 const vda5050::VehicleError* fatal_error(const LiveVehicle& live) {
     const auto& errors = live.state.errors;
@@ -96,6 +108,8 @@ bool bars(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time now) {
             return order_is_paused(fleet, live);
         case Bar::kPoseUnknown:
             return !live.record.pose_known;
+        case Bar::kPoseVague:
+            return rests_on_a_word(live.record) && is_vague(live.state);
         case Bar::kPoseOld:
             return !live.state_at || (live.state.driving && now - *live.state_at > kPoseTooOld);
         case Bar::kNotAutomatic:
@@ -142,6 +156,8 @@ Reason reason_of(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time
             return because(reasons::kVehiclePaused, {{"actor", live.record.paused->actor}});
         case Bar::kPoseUnknown:
             return because("pose_unknown");
+        case Bar::kPoseVague:
+            return because("pose_vague", {{"deviation_m", live.state.deviation_range_m}});
         case Bar::kNotAutomatic:
             return because("not_automatic", {{"operating_mode", live.state.operating_mode}});
         case Bar::kSafetyStop:
@@ -249,6 +265,8 @@ bool has_nothing_left(const vda5050::StateMessage& state) {
                state.action_states.begin(), state.action_states.end(),
                [](const auto& action) { return action.status == vda5050::ActionStatus::kRunning; });
 }
+
+bool is_vague(const vda5050::StateMessage& state) { return state.deviation_range_m > kHeld_m; }
 
 bool is_automatic(const LiveVehicle& live) { return live.state.operating_mode == "AUTOMATIC"; }
 

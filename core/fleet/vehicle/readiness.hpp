@@ -13,6 +13,8 @@ bool waits_for_person(const LiveVehicle& live);
 /// The vehicle has not shown its leg and may have the message or still get it: the leg must not be
 /// forgotten.
 bool is_on_its_way(const LiveVehicle& live);
+/// By its own word it knows too little where it is to drive a way that is held.
+bool is_vague(const vda5050::StateMessage& state);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
 bool is_automatic(const LiveVehicle& live);
 /// It has given up its order, or done all of it.
@@ -33,6 +35,7 @@ enum class Bar {
     kPaused,
     kOrderPaused,
     kPoseUnknown,
+    kPoseVague,  // a person has pointed to where it stands, and it has not found itself yet
     kPoseOld,
     kNotAutomatic,
     kSafetyStop,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/fleet/state/fields.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -40,7 +41,7 @@ void quiet(const vda5050::StateMessage& known, vda5050::StateMessage& next) {
     next.velocity_mps = known.velocity_mps;
     next.turn_rate_radps = known.turn_rate_radps;
     next.localization_score = known.localization_score;
-    next.deviation_range_m = known.deviation_range_m;
+    if (is_vague(known) == is_vague(next)) next.deviation_range_m = known.deviation_range_m;
     next.navigation = known.navigation;
     const bool both = known.pose && next.pose;
     if (both && (next.driving || same_pose(*known.pose, *next.pose))) {

@@ -37,9 +37,11 @@ public:
     /// Whether it knows too little where it is to begin a way, wherever it is led.
     bool is_vague(const PoseEstimate& estimate) const;
 
+    /// By how far the drive has still to be led, at the point of the body where that is most.
+    double to_lead_m(const PoseEstimate& estimate) const;
+
 private:
     double unknown_m(const PoseEstimate& estimate) const;
-    double to_lead_m(const PoseEstimate& estimate) const;
 
     double radius_m_ = 0;  // of the body, around its origin
     double looked_s_ = 0;

@@ -82,6 +82,30 @@ TEST(LostPose, ACancelledOrderEndsOnceAPersonSaysWhereItsVehicleStands) {
     EXPECT_EQ(world.only_order().state, JobState::kAborted);
 }
 
+/// A way planned from where a person has pointed to would begin beside where it stands.
+TEST(LostPose, AnOrderWaitsUntilItsVehicleHasFoundItselfFromWhereAPersonPointed) {
+    World world;
+    world.connect_all();
+    FakeVehicle& vehicle = world.vehicle("V1");
+    const Pose2 pose = *vehicle.state.pose;
+    vehicle.restart();
+    vehicle.sees_codes = false;
+    vehicle.state.cameras.clear();
+    world.run(2);
+    ASSERT_TRUE(world.order("V1", {3}));
+    ASSERT_TRUE(world.fleet->init_position(kV1, {pose}, "op", world.now));
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    vehicle.state.deviation_range_m = 0.2;
+    world.run(30);
+    EXPECT_EQ(world.only_order().reason.code, "pose_vague");
+    EXPECT_EQ(vehicle.orders_received, 0);
+
+    vehicle.state.deviation_range_m = 0.06;
+    vehicle.sees_codes = true;
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
 TEST(LostPose, TheOrderGoesOnAlsoWhenTheServerWasRestartedMeanwhile) {
     World world;
     lose_v1(world);
