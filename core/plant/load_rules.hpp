@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/plant/plant.hpp"
+#include "core/plant/vehicle_type.hpp"
 
 /// Whether what lies on a vehicle's brackets keeps the rules of its type (Tang 2020, section 2.1:
 /// the forces are checked before the platform drives). One rule for the drive, the checks that

@@ -64,6 +64,7 @@ export function snapshot(model, now = Date.now()) {
         name: b.name,
         force_a_n: 27000 + 300 * i,
         force_b_n: 26500 - 200 * i,
+        height_m: 0.12,
       })),
       wheels: t.wheels.map((w) => ({
         name: w.name,

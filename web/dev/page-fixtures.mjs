@@ -62,6 +62,7 @@ export function enrich(snapshot, model) {
     name: b.name,
     force_a_n: kn[b.name][0] * 1000,
     force_b_n: kn[b.name][1] * 1000,
+    height_m: 0.1204,
   }));
   const steer = { FL: 79.5, FR: -79.5, BL: -79.5, BR: 79.5, "drive front": 90, "drive back": 90 };
   tp.wheels = tp.wheels.map((w) => ({
@@ -72,7 +73,9 @@ export function enrich(snapshot, model) {
   tp.parking_feet = ["front left", "front right", "back left", "back right"].map((name) => ({
     name,
     extension_m: 0.0003,
+    force_n: 0,
   }));
+  tp.load_centre = { x_m: -0.62, y_m: 0.004 };
   tp.cameras = [
     ["front", 0.00275, -0.009, "ST06-F"],
     ["back", 0.00277, 0.00947, "ST06-B"],

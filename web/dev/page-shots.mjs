@@ -105,6 +105,8 @@ const alarmed = (first) => {
   const tp = vehicle(first, "TP-01");
   tp.brackets[0].force_a_n *= 1.4;
   tp.brackets[0].force_b_n *= 1.4;
+  tp.worst_bracket = { bracket: "front left", share: 0.17, limit: 0.1 };
+  tp.load_fault = { code: "load_unbalanced", params: {} };
   tp.wheels[4].fault = "servo_overload";
   tp.e_stop = "MANUAL";
   tp.pose_basis = {
