@@ -265,7 +265,7 @@ void park_idle(FleetState& fleet, Time now) {
             const bool others_in_vain = in_vain > (leaves_in_vain(live, now) ? 1 : 0);
             const bool clears = long_idle && (others_in_vain || !wanted().named.empty());
             // A load stays where it was brought, and not where its way was cut off.
-            const bool may_go = !is_loaded(live) || !has_place(fleet, live);
+            const bool may_go = !is_loaded(live) || live.record.at_station.empty();
             const bool by_itself = (stuck || clears) && may_go;
             if (soon || (!by_itself && !is_wanted_away(live))) continue;
             if (ends_charging(fleet, live, now)) continue;
