@@ -65,6 +65,7 @@ const kByReason: Readonly<Record<string, [AlarmKind, Priority]>> = {
   bracket_overloaded: ["load", "high"],
   load_outside_wheel_base: ["load", "high"],
   load_outside_limits: ["load", "high"],
+  pose_vague: ["pose", "low"],
   stop_not_measured: ["stop", "high"],
   out_of_tolerance: ["tolerance", "high"],
   order_rejected: ["refused", "high"],
