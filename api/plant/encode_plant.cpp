@@ -222,7 +222,8 @@ Json encode(const VehicleType& t) {
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
     if (t.parking) json["parking"] = encode(*t.parking);
-    if (!t.brackets.empty()) json["load_rules"] = encode(t.load_rules);
+    if (!t.brackets.empty() || t.load_rules != LoadRules{})
+        json["load_rules"] = encode(t.load_rules);
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
     json["scanners"] = encode_all(t.scanners);
     if (t.navigation_scanner) json["navigation_scanner"] = encode(*t.navigation_scanner);

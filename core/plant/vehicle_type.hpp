@@ -122,6 +122,7 @@ struct LoadRules {
     double bracket_rating_n = 0;   // the most on one bracket; 0: the type states none
     double most_unbalance = 0.10;  // of a bracket from the mean of its end, as a share of it
     Polygon centre;  // where its centre of gravity may lie, body frame; empty: between the wheels
+    bool operator==(const LoadRules&) const = default;
 };
 
 struct ParkingFoot {

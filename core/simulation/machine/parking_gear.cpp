@@ -49,7 +49,6 @@ bool ParkingGear::extended() const {
 
 void ParkingGear::lower() {
     for (Foot& foot : feet_) foot.touches = false;
-    lifted_m_ = 0;
     begin(Phase::kFeels);
 }
 
@@ -116,6 +115,7 @@ void ParkingGear::cycle() {
     } else if (phase_ == Phase::kRetracts &&
                std::ranges::all_of(feet_, [](const Foot& f) { return f.commanded_m == 0; })) {
         stop();
+        lifted_m_ = 0;
         for (Foot& foot : feet_) foot.axis.home(0);
     }
 }

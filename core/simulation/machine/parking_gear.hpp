@@ -81,7 +81,7 @@ private:
     double load_kg_ = 0;
     geometry::Point2 load_centre_;
     Phase phase_ = Phase::kStands;
-    double lifted_m_ = 0;  // since all touched
+    double lifted_m_ = 0;  // since all touched; lowered again, they go on from there
     double pending_s_ = 0;
     double settled_s_ = 0;
     Eigen::Vector3d plane_ = Eigen::Vector3d::Zero();

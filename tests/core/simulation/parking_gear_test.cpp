@@ -123,6 +123,25 @@ TEST_F(Parking, FloorThatGivesWayUnderAFootIsToldAndAllComeDown) {
     EXPECT_FALSE(feet.extended());
 }
 
+TEST_F(Parking, LoweredTwiceOrStoppedInBetweenItIsRaisedAsFarAsOnce) {
+    ParkingGear once = gear(even);
+    once.lower();
+    run(once);
+    const double raised_m = once.plane()[0];
+    once.lower();
+    run(once);
+    EXPECT_NEAR(once.plane()[0], raised_m, 1e-4);
+
+    ParkingGear stopped = gear(even);
+    stopped.lower();
+    while (stopped.moving() && stopped.plane()[0] < 0.01) stopped.step(0.01);
+    stopped.stop();
+    stopped.lower();
+    run(stopped);
+    EXPECT_FALSE(stopped.stop_cause());
+    EXPECT_NEAR(stopped.plane()[0], raised_m, 5e-4);
+}
+
 TEST_F(Parking, StandsWhereItIsWhenStopped) {
     ParkingGear feet = gear(even);
     feet.lower();
