@@ -2,11 +2,11 @@
 // hours, nothing going wrong. Held against what people can live with: every order ends, no vehicle
 // is moved aside twice for one order, and none waits for others more than ten times what it takes
 // alone. Virtual clock; a seed gives the same run.
-//   test_demo_hall [--hours H] [--seeds N] [--first N] [--plant FILE] [--every S] [--cancel-every
-//   S]
-//                  [--type TYPE] [--trace 1]
+//   test_demo_hall [--hours H] [--seeds N] [--first N] [--plant FILE] [--trace 1]
+//                  [--every S] [--cancel-every S] [--type TYPE]
 // With --cancel-every a person cancels orders under way, wherever their vehicles are: then the
 // manners towards single orders are not judged, only that each ends and nobody waits for ever.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -385,6 +385,13 @@ int run(const Options& options) {
     const auto plant = api::plant_file::load_plant_file(options.plant);
     if (!plant) {
         std::printf("%s\n", plant.error().what.c_str());
+        return 2;
+    }
+    if (!options.type.empty() &&
+        std::ranges::none_of(plant->vehicles, [&](const plant::Vehicle& vehicle) {
+            return vehicle.type.str() == options.type;
+        })) {
+        std::printf("the plant has no vehicle of type %s\n", options.type.c_str());
         return 2;
     }
     std::uint64_t failed = 0;

@@ -1,4 +1,5 @@
 import type { Reason, Vehicle, VehicleType } from "@/shared/api/types";
+import { bracketFault } from "@/shared/live/brackets";
 
 export interface LoadSummary {
   total_n: number;
@@ -27,7 +28,7 @@ export function summarise(
     const x = places.find((b) => b.name === name)?.position.x_m;
     return x === undefined ? 0 : Math.sign(x - middle);
   };
-  const off = vehicle.load_fault?.code === "load_unbalanced" ? vehicle.worst_bracket?.bracket : undefined;
+  const off = bracketFault(vehicle)?.bracket;
   const reference = (name: string) => {
     const ofEnd = brackets.filter((b) => endOf(b.name) === endOf(name));
     // A bracket that is far off would make its sound neighbour look wrong.
