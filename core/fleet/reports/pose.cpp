@@ -30,6 +30,9 @@ constexpr double kPush_rad = radians(15);
 // stall.
 constexpr Duration kJudgedOver = std::chrono::seconds(1);
 constexpr Duration kAtOnce = std::chrono::milliseconds(500);
+// A report may be so much longer under way than the next one, by what is sent again on a bad line:
+// a vehicle at full speed then seems to have driven faster.
+constexpr Duration kLater = std::chrono::milliseconds(500);
 // A silence in which a whole drive may go unseen; reports come every 2 s at least.
 constexpr Duration kHidesADrive = std::chrono::seconds(3);
 // What a person said where it stands is for the report that follows, not for one of another day.
@@ -105,7 +108,7 @@ bool is_within_reach(const LiveVehicle& live, const Pose2& pose, Time now) {
     const double top_mps = live.type->max_speed_mps * std::max(1.0, speed_share(live));
     const double speed_mps = std::max(top_mps, told_mps);
     return geometry::distance(from.pose.position(), pose.position()) <=
-           kPush_m + speed_mps * seconds(now - from.at);
+           kPush_m + speed_mps * seconds(now - from.at + kLater);
 }
 
 bool can_be_at(const FleetState& fleet, const LiveVehicle& live, const Whereabouts& told,

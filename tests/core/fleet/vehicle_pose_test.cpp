@@ -334,6 +334,21 @@ TEST(PossiblePose, OfReportsThatComeAtOnceAfterAStall) {
     EXPECT_FALSE(view(world).claimed_pose);
 }
 
+TEST(PossiblePose, OfAReportInTimeBehindOneThatCameLate) {
+    World world;
+    drive_on_first_edge(world);
+    vda5050::StateMessage& state = world.vehicle("V1").state;
+    const double top_mps = world.plant.vehicle_types.front().max_speed_mps;
+    const double from_x_m = state.pose->x_m;
+    const Time start = world.now;
+    for (const auto& [told_s, came_s] : {std::pair{0.4, 0.4}, {1.0, 1.45}, {2.5, 2.5}}) {
+        state.pose->x_m = from_x_m + top_mps * told_s;
+        world.now = start + from_seconds(came_s);
+        world.fleet->vehicle_state(kV1, state, world.now);
+        EXPECT_FALSE(view(world).claimed_pose) << told_s;
+    }
+}
+
 /// A stop measured so far beside the station; its own pose follows when `its_pose_too`.
 void measure(World& world, const Pose2& off, bool its_pose_too = true) {
     world.connect_all();
