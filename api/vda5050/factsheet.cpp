@@ -187,7 +187,6 @@ Result<Factsheet> decode_factsheet(const Json& payload) {
         factsheet.actions.push_back(action.text("actionType", {1, 200}));
         action.items_if_any("actionScopes", {0, 10}, [&](const Json& scope, const std::string&) {
             if (scope == "NODE") factsheet.node_actions.push_back(factsheet.actions.back());
-            if (scope == "INSTANT") factsheet.instant_actions.push_back(factsheet.actions.back());
         });
     });
     if (auto status = errors.status(); !status) return fail(status.error());

@@ -243,7 +243,6 @@ void Vehicle::link_up() {
 
 void Vehicle::link_down() {
     // It drives on to the end of its base; what it has to say waits for the next link.
-    executor_.lose_link();
     linked_ = false;
     outbox_.clear();
 }

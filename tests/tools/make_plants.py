@@ -85,8 +85,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
                 "stroke_m": 0.15, "clearance_m": 0.1, "lift_m": 0.02, "speed_mps": 0.02, "rating_n": 120000},
     "mass_kg": 10200, "max_load_kg": 22000,
     # Between the brackets; across, their balance asks for less still.
-    "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]},
-    "bracket_lift": {"stroke_m": 0.3, "speed_mps": 0.01}}
+    "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]}}
 
 
 def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=(), scanner=None):

@@ -1,10 +1,7 @@
 #include "api/http/vehicles/vehicle_requests.hpp"
 
-#include <utility>
-
 #include "api/http/vehicles/motion_question_body.hpp"
 #include "api/http/wire/body.hpp"
-#include "core/vda5050/actions.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -14,27 +11,9 @@ using json::ObjectReader;
 
 constexpr std::size_t kMaxResumed = 1000;
 constexpr json::TextLimits kVehicleName{1, 64};
-constexpr json::TextLimits kBracketName{1, 64};
-constexpr double kMostHeight_m = 5;  // of a bracket; its type has its stroke
 // Nobody measures a vehicle's place better than its own codes do.
 constexpr double kLeastWithin_m = 0.001;
 constexpr double kLeastWithin_rad = 1e-4;
-
-enum class Lift { kUnknown, kSetBracketHeight, kLowerParking, kRaiseParking };
-
-const char* to_string(Lift lift) {
-    switch (lift) {
-        case Lift::kSetBracketHeight:
-            return vda5050::kSetBracketHeight;
-        case Lift::kLowerParking:
-            return vda5050::kLowerParking;
-        case Lift::kRaiseParking:
-            return vda5050::kRaiseParking;
-        case Lift::kUnknown:
-            break;
-    }
-    return "";
-}
 
 }  // namespace
 
@@ -50,21 +29,6 @@ Result<fleet::StatedPose> read_stated_pose(const Request& request) {
                          {kLeastWithin_rad, StatedPose::kPointedWithin_rad}) /
             2;
         return stated;
-    });
-}
-
-Result<fleet::StepAction> read_lift_move(const Request& request) {
-    return read_object<fleet::StepAction>(request, [](ObjectReader& in) {
-        const Lift lift =
-            in.one_of("type", {Lift::kSetBracketHeight, Lift::kLowerParking, Lift::kRaiseParking});
-        fleet::StepAction action;
-        action.type = to_string(lift);
-        if (lift == Lift::kSetBracketHeight) {
-            std::string bracket = in.text("bracket", kBracketName);
-            action.params = {{"bracket", std::move(bracket)},
-                             {"height_m", in.number("height_m", {0, kMostHeight_m})}};
-        }
-        return action;
     });
 }
 

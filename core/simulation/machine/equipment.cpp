@@ -43,8 +43,6 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, std::mt19937_64& rand
     for (const auto& bracket : type.brackets) places.push_back({bracket.name, bracket.position});
     LiftParameters parameters;
     parameters.most_force_n = plant::bracket_rating_n(type);
-    parameters.stroke_m = type.bracket_lift.stroke_m;
-    parameters.speed_mps = type.bracket_lift.speed_mps;
     return {std::move(places), parameters, random()};
 }
 
