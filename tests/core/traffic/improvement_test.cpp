@@ -107,6 +107,33 @@ TEST(Improvement, AnIdleVehicleInALaneIsSentHomeForAPostponedVisit) {
     EXPECT_EQ(hall.traffic.visits_done(a), 1);
 }
 
+TEST(Improvement, TwoThatGaveWayToEachOthersGoalsGetPastEachOther) {
+    Hall hall({"r.....r", "  r r  "});
+    const auto a = hall.add("A", 1, 0);
+    const auto b = hall.add("B", 5, 0);
+    const auto idle = hall.add("C", 2, 1);
+    ASSERT_TRUE(hall.send(a, {{6, 0}}));
+    ASSERT_TRUE(hall.send(b, {{0, 0}}));
+    // Both wait for C for ever, and it cannot leave before both give up what they planned.
+    ASSERT_TRUE(hall.traffic.found_at(idle, {Floor::tile(3, 0)}, hall.floor.place(3, 0), at(0)));
+    hall.watch();
+    hall.now_s = 20;
+    hall.traffic.improve(at(hall.now_s), 4);
+    hall.watch();
+    hall.drive_all();
+    ASSERT_EQ(hall.place_of(a), hall.floor.place(0, 0)) << "B's goal";
+    ASSERT_EQ(hall.place_of(b), hall.floor.place(6, 0)) << "A's goal";
+
+    for (int i = 0; i < 6; ++i) {
+        hall.now_s += 20;
+        hall.traffic.improve(at(hall.now_s), 4);
+        hall.watch();
+        hall.drive_all();
+    }
+    EXPECT_EQ(hall.traffic.visits_done(a), 1);
+    EXPECT_EQ(hall.traffic.visits_done(b), 1);
+}
+
 TEST(Improvement, AVehicleThatGaveUpItsWayToRestGoesOnToIt) {
     Hall hall({"r......r",  //
                "    r r "});
