@@ -174,7 +174,8 @@ tl::expected<Admission, Block> Traffic::plan_clearing(Clearing& clearing) {
     for (const VehicleIndex away : clearing.made_way) {
         Vehicle& v = vehicles_[away];
         v.makes_way_for = clearing.vehicle;
-        if (first_open_visit(away) == v.task.visits.size()) {  // else it has a task to go back to
+        // Else it has a task to go back to; to work that it has left nobody goes back.
+        if (v.leaves != Leaves::kNever || first_open_visit(away) == v.task.visits.size()) {
             v.postponed = false;
             // There and nowhere else it is out of the way.
             v.task.resting = {joint_.plan(away).place_after(joint_.plan(away).last())};
