@@ -148,5 +148,27 @@ TEST(Admission, RerouteTakesTheOpenWayAroundAClosure) {
     EXPECT_EQ(ring.traffic.visits_done(v), 1);
 }
 
+TEST(Admission, NobodyGoesBackToTheWorkThatItHasLeftForAnother) {
+    Hall hall({"r....r", "  r   "});
+    const auto works = hall.add("A", 0, 0);
+    const auto passes = hall.add("B", 5, 0);
+    ASSERT_TRUE(hall.send(works, {{3, 0}, {3, 0}}, 900));
+    const MoveNumber stop = 4;  // behind three moves
+    ASSERT_EQ(hall.traffic.extend(works, stop, at(0)), stop);
+    ASSERT_TRUE(hall.traffic.passed(works, stop, at(60)));
+    hall.traffic.set_leaves(works, Leaves::kLast);
+    ASSERT_TRUE(hall.send(passes, {{1, 0}}));
+    hall.watch();
+    ASSERT_EQ(hall.traffic.makes_way_for(works), passes);
+
+    ASSERT_TRUE(hall.traffic.reroute(works, at(61)));
+    hall.watch();
+    const auto& plan = hall.traffic.plan(works);
+    for (MoveNumber n = plan.passed + 1; n <= plan.last(); ++n)
+        EXPECT_EQ(plan.at(n).visit, kNoVisit) << n;
+    EXPECT_TRUE(hall.drive_all());
+    EXPECT_EQ(hall.traffic.visits_done(passes), 1);
+}
+
 }  // namespace
 }  // namespace pulseline::traffic
