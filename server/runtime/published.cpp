@@ -60,9 +60,8 @@ std::vector<fleet::VehicleMessage> take_stops(std::vector<fleet::VehicleMessage>
     std::vector<fleet::VehicleMessage> stops;
     std::vector<fleet::VehicleMessage> rest;
     for (auto& message : messages) {
-        const bool stop =
-            !message.order && !starts(message) &&
-            has_action(message, {vda5050::kStartPause, vda5050::kCancelOrder, vda5050::kStopLifts});
+        const bool stop = !message.order && !starts(message) &&
+                          has_action(message, {vda5050::kStartPause, vda5050::kCancelOrder});
         (stop ? stops : rest).push_back(std::move(message));
     }
     messages = std::move(rest);
@@ -70,16 +69,13 @@ std::vector<fleet::VehicleMessage> take_stops(std::vector<fleet::VehicleMessage>
 }
 
 bool starts(const fleet::VehicleMessage& message) {
-    return message.order || has_action(message, {vda5050::kStopPause, vda5050::kSetBracketHeight,
-                                                 vda5050::kLowerParking, vda5050::kRaiseParking});
+    return message.order || has_action(message, {vda5050::kStopPause});
 }
 
 void append_starts(Acts& to, const std::vector<fleet::Event>& events) {
     for (const auto& event : events) {
         if (event.actor.empty()) continue;
-        const bool vehicle = event.type == fleet::event::kVehicleResumed ||
-                             event.type == fleet::event::kVehicleLifts;
-        if (vehicle) to.vehicles.push_back(event.vehicle);
+        if (event.type == fleet::event::kVehicleResumed) to.vehicles.push_back(event.vehicle);
         const bool order = event.type == fleet::event::kJobOrderCreated ||
                            (event.type == fleet::event::kJobOrderState && goes_on(event));
         if (order) to.orders.push_back(event.order);

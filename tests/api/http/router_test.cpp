@@ -78,8 +78,7 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "pauseSchedule",    "resumeSchedule",
                                              "closeFloor",       "reopenFloor",
                                              "localize",         "measureByLight",
-                                             "previewMotions",   "moveLifts",
-                                             "stopLifts"};
+                                             "previewMotions"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

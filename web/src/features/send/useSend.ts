@@ -11,7 +11,6 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
-import { feetActions, feetPlan, previewWithFeet } from "./steps/feet";
 import { codesCheck, floorCheck } from "./steps/wayChecks";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
@@ -25,7 +24,7 @@ export type Send = ReturnType<typeof useSend>;
 
 /** What follows from the choice: what is asked of the planner, what it says, what Start would send and why it may not. */
 export function useSend(choice: Choice, /** A move is watched: nothing is previewed. */ watching: boolean) {
-  const { mode, digits, park } = choice;
+  const { mode, digits } = choice;
   const plant = usePlant().data;
   const allVehicles = useVehicles();
   const vehicles = useMemo(() => sortForSending(allVehicles, plant), [allVehicles, plant]);
@@ -41,8 +40,6 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const entry = lookUpStation(digits, plant, states, vehicle);
   const station = stationOf(entry);
   const busy = busyWith(vehicle, orders);
-  const { raise, lower } = feetPlan(vehicle, busy !== undefined, park);
-  const feet = useMemo(() => ({ raise, lower }), [raise, lower]);
   const asks =
     !watching &&
     onScreen &&
@@ -58,18 +55,16 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
           station: station.number,
           mode,
           pose: vehicle.pose,
-          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}${raise}${lower}`,
+          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}`,
           stationsKey: states.map((s) => `${s.occupied_by}/${s.reserved_by}`).join(","),
           after: busyKey(busy),
         }),
         vehicle: vehicle.id,
         station: station.number,
         mode,
-        actions: feetActions(feet),
       }
     : undefined;
-  const asked = usePreview(question);
-  const preview = useMemo(() => previewWithFeet(asked.preview, feet), [asked.preview, feet]);
+  const { preview, retry } = usePreview(question);
   const data =
     preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
   const step = data?.steps[0];
@@ -95,13 +90,9 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const body = useMemo<NewJobOrder | undefined>(
     () =>
       ready.kind === "ready" && vehicle && station && option
-        ? {
-            vehicle: vehicle.id,
-            priority: 0,
-            steps: [{ station: station.number, motion_mode: option.mode, ...feetActions(feet) }],
-          }
+        ? { vehicle: vehicle.id, priority: 0, steps: [{ station: station.number, motion_mode: option.mode }] }
         : undefined,
-    [ready.kind, vehicle, station, option, feet],
+    [ready.kind, vehicle, station, option],
   );
   return {
     plant,
@@ -112,8 +103,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
     station,
     busy,
     preview,
-    retry: asked.retry,
-    feet,
+    retry,
     step,
     option,
     leadThere,

@@ -1,12 +1,12 @@
-#include "core/onboard/motion/twist_reference.hpp"
+#include "core/simulation/machine/twist_reference.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "core/kinematics/rolling_wheels.hpp"
+#include "core/simulation/machine/wheel_contact.hpp"
 
-namespace pulseline::onboard {
+namespace pulseline::simulation {
 namespace {
 
 using kinematics::Twist;
@@ -66,4 +66,4 @@ double TwistReference::braking_m() const {
     return speed * speed / (2 * max_accel_mps2_);
 }
 
-}  // namespace pulseline::onboard
+}  // namespace pulseline::simulation
