@@ -119,8 +119,11 @@ bool Traffic::make_way(const Block& block, Clearing& clearing) {
         // Off the resting places the layout's condition does not hold: who stands there has to
         // leave. Who gave way may rest where the other wants to go, each of two at the other's
         // goal: it waits for a way in any case, and can wait elsewhere.
-        if (!resting) leaves = Leaves::kFirst;
-        if (resting && v.postponed) leaves = Leaves::kLast;
+        if (!resting) {
+            leaves = Leaves::kFirst;
+        } else if (v.postponed) {
+            leaves = Leaves::kLast;
+        }
     }
     if (leaves < clearing.least || leaves == Leaves::kNever) return false;
     if (was_moved_for(clearing.vehicle, block.vehicle, clearing.task)) return false;

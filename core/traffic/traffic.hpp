@@ -129,7 +129,8 @@ public:
     void remove_vehicle(VehicleIndex vehicle, Time now);
 
     /// Whether it leaves where it stands idle for another's task. Who does not is waited for; by
-    /// the layout's condition that can only be at a place where the other wants to go.
+    /// the layout's condition that can only be at a place where the other wants to go. Who stands
+    /// beside resting places, or gave way and waits at one, is asked all the same.
     void set_leaves(VehicleIndex vehicle, Leaves leaves) { vehicles_[vehicle].leaves = leaves; }
     /// For whose task its plan was made when it was last asked to make way; none since its own.
     std::optional<VehicleIndex> makes_way_for(VehicleIndex vehicle) const {

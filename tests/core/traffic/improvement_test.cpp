@@ -7,6 +7,16 @@
 namespace pulseline::traffic {
 namespace {
 
+/// Two minutes of improvement, everybody driving as far as granted.
+void go_on(Hall& hall) {
+    for (int i = 0; i < 6; ++i) {
+        hall.now_s += 20;
+        hall.traffic.improve(at(hall.now_s), 4);
+        hall.watch();
+        hall.drive_all();
+    }
+}
+
 TEST(Improvement, AVehicleBehindALateOneGoesFirstOrRound) {
     Hall hall({" r  ",  //
                "r..r",  //
@@ -98,12 +108,7 @@ TEST(Improvement, AnIdleVehicleInALaneIsSentHomeForAPostponedVisit) {
     // B is left at (3, 0), right where A has to pass, and has no plan.
     ASSERT_TRUE(hall.traffic.found_at(b, {Floor::tile(3, 0)}, hall.floor.place(3, 0), at(6)));
     hall.watch();
-    for (int i = 0; i < 6; ++i) {
-        hall.now_s += 20;
-        hall.traffic.improve(at(hall.now_s), 4);
-        hall.watch();
-        hall.drive_all();
-    }
+    go_on(hall);
     EXPECT_EQ(hall.traffic.visits_done(a), 1);
 }
 
@@ -124,12 +129,7 @@ TEST(Improvement, TwoThatGaveWayToEachOthersGoalsGetPastEachOther) {
     ASSERT_EQ(hall.place_of(a), hall.floor.place(0, 0)) << "B's goal";
     ASSERT_EQ(hall.place_of(b), hall.floor.place(6, 0)) << "A's goal";
 
-    for (int i = 0; i < 6; ++i) {
-        hall.now_s += 20;
-        hall.traffic.improve(at(hall.now_s), 4);
-        hall.watch();
-        hall.drive_all();
-    }
+    go_on(hall);
     EXPECT_EQ(hall.traffic.visits_done(a), 1);
     EXPECT_EQ(hall.traffic.visits_done(b), 1);
 }
@@ -165,12 +165,7 @@ TEST(Improvement, AVehicleThatGaveUpItsWayToRestGoesOnToIt) {
 
     hall.now_s = 1000;
     hall.traffic.resume(halted, at(hall.now_s));
-    for (int i = 0; i < 6; ++i) {
-        hall.now_s += 20;
-        hall.traffic.improve(at(hall.now_s), 4);
-        hall.watch();
-        hall.drive_all();
-    }
+    go_on(hall);
     EXPECT_EQ(hall.place_of(rests), hall.floor.place(7, 0));
     EXPECT_FALSE(hall.traffic.postponed(rests));
 }
