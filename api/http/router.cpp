@@ -157,7 +157,7 @@ bool Route::asks(const Request& request) const {
 
 bool Route::stops(const Request& request) const {
     static const std::set<std::string_view> kStops = {"pauseVehicle", "pauseFleet", "pauseJobOrder",
-                                                      "cancelJobOrder"};
+                                                      "cancelJobOrder", "stopLifts"};
     if (kStops.contains(operation)) return true;
     if (std::string_view(operation) != "controlJobOrder") return false;
     const auto control = read_job_control(request);

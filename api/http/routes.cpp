@@ -61,6 +61,8 @@ std::span<const Route> routes() {
          kOperator,
          {},
          init_position},
+        {"POST", "/api/v1/vehicles/{id}/lifts", "moveLifts", kOperator, {}, move_lifts},
+        {"POST", "/api/v1/vehicles/{id}/lifts/stop", "stopLifts", kOperator, {}, stop_lifts},
         {"PUT",
          "/api/v1/vehicles/{id}/integration",
          "integrateVehicle",

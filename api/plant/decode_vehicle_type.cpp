@@ -98,6 +98,14 @@ ParkingGear decode_parking(ObjectReader& in) {
     return parking;
 }
 
+BracketLift decode_bracket_lift(ObjectReader& in) {
+    BracketLift lift;
+    lift.stroke_m = in.number("stroke_m", kMetres);
+    lift.speed_mps = in.number("speed_mps", kQuantity);
+    in.refuse_unknown();
+    return lift;
+}
+
 LoadRules decode_load_rules(ObjectReader& in) {
     LoadRules rules;
     rules.bracket_rating_n = in.number_or("bracket_rating_n", 0, kQuantity);
@@ -173,6 +181,9 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
     decode_limits(in, type);
     if (auto parking = in.object_if_any("parking")) type.parking = decode_parking(*parking);
     if (auto rules = in.object_if_any("load_rules")) type.load_rules = decode_load_rules(*rules);
+    if (auto lift = in.object_if_any("bracket_lift")) {
+        type.bracket_lift = decode_bracket_lift(*lift);
+    }
     if (auto battery = in.object_if_any("battery")) type.battery = decode_battery(*battery);
     if (auto code = in.object_if_any("usual_code")) type.usual_code = decode_usual_code(*code);
     if (auto sensor = in.object_if_any("slip_sensor")) {

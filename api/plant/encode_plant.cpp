@@ -224,6 +224,10 @@ Json encode(const VehicleType& t) {
     if (t.parking) json["parking"] = encode(*t.parking);
     if (!t.brackets.empty() || t.load_rules != LoadRules{})
         json["load_rules"] = encode(t.load_rules);
+    if (!t.brackets.empty() || t.bracket_lift != BracketLift{}) {
+        json["bracket_lift"] = {{"stroke_m", t.bracket_lift.stroke_m},
+                                {"speed_mps", t.bracket_lift.speed_mps}};
+    }
     if (!t.receivers.empty()) json["receivers"] = encode_all(t.receivers);
     json["scanners"] = encode_all(t.scanners);
     if (t.navigation_scanner) json["navigation_scanner"] = encode(*t.navigation_scanner);

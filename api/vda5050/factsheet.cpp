@@ -57,7 +57,11 @@ Json parameters_of(const std::string& action) {
     if (action == kSetReflectors) return Json::array({parameter("reflectors", "ARRAY")});
     if (action == kSetTransmitters) return Json::array({parameter("transmitters", "ARRAY")});
     if (action == kSetBracketHeight) {
-        return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER")});
+        return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER"),
+                            parameter("speed_mps", "NUMBER", true)});
+    }
+    if (action == kLowerParking || action == kRaiseParking) {
+        return Json::array({parameter("foot", "STRING", true)});
     }
     return Json::array();
 }
@@ -187,6 +191,7 @@ Result<Factsheet> decode_factsheet(const Json& payload) {
         factsheet.actions.push_back(action.text("actionType", {1, 200}));
         action.items_if_any("actionScopes", {0, 10}, [&](const Json& scope, const std::string&) {
             if (scope == "NODE") factsheet.node_actions.push_back(factsheet.actions.back());
+            if (scope == "INSTANT") factsheet.instant_actions.push_back(factsheet.actions.back());
         });
     });
     if (auto status = errors.status(); !status) return fail(status.error());

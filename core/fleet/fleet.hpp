@@ -100,6 +100,13 @@ public:
     /// it does not hear.
     Result<VehicleView> init_position(const plant::VehicleId& id, const StatedPose& stated,
                                       const std::string& actor, Time now);
+    /// Moves brackets or parking feet outside an order. Errors: unknown_vehicle, why it does not
+    /// hear, and those of may_move_lifts (vehicle/lifts.hpp).
+    Result<VehicleView> move_lifts(const plant::VehicleId& id, const StepAction& wanted,
+                                   const std::string& actor, Time now);
+    /// Whatever of them moves stays where it is, as part of an order, too. Errors: unknown_vehicle,
+    /// unknown_lift, why it does not hear.
+    Result<VehicleView> stop_lifts(const plant::VehicleId& id, const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
     Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
                         Time now);

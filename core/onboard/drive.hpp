@@ -16,9 +16,10 @@ using geometry::Pose2;
 
 /// Why a drive has stopped of itself (Drive::stop_cause).
 namespace stop_causes {
-inline constexpr const char* kWheelFault = "wheel_fault";  // {wheel}
-inline constexpr const char* kSlip = "slip";               // {share}
-inline constexpr const char* kOffPath = "off_path";        // {distance_m}
+inline constexpr const char* kWheelFault = "wheel_fault";        // {wheel}
+inline constexpr const char* kSlip = "slip";                     // {share}
+inline constexpr const char* kOffPath = "off_path";              // {distance_m}
+inline constexpr const char* kMachineSilent = "machine_silent";  // the controller of its machine
 }  // namespace stop_causes
 
 /// Port: a vehicle's motion as its executor, its stops and its reports need it. It drives a queue

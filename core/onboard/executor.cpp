@@ -125,6 +125,7 @@ void Executor::step(double dt_s) {
     }
     motion_.step(dt_s);
     take_traversals();
+    run_lift();
     run_actions(dt_s);
     finish_cancel();
     finish_pause();
@@ -216,6 +217,7 @@ void Executor::run_actions(double dt_s) {
         return;
     }
     if (waiting_.empty() || paused_ || !cancel_id_.empty() || !motion_.idle()) return;
+    if (!running_lift_.empty()) return;  // an order that came meanwhile waits for its end
     const Action& action = waiting_.front();
     if (!action.stop_target) return run_equipment();
     running_stop_ = action.id;
@@ -225,8 +227,9 @@ void Executor::run_actions(double dt_s) {
 
 void Executor::run_equipment() {
     const Action& action = waiting_.front();
-    if (running_equipment_ != action.id) {
+    if (running_equipment_ != action.id || equipment_held_) {
         running_equipment_ = action.id;
+        equipment_held_ = false;
         set_action(action.id, ActionStatus::kRunning);
         if (auto why_not = equipment_->begin(action)) {
             set_action(action.id, ActionStatus::kFailed, std::move(*why_not));
@@ -240,6 +243,37 @@ void Executor::run_equipment() {
                failure.value_or(""));
     waiting_.pop_front();
 }
+
+/// What moves brackets or feet outside an order has come to its end.
+void Executor::run_lift() {
+    if (running_lift_.empty() || equipment_->busy()) return;
+    const auto failure = equipment_->failure();
+    set_action(std::exchange(running_lift_, {}),
+               failure ? ActionStatus::kFailed : ActionStatus::kFinished, failure.value_or(""));
+}
+
+/// A pause holds what moves, too. What an order wants goes on with it; what a person began to move
+/// outside one, a person begins again.
+void Executor::hold_equipment() {
+    if (equipment_ == nullptr || !equipment_->busy()) return;
+    if (!running_lift_.empty()) return stop_equipment("vehicle_paused");
+    equipment_->abort();
+    equipment_held_ = true;
+    set_action(running_equipment_, ActionStatus::kPaused);
+}
+
+/// What moves stays where it is, and what moved it has failed.
+void Executor::stop_equipment(const char* why) {
+    if (equipment_ == nullptr || !equipment_->busy()) return;
+    equipment_->abort();
+    if (!running_lift_.empty()) {
+        return set_action(std::exchange(running_lift_, {}), ActionStatus::kFailed, why);
+    }
+    set_action(running_equipment_, ActionStatus::kFailed, why);
+    if (!waiting_.empty() && waiting_.front().id == running_equipment_) waiting_.pop_front();
+}
+
+void Executor::lose_link() { stop_equipment("link_lost"); }
 
 void Executor::finish_stop(const StopProcedure::Outcome& outcome) {
     if (ActionState* state = find_action(running_stop_)) {
@@ -307,6 +341,7 @@ void Executor::take_by_hand() {
 
 /// Nodes it brakes past still count as passed; then its order is gone.
 void Executor::step_in_hand(double dt_s) {
+    run_lift();
     if (!way_.empty() || procedure_.running()) {
         motion_.hold();
         motion_.step(dt_s);

@@ -78,6 +78,9 @@ public:
     /// What the vehicle has learned of its small moves, to be kept for its next start.
     const control::MotionCompensation& compensation() const { return procedure_.compensation(); }
     bool acting() const { return procedure_.running(); }
+    /// The line to who gives commands is cut. Brackets and feet that move stay where they are, and
+    /// what moved them has failed: whoever looks at them lets them go on. A drive goes on.
+    void lose_link();
     /// While `held` it begins no way where it stands, since it knows too little where that is or
     /// its drive has still to be led to the pose that it knows: some time after a person's word. On
     /// its way it drives on.
@@ -98,6 +101,9 @@ private:
     void queue_edges();
     void run_actions(double dt_s);
     void run_equipment();
+    void run_lift();
+    void hold_equipment();
+    void stop_equipment(const char* why);
     void finish_stop(const StopProcedure::Outcome& outcome);
     void know_pose();
     void finish_cancel();
@@ -115,6 +121,9 @@ private:
     void set_reflectors(const vda5050::Action& action);
     void instant_stop(const vda5050::Action& action);
     void instant_equipment(const vda5050::Action& action);
+    void instant_lift(const vda5050::Action& action);
+    bool has_lifts() const;
+    bool can_lift(const std::string& action_type) const;
 
     OrderContext context() const;
     bool order_done() const { return way_.empty() && waiting_.empty(); }
@@ -139,6 +148,7 @@ private:
     std::deque<vda5050::Action> waiting_;  // of the node it stands on, first one running
     std::string running_stop_;             // id of the action in the procedure
     std::string running_equipment_;        // id of the action that the equipment is at
+    std::string running_lift_;             // id of the instant action that moves brackets or feet
     std::string cancel_id_;                // of the cancelOrder at work
     std::string pause_id_;
     HandDrive hand_;
@@ -146,6 +156,7 @@ private:
     bool paused_ = false;
     bool in_hand_ = false;
     bool held_ = false;
+    bool equipment_held_ = false;  // by a pause, in the middle of running_equipment_
 
     std::vector<vda5050::ActionState> order_actions_;
     std::vector<vda5050::ActionState> instant_actions_;

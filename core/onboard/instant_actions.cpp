@@ -15,6 +15,7 @@ using vda5050::ActionStatus;
 
 // Final instant actions shown at most; the server has long seen older ones.
 constexpr std::size_t kInstantActionsKept = 20;
+constexpr const char* kStopped = "lifts_stopped";
 
 bool is_final(ActionStatus status) {
     return status == ActionStatus::kFinished || status == ActionStatus::kFailed;
@@ -75,8 +76,14 @@ void Executor::handle_instant(const Action& action) {
     }
     if (equipment_ != nullptr && action.type == vda5050::kStopCharging)
         return instant_equipment(action);
+    if (can_lift(action.type)) return instant_lift(action);
+    if (action.type == vda5050::kStopLifts && has_lifts()) {
+        stop_equipment(kStopped);
+        return add_action(action, ActionStatus::kFinished);
+    }
     if (action.type == vda5050::kStartPause) {
         paused_ = true;
+        hold_equipment();
         // An earlier startPause still braking is answered by the same standstill.
         if (!pause_id_.empty()) set_action(pause_id_, ActionStatus::kFinished);
         pause_id_ = action.id;
@@ -123,18 +130,18 @@ void Executor::cancel_order(const Action& action) {
 }
 
 void Executor::abort_actions(const char* why) {
+    stop_equipment(why);
     for (auto& state : order_actions_) {
         const bool on_edge = is_edge_action(state.type) && !is_final(state.status);
-        if (state.status != ActionStatus::kWaiting && !on_edge) continue;
+        const bool to_do =
+            state.status == ActionStatus::kWaiting || state.status == ActionStatus::kPaused;
+        if (!to_do && !on_edge) continue;
         state.status = ActionStatus::kFailed;
         state.result_description = why;
     }
     waiting_.clear();
+    equipment_held_ = false;
     procedure_.abort();
-    if (equipment_ != nullptr && equipment_->busy()) {
-        equipment_->abort();
-        set_action(running_equipment_, ActionStatus::kFailed, why);
-    }
 }
 
 void Executor::init_position(const Action& action) {
@@ -190,6 +197,36 @@ void Executor::instant_stop(const Action& action) {
     add_action(action, ActionStatus::kRunning);
     running_stop_ = action.id;
     procedure_.start(*action.stop_target, corrects);
+}
+
+bool Executor::has_lifts() const {
+    return equipment_ != nullptr &&
+           std::ranges::any_of(equipment_->action_types(), vda5050::is_lift);
+}
+
+bool Executor::can_lift(const std::string& action_type) const {
+    return has_lifts() && vda5050::is_lift(action_type) &&
+           std::ranges::find(equipment_->action_types(), action_type) !=
+               equipment_->action_types().end();
+}
+
+/// Brackets and feet outside an order: one movement at a time, the vehicle standing and nothing
+/// else at work.
+void Executor::instant_lift(const Action& action) {
+    const char* why_not = nullptr;
+    if (equipment_->busy()) {
+        why_not = "lifts_moving";
+    } else if (paused_) {
+        why_not = "vehicle_paused";
+    } else if (!motion_.idle() || procedure_.running() || !order_done()) {
+        why_not = "vehicle_busy";
+    }
+    if (why_not != nullptr) return add_action(action, ActionStatus::kFailed, why_not);
+    if (auto refused = equipment_->begin(action)) {
+        return add_action(action, ActionStatus::kFailed, std::move(*refused));
+    }
+    running_lift_ = action.id;
+    add_action(action, ActionStatus::kRunning);
 }
 
 void Executor::instant_equipment(const Action& action) {

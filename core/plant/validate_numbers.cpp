@@ -148,6 +148,8 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
     n.not_negative("/max_load_kg", t.max_load_kg);
     n.not_negative("/load_rules/bracket_rating_n", t.load_rules.bracket_rating_n);
     n.positive("/load_rules/most_unbalance", t.load_rules.most_unbalance);
+    n.positive("/bracket_lift/stroke_m", t.bracket_lift.stroke_m);
+    n.positive("/bracket_lift/speed_mps", t.bracket_lift.speed_mps);
     n.not_negative("/battery/critical_percent", t.battery.critical_percent);
     n.finite("/battery/low_percent", t.battery.low_percent);
     n.finite("/battery/enough_percent", t.battery.enough_percent);

@@ -117,6 +117,13 @@ struct Bracket {
     Point2 position;   // body frame
 };
 
+/// How the brackets of a type lift (Tang 2020, section 2.1: a screw lift each).
+struct BracketLift {
+    double stroke_m = 0.3;    // from the lower end to the upper one
+    double speed_mps = 0.01;  // at most
+    bool operator==(const BracketLift&) const = default;
+};
+
 /// What a load has to be like for a vehicle to drive with it; how it is judged: load_rules.hpp.
 struct LoadRules {
     double bracket_rating_n = 0;   // the most on one bracket; 0: the type states none
@@ -189,6 +196,7 @@ struct VehicleType {
     double mass_kg = 0;
     double max_load_kg = 0;
     LoadRules load_rules;
+    BracketLift bracket_lift;
     BatteryLimits battery;
     Names names;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string_view>
+
 /// Names of the VDA 5050 actions that fleet and vehicles know, predefined ones and those that are
 /// announced in a factsheet. A name lives here only: whoever decides by one includes this.
 namespace pulseline::vda5050 {
@@ -28,6 +30,15 @@ inline constexpr const char* kStopCharging = "stopCharging";
 inline constexpr const char* kRaiseParking = "raiseParking";
 inline constexpr const char* kLowerParking = "lowerParking";
 inline constexpr const char* kSetBracketHeight = "setBracketHeight";
+
+// Whatever of brackets and feet moves stays where it is: an instant action of vehicles with lifts.
+inline constexpr const char* kStopLifts = "stopLifts";
+
+/// Moves brackets or parking feet: at a node of an order, or by itself as an instant action.
+inline bool is_lift(std::string_view action_type) {
+    return action_type == kRaiseParking || action_type == kLowerParking ||
+           action_type == kSetBracketHeight;
+}
 
 // On an edge, while it is driven: look for these codes; go slowly enough to arrive precisely.
 inline constexpr const char* kObserveMarkers = "observeMarkers";

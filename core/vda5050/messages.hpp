@@ -271,6 +271,7 @@ struct Factsheet {
     double width_m = 0;
     std::vector<std::string> actions;
     std::vector<std::string> node_actions;  // those of them that a node of an order may ask for
+    std::vector<std::string> instant_actions = {};  // those that are done outside one
     std::string json;
 };
 

@@ -245,4 +245,15 @@ plant::LoadRules load_rules_from_json(const std::string& text) {
     return stored.empty() ? plant::LoadRules{} : stored.front();
 }
 
+std::string bracket_lift_to_json(const plant::BracketLift& lift) {
+    return Json{{"stroke_m", number(lift.stroke_m)}, {"speed_mps", number(lift.speed_mps)}}.dump();
+}
+plant::BracketLift bracket_lift_from_json(const std::string& text) {
+    const auto stored = list_from_json<plant::BracketLift>(
+        "[" + (text == "null" ? "" : text) + "]", [](const Json& j) {
+            return plant::BracketLift{j.at("stroke_m"), j.at("speed_mps")};
+        });
+    return stored.empty() ? plant::BracketLift{} : stored.front();
+}
+
 }  // namespace pulseline::db

@@ -29,5 +29,8 @@ std::optional<plant::ParkingGear> parking_from_json(const std::string& text);
 /// "null" becomes the rules of a type that states none.
 std::string load_rules_to_json(const plant::LoadRules& rules);
 plant::LoadRules load_rules_from_json(const std::string& text);
+/// "null" becomes the lift of a type that states none.
+std::string bracket_lift_to_json(const plant::BracketLift& lift);
+plant::BracketLift bracket_lift_from_json(const std::string& text);
 
 }  // namespace pulseline::db

@@ -22,7 +22,10 @@ std::string text_of(const Param& param) {
 vda5050::VehicleError stopped_error(const Reason& cause) {
     vda5050::VehicleError error;
     error.fatal = true;
-    if (cause.code == onboard::stop_causes::kSlip) {
+    if (cause.code == onboard::stop_causes::kMachineSilent) {
+        error.type = "machineSilent";
+        error.description = "the controller of its machine does not answer; its brakes are on";
+    } else if (cause.code == onboard::stop_causes::kSlip) {
         error.type = "wheelSlip";
         error.description =
             "wheels and floor differ by the share " + text_of(cause.params.at(0)) + " of the speed";
@@ -36,6 +39,18 @@ vda5050::VehicleError stopped_error(const Reason& cause) {
 }
 
 }  // namespace
+
+void write_stop(const onboard::Drive& drive, vda5050::StateMessage& state) {
+    const auto cause = drive.stop_cause();
+    if (!cause) return;
+    if (cause->code != onboard::stop_causes::kWheelFault) {
+        state.errors.push_back(stopped_error(*cause));
+        return;
+    }
+    const std::string wheel = text_of(cause->params.at(0));
+    state.errors.push_back(
+        {"wheelFault", false, "the drive of wheel " + wheel + " has a fault", {{"wheel", wheel}}});
+}
 
 BodyStatus::BodyStatus(const onboard::Drive& motion) : motion_(motion) {
     for (const auto& wheel : motion.type().wheels) {

@@ -8,6 +8,10 @@
 
 namespace pulseline::agent {
 
+/// Why a drive has stopped of itself, as an error of the vehicle; a wheel's fault as told by
+/// itself.
+void write_stop(const onboard::Drive& drive, vda5050::StateMessage& state);
+
 /// What the rest of the machine reports: its wheels, and why its drive has stopped.
 class BodyStatus {
 public:

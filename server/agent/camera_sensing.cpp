@@ -6,17 +6,16 @@
 
 #include "core/kinematics/past_poses.hpp"
 #include "core/localisation/codes_on_way.hpp"
-#include "core/localisation/dual_camera.hpp"
+#include "core/onboard/code_reading.hpp"
 #include "core/simulation/world/true_camera.hpp"
 #include "core/vision/optics/camera_picture.hpp"
+#include "server/agent/hall_truth.hpp"
 
 namespace pulseline::agent {
 namespace {
 
 using simulation::FloorCode;
 
-constexpr double kAround_m = 20;      // farther codes are no camera's business
-constexpr std::size_t kQrBytes = 11;  // of a version 1 symbol, level Q
 // Under way: pictures are read within the time that bench_vision measures and a bus adds, and
 // stamped by a clock that is not the wheels'.
 constexpr double kReadSoonest_s = 0.02;
@@ -61,25 +60,17 @@ CameraSensing::CameraSensing(const simulation::World& world, const plant::HallId
     }
 }
 
-std::vector<FloorCode> CameraSensing::codes_around() const {
-    std::vector<FloorCode> codes;
-    if (covered_) return codes;
-    for (const auto& marker : world_.markers) {
-        const bool drawable =
-            marker.kind != plant::MarkerKind::kQr || marker.payload.size() <= kQrBytes;
-        if (options_.mode == simulation::Sensing::kRendered && !drawable) continue;
-        if (marker.hall != hall_) continue;
-        if (distance(marker.pose.position(), motion_.true_pose().position()) > kAround_m) continue;
-        codes.push_back({marker.payload, marker.pose, marker.size_m, false, marker.kind});
-    }
-    return codes;
+std::vector<FloorCode> CameraSensing::codes_below() const {
+    if (covered_) return {};
+    return codes_around(world_, hall_, motion_.true_pose(),
+                        options_.mode == simulation::Sensing::kRendered);
 }
 
 void CameraSensing::look() { look_expecting(std::nullopt); }
 
 void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) {
     options_.dark = dark_;
-    const auto codes = codes_around();
+    const auto codes = codes_below();
     options_.known = std::move(known);
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
@@ -100,25 +91,10 @@ Result<vda5050::StopMeasurement> CameraSensing::measure(const vda5050::StopTarge
         if (kind) known.codes.push_back({marker.pose, {*kind, marker.size_m}});
     }
     look_expecting(std::move(known));
-    std::vector<localisation::CodeObservation> seen;
-    for (const auto& reading : readings_) {
-        if (!reading.found) continue;
-        seen.push_back({reading.payload, reading.code, reading.angle_rad, reading.sigma_m,
-                        localisation::code_sigma_rad(options_.errors, 0)});
-    }
-    std::vector<localisation::SurveyedCode> survey;
-    for (const auto& marker : target.markers) {
-        if (!plant::parse_marker_kind(marker.kind)) continue;
-        // An older server does not say how well it knows the direction.
-        const double sigma_rad =
-            marker.sigma_rad > 0 ? marker.sigma_rad : options_.errors.marker.survey_rad;
-        survey.push_back({marker.payload, marker.pose, marker.sigma_m, sigma_rad});
-    }
-    const auto fix = localisation::locate(seen, survey);
+    const auto fix = onboard::locate_stop(readings_, target, options_.errors);
     if (!fix) return fail(fix.error());
     fix_ = *fix;
-    return vda5050::StopMeasurement{fix->pose, fix->sigma_xy_m, fix->sigma_heading_rad,
-                                    localisation::to_string(fix->method), fix->payloads};
+    return onboard::measurement_of(*fix);
 }
 
 std::vector<onboard::WayReading> CameraSensing::look_below(
@@ -165,7 +141,7 @@ void CameraSensing::expose(std::size_t camera, std::span<const vda5050::Surveyed
     options.known = simulation::KnownFloor{at.believed, {{marker.pose, {*kind, marker.size_m}}}};
     options.smear_m =
         geometry::Pose2{0, 0, -calibrated.body_from_camera.heading_rad} * (exposure_s * velocity);
-    const auto codes = codes_around();
+    const auto codes = codes_below();
     const auto view =
         simulation::sense_stop(std::span(&actual_[camera], 1), std::span(&calibrated, 1),
                                at.true_pose, codes, options, random_);
@@ -186,8 +162,8 @@ std::vector<CameraSensing::Picture> CameraSensing::pictures() const {
     std::vector<Picture> pictures;
     const auto& cameras = motion_.type().cameras;
     for (std::size_t i = 0; i < images_.size(); ++i) {
-        const auto annotated = vision::annotate(
-            images_[i], cameras[i], simulation::body_from_code(pictured_[i]), sizes_m_[i]);
+        const auto annotated = vision::annotate(images_[i], cameras[i],
+                                                onboard::body_from_code(pictured_[i]), sizes_m_[i]);
         const auto jpeg = vision::encode_jpeg(annotated, cameras[i]);
         pictures.push_back({cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }

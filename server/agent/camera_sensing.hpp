@@ -8,25 +8,18 @@
 #include <vector>
 
 #include "core/localisation/dual_camera.hpp"
-#include "core/onboard/stop_procedure.hpp"
-#include "core/onboard/stop_sensing.hpp"
-#include "core/onboard/way_sensing.hpp"
 #include "core/simulation/machine/simulated_drive.hpp"
 #include "core/simulation/world/stop_sensor.hpp"
 #include "core/simulation/world/world.hpp"
 #include "core/vda5050/messages.hpp"
+#include "server/agent/machine.hpp"
 
 namespace pulseline::agent {
 
 /// The simulated cameras of one vehicle: what they see of the true codes, and the pose computed
 /// from it with the survey that an order brings.
-class CameraSensing : public onboard::StopSensing, public onboard::WaySensing {
+class CameraSensing final : public Cameras {
 public:
-    struct Picture {
-        std::string camera;
-        std::string jpeg;
-    };
-
     /// `motion` is asked for the true pose at every look.
     /// `loaded`: the vehicle carries its load.
     CameraSensing(const simulation::World& world, const plant::HallId& hall,
@@ -37,24 +30,22 @@ public:
     std::vector<onboard::WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
                                                 const geometry::Pose2& hall_from_body,
                                                 double own_s) override;
-    /// Takes new images and reads them.
-    void look();
-    const std::vector<vda5050::CameraReading>& readings() const { return readings_; }
-    /// The fix of the newest measurement, once.
-    std::optional<localisation::PoseFix> take_fix() { return std::exchange(fix_, std::nullopt); }
-    /// True once after each look.
-    bool take_fresh();
-    /// Annotated pictures of the last look; none in analytic mode.
-    std::vector<Picture> pictures() const;
-    /// The vehicle left the place: its readings say nothing any more. Pictures on their way stay.
-    void forget() { readings_.clear(); }
+    void look() override;
+    const std::vector<vda5050::CameraReading>& readings() const override { return readings_; }
+    std::optional<localisation::PoseFix> take_fix() override {
+        return std::exchange(fix_, std::nullopt);
+    }
+    bool take_fresh() override;
+    /// None in analytic mode.
+    std::vector<Picture> pictures() const override;
+    void forget() override { readings_.clear(); }
     /// Somebody covers the codes.
     void cover() { covered_ = true; }
     /// The lights below the vehicle fail: its cameras see black.
     void darken() { dark_ = true; }
 
 private:
-    std::vector<simulation::FloorCode> codes_around() const;
+    std::vector<simulation::FloorCode> codes_below() const;
     void look_expecting(std::optional<simulation::KnownFloor> known);
     /// When a picture is taken between two steps of the vehicle.
     struct Exposure {

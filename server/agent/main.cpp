@@ -14,10 +14,12 @@
 #include "core/mapping/monte_carlo.hpp"
 #include "server/agent/hand_held_link.hpp"
 #include "server/agent/link_client.hpp"
+#include "server/agent/machine_command.hpp"
 #include "server/agent/map_command.hpp"
 #include "server/agent/options.hpp"
+#include "server/agent/simulated_vehicle.hpp"
+#include "server/agent/tcp_vehicle.hpp"
 #include "server/agent/truth_log.hpp"
-#include "server/agent/vehicle.hpp"
 #include "server/base/log.hpp"
 #include "server/base/net.hpp"
 
@@ -30,11 +32,13 @@ using namespace std::chrono_literals;
 constexpr int kExitTrouble = 1;
 constexpr int kExitReplaced = 3;
 constexpr auto kTick = 20ms;
+constexpr auto kMachineTick = 10ms;     // one cycle of its set points
 constexpr double kLongestStep_s = 0.2;  // after a stall the vehicle must not leap
 constexpr auto kTellLostTime = 1s;
 
 struct Unit {
-    std::unique_ptr<Vehicle> vehicle;
+    std::unique_ptr<RunningVehicle> vehicle;
+    SimulatedMachine* machine = nullptr;  // of a simulated one
     std::unique_ptr<LinkClient> link;
 };
 
@@ -72,10 +76,22 @@ Result<geometry::Pose2> start_pose(const Options& options, const simulation::Wor
     return simulation::placed_pose(world, vehicle, options.seed);
 }
 
-Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
-                                              const simulation::World& world,
-                                              const Identity& identity, HallMaps& maps,
-                                              TruthLog* truth) {
+/// Its machine is behind a controller; it has no scanner, and needs no map.
+Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& world,
+                              const plant::Vehicle& vehicle) {
+    const auto address = parse_machine(options.machine);
+    if (!address) return fail(address.error());
+    VehicleSettings known;
+    known.hall = plant::find_station(world.plant, vehicle.home)->hall;
+    known.learned = options.learned;
+    auto opened = TcpVehicle::open(*address, world.plant, vehicle, options.time_factor,
+                                   world.errors, std::move(known));
+    if (!opened) return fail(opened.error());
+    return Unit{std::move(*opened), nullptr, nullptr};
+}
+
+Result<Unit> make_vehicle(const Options& options, const simulation::World& world,
+                          const Identity& identity, HallMaps& maps, TruthLog* truth) {
     const auto* vehicle =
         plant::find_vehicle(world.plant, identity.manufacturer, identity.serial_number);
     if (vehicle == nullptr) {
@@ -90,34 +106,42 @@ Result<std::unique_ptr<Vehicle>> make_vehicle(const Options& options,
     }
     const auto pose = start_pose(options, world, *vehicle);
     if (!pose) return fail(pose.error());
-    VehicleSettings settings;
+    auto map = maps.of(plant::find_station(world.plant, vehicle->home)->hall);
+    if (!map) return fail(map.error());
+    if (!options.machine.empty()) return make_tcp_vehicle(options, world, *vehicle);
+    SimulationSettings settings;
     settings.seed = options.seed;
     settings.time_factor = options.time_factor;
     settings.battery_percent = options.battery_percent;
     settings.rendered = options.rendered;
-    settings.learned = options.learned;
-    auto map = maps.of(plant::find_station(world.plant, vehicle->home)->hall);
-    if (!map) return fail(map.error());
-    settings.map = std::move(*map);
     settings.servo_drive = options.servo_drive;
-    settings.vehicles = static_cast<int>(options.vehicles.size());
     settings.faults = options.faults;
-    return std::make_unique<Vehicle>(world, *vehicle, *pose, settings, truth);
+    SimulatedVehicle::Program program;
+    program.vehicles = static_cast<int>(options.vehicles.size());
+    program.learned = options.learned;
+    program.map = std::move(*map);
+    auto made = std::make_unique<SimulatedVehicle>(world, *vehicle, *pose, std::move(settings),
+                                                   std::move(program), truth);
+    SimulatedMachine* machine = &made->machine();
+    return Unit{std::move(made), machine, nullptr};
 }
 
 /// Vehicles of one process stand in one hall and see each other; those of another process do not.
 void let_see(const std::vector<Unit>& units) {
     for (const auto& unit : units) {
-        Vehicle* own = unit.vehicle.get();
+        SimulatedMachine* own = unit.machine;
+        if (own == nullptr) continue;
         own->see([&units, own](geometry::Point2 from, std::vector<geometry::Polygon>& seen) {
             for (const auto& other : units) {
-                if (other.vehicle.get() != own) other.vehicle->show_body(own->hall(), from, seen);
+                if (other.machine != nullptr && other.machine != own)
+                    other.machine->show_body(own->hall(), from, seen);
             }
         });
     }
 }
 
-net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
+net::awaitable<void> step_all(std::vector<Unit>& units, Vehicle::Steady::duration tick,
+                              const bool& running) {
     net::steady_timer timer(co_await net::this_coro::executor);
     auto last = Vehicle::Steady::now();
     auto told = last - kTellLostTime;
@@ -134,7 +158,7 @@ net::awaitable<void> step_all(std::vector<Unit>& units, const bool& running) {
             lost_s = 0;
         }
         for (auto& unit : units) unit.vehicle->step(dt_s, now);
-        timer.expires_after(kTick);
+        timer.expires_after(tick);
         server::error_code ec;
         co_await timer.async_wait(server::into(ec));
     }
@@ -175,12 +199,12 @@ Result<int> run(const Options& options) {
         truth.emplace(std::move(*log));
     }
     for (const auto& identity : options.vehicles) {
-        auto vehicle = make_vehicle(options, world, identity, maps, truth ? &*truth : nullptr);
-        if (!vehicle) return fail(vehicle.error());
-        auto link = std::make_unique<LinkClient>(
-            io, tls, options.server, identity, !options.insecure, **vehicle,
+        auto unit = make_vehicle(options, world, identity, maps, truth ? &*truth : nullptr);
+        if (!unit) return fail(unit.error());
+        unit->link = std::make_unique<LinkClient>(
+            io, tls, options.server, identity, !options.insecure, unit->vehicle->program(),
             simulation::seed_for(options.seed, "link " + identity.serial_number));
-        units.push_back({std::move(*vehicle), std::move(link)});
+        units.push_back(std::move(*unit));
     }
 
     let_see(units);
@@ -188,7 +212,7 @@ Result<int> run(const Options& options) {
     std::unique_ptr<HandHeldLink> hand_held;
     if (!options.hand_held.empty()) {
         std::vector<Vehicle*> vehicles;
-        for (const auto& unit : units) vehicles.push_back(unit.vehicle.get());
+        for (const auto& unit : units) vehicles.push_back(&unit.vehicle->program());
         auto opened = HandHeldLink::open(io, options.hand_held, std::move(vehicles));
         if (!opened) return fail(opened.error());
         hand_held = std::move(*opened);
@@ -213,7 +237,8 @@ Result<int> run(const Options& options) {
             if (hand_held) hand_held->stop();
         });
     }
-    net::co_spawn(io, step_all(units, running), [](const std::exception_ptr& error) {
+    const Vehicle::Steady::duration tick = options.machine.empty() ? kTick : kMachineTick;
+    net::co_spawn(io, step_all(units, tick, running), [](const std::exception_ptr& error) {
         if (error) std::rethrow_exception(error);
     });
     io.run();
@@ -230,6 +255,8 @@ int main(int argc, char** argv) {
     cv::setNumThreads(1);  // many agents share one machine
     if (argc > 1 && std::string_view(argv[1]) == "map")
         return agent::map_command(argc - 1, argv + 1);
+    if (argc > 1 && std::string_view(argv[1]) == "machine")
+        return agent::machine_command(argc - 1, argv + 1);
     int exit_code = 0;
     const auto options = agent::read_options(argc, argv, exit_code);
     if (!options) return exit_code;

@@ -280,6 +280,10 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         ->check(CLI::Range(0.0, 100.0));
     app.add_option("--hand-held", options.hand_held,
                    "socket for a hand-held control beside the vehicle (Unix, JSON lines)");
+    app.add_option("--machine", options.machine,
+                   "tcp://HOST:PORT of the controller of the vehicle's machine, which is not "
+                   "simulated here then")
+        ->excludes(list);
     app.add_option("--maps", options.maps,
                    "folder with maps of the halls (HALL.yaml, as `pulseline-agent map` makes "
                    "them), by which vehicles know from walls and things where they are");

@@ -54,6 +54,7 @@ struct Options {
     std::string maps;       // folder with maps of halls; empty: scanners only look out
     std::string learned;    // folder for what the vehicles learn; empty: none
     std::string hand_held;  // socket of a hand-held control; empty: none
+    std::string machine;    // tcp://HOST:PORT of its controller; empty: simulated
     std::uint64_t seed = 1;
     std::string errors = "nominal";  // how well machines and floor are kept: nominal, kind, harsh
     double time_factor = 1;

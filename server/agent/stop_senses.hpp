@@ -5,7 +5,7 @@
 
 #include "core/onboard/pose/light_watch.hpp"
 #include "core/onboard/stop_sensing.hpp"
-#include "server/agent/camera_sensing.hpp"
+#include "server/agent/machine.hpp"
 
 namespace pulseline::agent {
 
@@ -14,7 +14,7 @@ namespace pulseline::agent {
 class StopSenses : public onboard::StopSensing {
 public:
     /// `cameras` must outlive it, like what it uses.
-    explicit StopSenses(CameraSensing& cameras) : cameras_(cameras) {}
+    explicit StopSenses(Cameras& cameras) : cameras_(cameras) {}
     void use(const onboard::LightWatch& light) { light_ = &light; }
 
     Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override;
@@ -22,7 +22,7 @@ public:
     std::optional<localisation::PoseFix> take_fix() { return std::exchange(fix_, std::nullopt); }
 
 private:
-    CameraSensing& cameras_;
+    Cameras& cameras_;
     const onboard::LightWatch* light_ = nullptr;
     std::optional<localisation::PoseFix> fix_;
 };

@@ -18,46 +18,40 @@
 #include "core/onboard/pose/pose_guard.hpp"
 #include "core/onboard/pose/reflector_watch.hpp"
 #include "core/onboard/pose/rest_watch.hpp"
-#include "core/simulation/machine/equipment.hpp"
-#include "core/simulation/machine/servo_drive.hpp"
-#include "core/simulation/world/navigation_scanner.hpp"
-#include "core/simulation/world/receivers.hpp"
-#include "core/simulation/world/scanners.hpp"
-#include "core/simulation/world/world.hpp"
-#include "server/agent/body_status.hpp"
-#include "server/agent/camera_sensing.hpp"
 #include "server/agent/learned_moves.hpp"
-#include "server/agent/options.hpp"
+#include "server/agent/machine.hpp"
 #include "server/agent/outbox.hpp"
 #include "server/agent/stop_senses.hpp"
-#include "server/agent/truth_log.hpp"
 
 namespace pulseline::agent {
 
+/// What a vehicle's program knows beforehand, beside its plant.
 struct VehicleSettings {
-    std::uint64_t seed = 1;
-    double time_factor = 1;
-    bool rendered = true;
-    std::optional<double> battery_percent;  // absent: by the seed
-    int vehicles = 1;  // in this process: they share one processor for rendering
-    std::vector<Fault> faults;
-    bool servo_drive = false;  // wheel by wheel; a type without driven wheels stays statistical
+    plant::HallId hall;
+    /// How well its machine drives and sees, as it is stated.
+    localisation::ErrorBudget errors;
+    localisation::OdometryNoise odometry;
+    int vehicles = 1;          // in this process: they share one processor for pictures
     std::string learned = {};  // folder for what it learns; empty: forgotten at the end
     std::shared_ptr<const mapping::MatchedMap> map = {};  // of its hall; none: it has none
+    std::uint64_t particles_seed = 1;
 };
 
-/// One vehicle: its simulated machine and what it says. Frames come in by receive() and go out
-/// through outbox(); time passes by step().
-/// Thread safety: none. `world` and `truth` must outlive it.
+/// The program of one vehicle, which knows its machine by its ports only. Frames come in by
+/// receive() and go out through outbox(); time passes by step().
+/// Thread safety: none. What it is made of must outlive it.
 class Vehicle {
 public:
     using Steady = std::chrono::steady_clock;
 
-    Vehicle(const simulation::World& world, const plant::Vehicle& vehicle,
-            const geometry::Pose2& true_pose, const VehicleSettings& settings, TruthLog* truth);
+    /// `type`: with its cameras as they hang under its load.
+    Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, Machine& machine,
+            const VehicleSettings& settings);
 
     void step(double dt_s, Steady::time_point now);
     Outbox& outbox() { return outbox_; }
+    /// Something has happened that the next state shall tell soon.
+    void tell_soon() { state_due_ = true; }
     void link_up();
     void link_down();
     void receive(std::string_view frame);
@@ -71,18 +65,14 @@ public:
     }
     Status give_back() { return executor_.give_back(); }
     bool in_hand() const { return executor_.in_hand(); }
-    bool standing() const { return drive_->standing(); }
+    bool standing() const { return drive_.standing(); }
     bool knows_pose() const { return executor_.position_initialized(); }
-    const geometry::Pose2& believed_pose() const { return drive_->believed_pose(); }
+    const geometry::Pose2& believed_pose() const { return drive_.believed_pose(); }
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
-    /// What its scanners see of the vehicles around it, and what they take of its light.
-    void see(simulation::SimulatedScanners::Neighbours neighbours);
-    /// Puts its body, load included, as it truly stands, to what others' scanners see.
-    void show_body(const plant::HallId& hall, geometry::Point2 from,
-                   std::vector<geometry::Polygon>& to) const;
-    const plant::HallId& hall() const { return hall_; }
+    const onboard::Executor& executor() const { return executor_; }
+    const onboard::PoseEstimate& estimate() const { return estimate_; }
 
 private:
     vda5050::StateMessage state();
@@ -108,37 +98,26 @@ private:
     void write_light(vda5050::StateMessage& state) const;
     void write_reflectors(vda5050::StateMessage& state) const;
     void look_while_standing(Steady::time_point now);
-    bool drives_fast() const;
-    void apply_faults(double dt_s);
-    void apply(const Fault& fault);
-    void write_truth(Steady::time_point now);
     void keep_learned();
 
     const plant::Vehicle& vehicle_;
-    const plant::VehicleType type_;  // its cameras as they hang under its load
-    const plant::HallId hall_;
+    const plant::VehicleType& type_;
     VehicleSettings settings_;
-    std::unique_ptr<simulation::SimulatedDrive> drive_;
-    CameraSensing sensing_;
+    Machine& machine_;
+    onboard::Drive& drive_;
+    Cameras& cameras_;
     StopSenses stop_senses_;
-    simulation::VehicleEquipment equipment_;
     std::optional<LearnedMoves> learned_;
     onboard::Executor executor_;
-    BodyStatus body_;
-    // Who does not drive by its wheels sees nothing, and thousands of them cost nothing.
-    std::optional<simulation::SimulatedScanners> scanners_;
     std::optional<onboard::LookOut> look_out_;        // with scanners
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;
     std::optional<onboard::PoseGuard> guard_;  // of those that drive by their wheels
     onboard::RestWatch rest_watch_;
     onboard::MarkerWatch watch_;
-    std::optional<simulation::SimulatedReceivers> receivers_;  // of a type that has them
-    std::optional<onboard::LightWatch> light_;                 // with receivers
-    std::optional<simulation::SimulatedNavigationScanner> navigation_scanner_;  // the same
-    std::optional<onboard::ReflectorWatch> reflectors_;                         // with it
-    std::optional<onboard::ContourWatch> contours_;  // with scanners and a map
-    TruthLog* truth_;
+    std::optional<onboard::LightWatch> light_;           // with receivers
+    std::optional<onboard::ReflectorWatch> reflectors_;  // with a navigation scanner
+    std::optional<onboard::ContourWatch> contours_;      // with scanners and a map
     vda5050::HeaderSource headers_;
     Outbox outbox_;
     onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
@@ -146,7 +125,6 @@ private:
     bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;
-    double age_s_ = 0;
     Steady::time_point last_state_{};
     Steady::time_point last_visualization_{};
     Steady::time_point last_look_{};
@@ -154,8 +132,6 @@ private:
     Steady::time_point stood_since_{};
     Steady::duration look_every_{};
     bool pictures_due_ = false;
-    Steady::time_point last_truth_{};
-    TruthLine last_truth_line_;
 };
 
 }  // namespace pulseline::agent

@@ -27,8 +27,7 @@ constexpr double kRangeSigmas = 3;
 vda5050::StateMessage Vehicle::state() {
     vda5050::StateMessage state;
     executor_.write_state(state);
-    body_.write_state(state);
-    equipment_.write_state(state);
+    machine_.write_state(state);
     if (look_out_ && !executor_.in_hand()) {
         look_out_->write_state(state);
         going_round_->write_state(state);
@@ -53,7 +52,7 @@ vda5050::StateMessage Vehicle::state() {
     if (executor_.position_initialized()) write_navigation(state.navigation);
     write_advice(state);
     state.fixes = estimate_.fixes().newest();
-    state.cameras = sensing_.readings();
+    state.cameras = cameras_.readings();
     const auto covariance = estimate_.covariance();
     // The pose said is what the drive steers by, which is led slowly to where it is known to be.
     const double to_lead_m =
@@ -83,7 +82,7 @@ void Vehicle::write_advice(vda5050::StateMessage& state) const {
                                 "soon as it steers by that, in some seconds.",
                                 {}});
     }
-    const bool stays = drive_->idle() && !waits;
+    const bool stays = drive_.idle() && !waits;
     if (stays || advice_ == onboard::PoseGuard::Advice::kDrive) return;
     using Lacks = onboard::ContourWatch::Lacks;
     const Lacks lacks = contours_ ? contours_->lacks() : Lacks::kNothing;
@@ -117,12 +116,12 @@ void Vehicle::write_advice(vda5050::StateMessage& state) const {
 
 /// It drives slowly, looks around or asks: each sense that tells nothing is named then.
 bool Vehicle::lacks_pose() const {
-    return lost_ || (!drive_->idle() && advice_ != onboard::PoseGuard::Advice::kDrive);
+    return lost_ || (!drive_.idle() && advice_ != onboard::PoseGuard::Advice::kDrive);
 }
 
 void Vehicle::write_codes(vda5050::StateMessage& state) const {
     if (type_.cameras.empty() || !lacks_pose()) return;
-    if (std::ranges::any_of(sensing_.readings(), &vda5050::CameraReading::found)) return;
+    if (std::ranges::any_of(cameras_.readings(), &vda5050::CameraReading::found)) return;
     state.errors.push_back({"codesNoneInView", false, "No camera sees a code.", {}});
 }
 
@@ -187,8 +186,8 @@ void Vehicle::send_state(Steady::time_point now) {
 }
 
 void Vehicle::send_visualization() {
-    const vda5050::VisualizationMessage message{drive_->believed_pose(), true,
-                                                drive_->velocity_mps(), drive_->turn_rate_radps()};
+    const vda5050::VisualizationMessage message{drive_.believed_pose(), true, drive_.velocity_mps(),
+                                                drive_.turn_rate_radps()};
     vda5050::StateMessage map;
     executor_.write_state(map);
     put_whole([&] {
@@ -202,7 +201,7 @@ void Vehicle::send_visualization() {
 void Vehicle::send_pictures(Steady::time_point now) {
     pictures_due_ = false;
     last_pictures_ = now;
-    for (const auto& picture : sensing_.pictures()) {
+    for (const auto& picture : cameras_.pictures()) {
         auto frame = vda5050::encode_camera_frame(
             {picture.camera, vda5050::timestamp(utc_now()), "image/jpeg", picture.jpeg});
         if (frame) outbox_.put_picture(picture.camera, std::move(*frame));
@@ -214,10 +213,10 @@ void Vehicle::send_factsheet() {
     vda5050::FactsheetSource source;
     source.type = &type_;
     source.has_map = contours_.has_value();
-    source.time_factor = settings_.time_factor;
+    source.time_factor = drive_.time_factor();
     source.node_actions = onboard::stop_action_types();
-    source.node_actions.insert(source.node_actions.end(), equipment_.action_types().begin(),
-                               equipment_.action_types().end());
+    const auto& acts = machine_.equipment().action_types();
+    source.node_actions.insert(source.node_actions.end(), acts.begin(), acts.end());
     source.edge_actions = onboard::edge_action_types();
     source.instant_actions = onboard::instant_action_types(type_);
     put_whole([&] {
@@ -243,6 +242,7 @@ void Vehicle::link_up() {
 
 void Vehicle::link_down() {
     // It drives on to the end of its base; what it has to say waits for the next link.
+    executor_.lose_link();
     linked_ = false;
     outbox_.clear();
 }

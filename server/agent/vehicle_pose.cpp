@@ -25,7 +25,7 @@ void Vehicle::know_pose(double dt_s) {
     if (const auto fix = stop_senses_.take_fix()) {
         estimate_.take(*fix);
     } else {
-        estimate_.drive_to(drive_->believed_pose());
+        estimate_.drive_to(drive_.believed_pose());
     }
     static const std::deque<vda5050::OrderEdge> kNone;
     const bool on_way = !executor_.acting() && !executor_.in_hand();
@@ -78,7 +78,7 @@ void Vehicle::log_refused() const {
 /// At a stop the procedure leads. An order may come when its place was told a moment ago: it begins
 /// when that is known well enough and the drive believes it.
 void Vehicle::lead_at_rest(double dt_s) {
-    const bool rests = drive_->idle() && drive_->standing() && !executor_.acting() &&
+    const bool rests = drive_.idle() && drive_.standing() && !executor_.acting() &&
                        !executor_.in_hand() && executor_.position_initialized();
     if (rests) watch_.lead_at_rest(dt_s);
     const bool waited = executor_.waits_to_begin();
@@ -94,7 +94,7 @@ void Vehicle::limit_speed() {
     double share = look_out_ ? look_out_->speed_share() : 1;
     share = std::min({share, watch_.segments().speed_share(), onboard::speed_share(advice_)});
     if (contours_ && contours_->doubts()) share = std::min(share, onboard::PoseGuard::kSlowShare);
-    drive_->slow_to(share);
+    drive_.slow_to(share);
 }
 
 /// At a stop its codes tell where it is.
@@ -104,10 +104,10 @@ void Vehicle::guard_pose(double dt_s) {
     using Way = onboard::PoseGuard::Way;
     const bool located = executor_.position_initialized() && !executor_.acting();
     const bool by_itself = located && !executor_.in_hand();
-    const Way way = by_itself && !drive_->idle()              ? Way::kUnderWay
+    const Way way = by_itself && !drive_.idle()               ? Way::kUnderWay
                     : by_itself && executor_.waits_to_begin() ? Way::kToBegin
                                                               : Way::kNone;
-    const Advice advice = guard_->step(dt_s * drive_->time_factor(), estimate_, way);
+    const Advice advice = guard_->step(dt_s * drive_.time_factor(), estimate_, way);
     state_due_ |= advice != advice_;
     advice_ = located ? advice : Advice::kDrive;
     if (advice_ != Advice::kAsk) return;

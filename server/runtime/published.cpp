@@ -60,8 +60,9 @@ std::vector<fleet::VehicleMessage> take_stops(std::vector<fleet::VehicleMessage>
     std::vector<fleet::VehicleMessage> stops;
     std::vector<fleet::VehicleMessage> rest;
     for (auto& message : messages) {
-        const bool stop = !message.order && !starts(message) &&
-                          has_action(message, {vda5050::kStartPause, vda5050::kCancelOrder});
+        const bool stop =
+            !message.order && !starts(message) &&
+            has_action(message, {vda5050::kStartPause, vda5050::kCancelOrder, vda5050::kStopLifts});
         (stop ? stops : rest).push_back(std::move(message));
     }
     messages = std::move(rest);
@@ -69,13 +70,16 @@ std::vector<fleet::VehicleMessage> take_stops(std::vector<fleet::VehicleMessage>
 }
 
 bool starts(const fleet::VehicleMessage& message) {
-    return message.order || has_action(message, {vda5050::kStopPause});
+    return message.order || has_action(message, {vda5050::kStopPause, vda5050::kSetBracketHeight,
+                                                 vda5050::kLowerParking, vda5050::kRaiseParking});
 }
 
 void append_starts(Acts& to, const std::vector<fleet::Event>& events) {
     for (const auto& event : events) {
         if (event.actor.empty()) continue;
-        if (event.type == fleet::event::kVehicleResumed) to.vehicles.push_back(event.vehicle);
+        const bool vehicle = event.type == fleet::event::kVehicleResumed ||
+                             event.type == fleet::event::kVehicleLifts;
+        if (vehicle) to.vehicles.push_back(event.vehicle);
         const bool order = event.type == fleet::event::kJobOrderCreated ||
                            (event.type == fleet::event::kJobOrderState && goes_on(event));
         if (order) to.orders.push_back(event.order);

@@ -209,6 +209,20 @@ TEST(PlantStore, KeepsTheLoadRulesOfATypeAndTheUsualOnesOfTypesOfBefore) {
     EXPECT_THROW(PlantStore(database).load(), Error);
 }
 
+TEST(PlantStore, KeepsHowBracketsLiftAndTheUsualWayOfTypesOfBefore) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant.vehicle_types[0].bracket_lift = {0.415, 0.0075};
+    PlantStore(database).import(plant);
+    EXPECT_EQ(PlantStore(database).load()->vehicle_types[0].bracket_lift,
+              (plant::BracketLift{0.415, 0.0075}));
+
+    database.sql() << "UPDATE vehicle_types SET bracket_lift = 'null'";
+    EXPECT_EQ(PlantStore(database).load()->vehicle_types[0].bracket_lift, plant::BracketLift{});
+    database.sql() << "UPDATE vehicle_types SET bracket_lift = '{}'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
 TEST(PlantStore, KeepsTheFeetOfATypeAndTheUsualOnesOfTypesOfBefore) {
     Database database(":memory:");
     plant::Plant plant = demo("pulse-line");

@@ -121,6 +121,19 @@ export class System {
     return agent;
   }
 
+  /** The simulated machine of a vehicle behind the protocol of server/agent/MACHINE.md; for an agent's `--machine`. */
+  async startMachine(id, { seed = 1, port = 0 } = {}) {
+    const name = `machine-${id}`, listening = /machine\.listening .*port="?(\d+)/g;
+    const before = [...this.log(name).matchAll(listening)].length;
+    const machine = this.start(AGENT, ["machine", "--world", this.plant.file, "--vehicle", id, "--listen", `tcp://127.0.0.1:${port}`, "--seed", String(seed),
+      "--truth-log", `${this.truthLog}.${id}`], name);
+    machine.port = await until(() => `machine ready; its log:\n${this.log(name)}`, () => {
+      if (machine.over) throw new Error(`the machine ended: ${this.log(name)}`);
+      return Number([...this.log(name).matchAll(listening)][before]?.[1]);
+    }, { timeout_s: 20, every_ms: 10 });
+    return machine;
+  }
+
   /** All in one program: they stand in one world and see each other, and write one truth log. */
   startAgents(ids, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
     const list = join(this.directory, "vehicles");

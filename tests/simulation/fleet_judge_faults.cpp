@@ -82,6 +82,7 @@ void World::cut_line(const plant::VehicleId& id, Line& line) {
     line.cut_until_s = now_s_ + (chance(0.5) ? pick(1, 5) : pick(5, 120));
     line.up.clear();
     line.down.clear();
+    vehicles_.at(id).lose_link();
     // A cable that is pulled says nothing: the server then only hears silence.
     if (line.server_knows && chance(0.5)) fleet_->vehicle_disconnected(id, now());
 }

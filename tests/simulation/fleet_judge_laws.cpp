@@ -63,11 +63,16 @@ void World::check_bodies() {
     }
 }
 
-/// Nothing moves that was restarted on its way and that nobody has allowed to move again; nothing
-/// stands or drives beyond the base that the store knows.
+/// Nothing moves that was restarted on its way and that nobody has allowed to move again, or that
+/// stands on its feet; nothing stands or drives beyond the base that the store knows. Feet move at
+/// a person's word only.
 void World::check_movement() {
     for (const auto& [id, vehicle] : vehicles_) {
+        if (vehicle.lifts_begun() > lifts_asked_) {
+            violate(id.str() + " moves its feet without a person's word");
+        }
         if (!vehicle.moved()) continue;
+        if (vehicle.on_feet()) violate(id.str() + " drives on its feet");
         if (watch_[id].restarted_on_leg) {
             violate(id.str() + " moves after its restart without a person's act");
         }

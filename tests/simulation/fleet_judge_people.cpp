@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include "core/vda5050/actions.hpp"
+#include "tests/simulation/fleet_judge_plant.hpp"
 #include "tests/simulation/fleet_judge_world.hpp"
 
 // The client that orders, and the person who looks after the hall.
@@ -94,6 +96,21 @@ void World::let_person_act() {
         help_vehicle(id, vehicle);
     }
     if (!unstored_ && now_s_ >= stalled_until_s_) help_orders();
+    if (!unstored_ && now_s_ >= stalled_until_s_) work_platform();
+}
+
+/// Parks the platform on its feet where it stands, now and then, and lets it down again.
+void World::work_platform() {
+    const auto& id = plant_.vehicles.back().id;
+    const bool stands_on_them = vehicles_.at(id).on_feet();
+    if (now_s_ < next_feet_s_ || (!stands_on_them && !disturbed_)) return;
+    const char* action = stands_on_them ? vda5050::kRaiseParking : vda5050::kLowerParking;
+    const bool taken = fleet_->move_lifts(id, {action, {}}, "fitter", now()).has_value();
+    lifts_asked_ += taken ? 1 : 0;
+    if (taken) ++outcome_.faults[std::string("person: ") + action];
+    const int wait_s = taken ? fleet_judge::pick(foot_random_, 10, 60) : 5;
+    next_feet_s_ = now_s_ + (taken && stands_on_them ? 10 * wait_s : wait_s);
+    settle();
 }
 
 void World::help_vehicle(const plant::VehicleId& id, Vehicle& vehicle) {

@@ -56,6 +56,14 @@ public:
         plant_.halls.push_back(hall);
         plant_.vehicle_types = {type_of("cart", 1.2, 0.8, 1.2), type_of("carrier", 3.0, 1.2, 1.0),
                                 type_of("platform", 10.5, 2.5, 0.8)};
+        auto& platform = plant_.vehicle_types.back();
+        platform.mass_kg = 10200;
+        platform.parking.emplace();
+        for (const auto& corner : geometry::rectangle(10.5, 2.5)) {
+            const auto number = std::to_string(platform.parking->feet.size());
+            platform.wheels.push_back({"w" + number, 0.9 * corner, false, true, 0.3});
+            platform.parking->feet.push_back({"f" + number, corner});
+        }
         for (auto& type : plant_.vehicle_types) {
             if (free && type.id.str() != "platform")
                 type.motion_modes.push_back(plant::MotionMode::kFree);

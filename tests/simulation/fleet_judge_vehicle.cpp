@@ -7,6 +7,7 @@ namespace pulseline::fleet_judge {
 namespace {
 constexpr int kUnreadable = 40;      // one stop in so many is not measured
 constexpr double kInView_m = 0.085;  // half of what a camera sees of the floor
+constexpr double kBattery_percent = 90;
 }  // namespace
 
 /// What the cameras find at a stop: the true pose, to a tenth of a millimetre.
@@ -32,6 +33,10 @@ Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::
       vehicle_(vehicle),
       type_(*plant::find_vehicle_type(plant, vehicle.type)),
       random_(seed) {
+    if (type_.parking) {
+        equipment_ = std::make_unique<simulation::VehicleEquipment>(
+            type_, stands_, std::vector<Pose2>{}, kBattery_percent, 1, 0, seed);
+    }
     boot(plant::find_station(plant, vehicle.home)->pose);
 }
 
@@ -49,7 +54,10 @@ void Vehicle::boot(const Pose2& pose) {
     }
     motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
     cameras_ = std::make_unique<Cameras>(*motion_, random_);
-    executor_ = std::make_unique<onboard::Executor>(*motion_, *cameras_, plant_.halls[0].id.str());
+    executor_ = std::make_unique<onboard::Executor>(*motion_, *cameras_, plant_.halls[0].id.str(),
+                                                    equipment_.get());
+    stands_ = pose;
+    if (equipment_) equipment_->abort();  // its brakes hold without power
 }
 
 void Vehicle::restart() {
@@ -75,7 +83,9 @@ void Vehicle::misread(const Pose2& by, int reports) {
 
 void Vehicle::receive(const fleet::VehicleMessage& message) {
     if (message.instant_actions) {
+        const bool moved_feet = equipment_ && equipment_->busy();
         executor_->handle(*message.instant_actions);
+        lifts_begun_ += equipment_ && equipment_->busy() && !moved_feet ? 1 : 0;
         for (const auto& action : message.instant_actions->actions) {
             if (action.type == "initPosition") misread_reports_ = 0;
         }
@@ -85,9 +95,12 @@ void Vehicle::receive(const fleet::VehicleMessage& message) {
 
 void Vehicle::step(double dt_s) {
     moved_ = false;
-    if (dead || manual || broken || safety_stopped) return;
+    if (dead) return;
+    if (equipment_) equipment_->step(dt_s, 0);
+    if (manual || broken || safety_stopped) return;
     const Pose2 before = motion_->true_pose();
     executor_->step(dt_s);
+    stands_ = motion_->true_pose();
     moved_ = !(before.x_m == pose().x_m && before.y_m == pose().y_m &&
                before.heading_rad == pose().heading_rad);
 }
@@ -116,6 +129,7 @@ vda5050::StateMessage Vehicle::state() {
     vda5050::StateMessage state;
     executor_->write_state(state);
     state.header_id = ++header_id_;
+    if (equipment_) equipment_->write_state(state);
     if (misread_reports_ > 0 && state.pose) {
         --misread_reports_;
         state.pose->x_m += misread_.x_m;

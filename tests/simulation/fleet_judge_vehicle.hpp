@@ -5,6 +5,7 @@
 
 #include "core/fleet/state/ports.hpp"
 #include "core/onboard/executor.hpp"
+#include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/vehicle_motion.hpp"
 
 /// A vehicle in the judge's hall: the real executor on a simulated platform, with what people and
@@ -22,6 +23,8 @@ public:
     void step(double dt_s);
     /// Power cycle: it knows neither order nor pose.
     void restart();
+    /// Nothing comes through to it, or from it, and it knows.
+    void lose_link() { executor_->lose_link(); }
     /// Pushed by people; its own pose follows, as odometry does.
     void push(const Pose2& to);
     vda5050::StateMessage state();
@@ -40,6 +43,9 @@ public:
     bool knows_pose() const { return executor_->position_initialized(); }
     bool at_work() const { return !motion_->idle() || executor_->acting(); }
     const onboard::Executor& executor() const { return *executor_; }
+    /// Stands on its feet, or moves them.
+    bool on_feet() const { return equipment_ && equipment_->holds_vehicle(); }
+    int lifts_begun() const { return lifts_begun_; }
 
     bool dead = false;            // without power: silent and standing
     bool manual = false;          // a person has taken it over
@@ -58,7 +64,10 @@ private:
     std::mt19937_64 random_;
     std::unique_ptr<simulation::VehicleMotion> motion_;
     std::unique_ptr<Cameras> cameras_;
+    std::unique_ptr<simulation::VehicleEquipment> equipment_;  // of a type with parking feet
     std::unique_ptr<onboard::Executor> executor_;
+    Pose2 stands_;  // as its feet know it
+    int lifts_begun_ = 0;
     std::int64_t header_id_ = 0;
     Pose2 misread_;
     int misread_reports_ = 0;

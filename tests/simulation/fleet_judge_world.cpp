@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/vda5050/actions.hpp"
 #include "tests/simulation/fleet_judge_plant.hpp"
 
 namespace pulseline::fleet_judge {
@@ -21,7 +22,8 @@ Outcome judge_seed(std::uint64_t seed, const Options& options) {
     return World(seed, options).run();
 }
 
-World::World(std::uint64_t seed, const Options& options) : random_(seed), options_(options) {
+World::World(std::uint64_t seed, const Options& options)
+    : random_(seed), options_(options), foot_random_(seed) {
     free_ = seed % kFreeEvery == 0;
     plant_ = random_plant(random_, free_);
     for (const auto& vehicle : plant_.vehicles) {
@@ -147,6 +149,11 @@ void World::carry_messages() {
             watch_[id].told = {false, now_s_, 0};
             watch_[id].unheard_s = 0;
             fleet_->vehicle_connected(id, now());
+            if (vehicles_.at(id).type().parking) {
+                vda5050::Factsheet sheet;
+                sheet.instant_actions = {vda5050::kLowerParking, vda5050::kRaiseParking};
+                fleet_->vehicle_factsheet(id, sheet, now());
+            }
         }
         for (std::size_t i = 0; i < line.up.size() && !unstored_;) {
             if (line.up[i].at_s > now_s_) {
@@ -175,6 +182,7 @@ void World::start_server() {
         line.server_knows = false;
         line.up.clear();
         line.down.clear();
+        vehicles_.at(id).lose_link();
         watch_[id].told = watch_[id].counted = {};
         const auto record = store_.vehicles.find(id);
         watch_[id].needs_person |= record != store_.vehicles.end() && record->second.has_leg;

@@ -138,6 +138,7 @@ private:
     void let_person_act();
     void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
     void help_orders();
+    void work_platform();
 
     // fleet_judge_laws.cpp
     void check_bodies();
@@ -204,6 +205,9 @@ private:
     double retry_s_ = 0;
     double next_order_s_ = 0;
     double next_person_s_ = 0;
+    std::mt19937_64 foot_random_;  // of its own, so that the seeds stay what they were
+    double next_feet_s_ = 0;       // when somebody lowers or raises the platform's feet
+    int lifts_asked_ = 0;
     int wanted_orders_ = 0;
     std::uint64_t servers_ = 0;
     std::int64_t last_seq_ = 0;

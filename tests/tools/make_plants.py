@@ -69,7 +69,7 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "id": "transport-platform", "name": "Transport platform", "kinematics": "steered_platform",
     "footprint": rect(10.5, 2.5), "load_footprint": FIGHTER,
     "max_speed_mps": 1.67, "max_accel_mps2": 0.2, "max_turn_rate_radps": 0.12, "max_turn_accel_radps2": 0.04,
-    "min_turn_radius_m": 5, "max_arc_radius_m": 200, "clearance_m": 0.5, "height_m": 1.1,
+    "min_turn_radius_m": 5, "max_arc_radius_m": 200, "clearance_m": 0.5, "height_m": 1.3,
     "usual_code": {"kind": "qr", "size_m": 0.06}, "slip_sensor": {"noise_mps": 0.002},
     "motion_modes": ["auto", "self_rotation", "linear", "fixed_axis_rotation", "free"],
     "wheels": [wheel("FL", 4.97, 0.925, False, True, 0.3), wheel("FR", 4.97, -0.925, False, True, 0.3),
@@ -85,7 +85,8 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
                 "stroke_m": 0.15, "clearance_m": 0.1, "lift_m": 0.02, "speed_mps": 0.02, "rating_n": 120000},
     "mass_kg": 10200, "max_load_kg": 22000,
     # Between the brackets; across, their balance asks for less still.
-    "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]}}
+    "load_rules": {"bracket_rating_n": 80000, "most_unbalance": 0.1, "centre": [point(-2.4, -0.15), point(1.8, -0.15), point(1.8, 0.15), point(-2.4, 0.15)]},
+    "bracket_lift": {"stroke_m": 0.3, "speed_mps": 0.01}}
 
 
 def mecanum(kind, name, length, width, height, camera_x, speed, mass, load, receivers=(), scanner=None):

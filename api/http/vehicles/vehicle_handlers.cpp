@@ -86,6 +86,20 @@ FleetAnswer init_position(FleetContext& context, const Request& request) {
                                                       *stated, request.identity.name, context.now));
 }
 
+FleetAnswer move_lifts(FleetContext& context, const Request& request) {
+    const auto wanted = read_lift_move(request);
+    if (!wanted) return {problem(400, wanted.error(), request)};
+    return vehicle_answer(context, request,
+                          context.fleet.move_lifts(plant::VehicleId(request.param("id")), *wanted,
+                                                   request.identity.name, context.now));
+}
+
+FleetAnswer stop_lifts(FleetContext& context, const Request& request) {
+    return vehicle_answer(context, request,
+                          context.fleet.stop_lifts(plant::VehicleId(request.param("id")),
+                                                   request.identity.name, context.now));
+}
+
 FleetAnswer integrate_vehicle(FleetContext& context, const Request& request) {
     const auto wanted = read_integration(request);
     if (!wanted) return {problem(400, wanted.error(), request)};

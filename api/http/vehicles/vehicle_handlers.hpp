@@ -8,6 +8,8 @@ FleetAnswer list_vehicles(FleetContext& context, const Request& request);
 FleetAnswer get_vehicle(FleetContext& context, const Request& request);
 FleetAnswer pause_vehicle(FleetContext& context, const Request& request);
 FleetAnswer init_position(FleetContext& context, const Request& request);
+FleetAnswer move_lifts(FleetContext& context, const Request& request);
+FleetAnswer stop_lifts(FleetContext& context, const Request& request);
 FleetAnswer integrate_vehicle(FleetContext& context, const Request& request);
 Response get_camera_image(const InlineContext& context, const Request& request);
 

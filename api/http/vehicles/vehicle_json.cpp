@@ -108,6 +108,17 @@ Json basis_json(const fleet::PoseBasis& basis) {
     return json;
 }
 
+Json lift_json(const fleet::LiftMove& lift) {
+    Json json = {{"type", lift.what.type},
+                 {"state", fleet::to_string(lift.state)},
+                 {"by", lift.actor},
+                 {"at", rfc3339(lift.at)},
+                 {"action_id", lift.action_id}};
+    json.update(params_json(lift.what.params));
+    if (!lift.why.empty()) json["why"] = lift.why;
+    return json;
+}
+
 /// Of pauses from before they were kept, nobody may know who and when.
 Json pause_json(const fleet::Pause& pause) {
     Json json = Json::object();
@@ -158,6 +169,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     }
     if (vehicle.load.centre) json["load_centre"] = point_json(*vehicle.load.centre);
     if (vehicle.load.fault) json["load_fault"] = reason_json(*vehicle.load.fault);
+    if (vehicle.lift) json["lift"] = lift_json(*vehicle.lift);
     if (vehicle.reason) json["reason"] = reason_json(*vehicle.reason);
     if (vehicle.last_heard) {
         json["last_heard_at"] = rfc3339(*vehicle.last_heard);

@@ -15,6 +15,8 @@ struct IntegrationRequest {
 };
 Result<IntegrationRequest> read_integration(const Request& request);
 Result<fleet::StatedPose> read_stated_pose(const Request& request);
+/// The action of setBracketHeight, lowerParking or raiseParking that is asked for outside an order.
+Result<fleet::StepAction> read_lift_move(const Request& request);
 Result<std::vector<plant::VehicleId>> read_resume_fleet(const Request& request);
 Result<fleet::MotionQuestion> read_motion_question(const Request& request);
 

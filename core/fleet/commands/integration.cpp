@@ -8,6 +8,7 @@
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/lifts.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
 
@@ -17,6 +18,7 @@ namespace {
 
 /// It is carried or driven out of the hall: nobody waits for what it was told, its floor is free.
 void take_off_floor(FleetState& fleet, LiveVehicle& live, Time now) {
+    give_up_lift(fleet, live, now);
     live.actions.clear();
     live.record.at_station = {};
     live.record.pose_known = false;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/commands/reachable.hpp"
 #include "core/fleet/dispatch/dispatch.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/journal/recorder.hpp"
@@ -22,28 +23,6 @@ namespace {
 
 // A person who says that it stands about where it says means the hall that it says, too.
 constexpr double kAsClaimed_m = 1;
-
-tl::unexpected<Error> no_such_vehicle(const plant::VehicleId& id) {
-    return fail(Errc::kNotFound, "unknown_vehicle", "There is no vehicle " + id.str() + ".", {},
-                {{"vehicle", id.str()}});
-}
-
-/// Connected is not enough: only its first report says where it stands and what it does.
-Status is_heard(const LiveVehicle& live, const std::string& field, const std::string& wanted) {
-    const std::string& id = live.record.id.str();
-    if (!live.connected) {
-        return fail(Errc::kConflict, "vehicle_silent",
-                    "Vehicle " + id + " is silent. " + wanted + " when it is heard again.", field,
-                    {{"vehicle", id}});
-    }
-    if (!live.reconciled) {
-        return fail(Errc::kConflict, "vehicle_not_reported",
-                    "Vehicle " + id + " has connected and not said yet where it stands. " + wanted +
-                        " when it has.",
-                    field, {{"vehicle", id}});
-    }
-    return {};
-}
 
 /// Interruptions that end when the vehicle may move again.
 bool is_about_vehicle(const Reason& reason) {

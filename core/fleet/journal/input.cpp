@@ -43,6 +43,8 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "clock_differs",
     "clock_agrees",
     "leg_planned",
+    "move_lifts",
+    "stop_lifts",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

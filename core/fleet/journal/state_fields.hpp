@@ -83,13 +83,13 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, delivery, floor, seen, seen_before, stated,
            claim_told, claim_left, foreign_since, actions, errors_from, errors_told, charge_wait,
-           charge_retry, made_way, areas, leg_markers, awaited_plan, newest_plan, swept] = it;
+           charge_retry, made_way, lift, areas, leg_markers, awaited_plan, newest_plan, swept] = it;
     auto& leg = delivery.all();
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg.seen, leg.sent_from, leg.unconfirmed_since, leg.sends,
           leg.on_this_connection, leg.lost, leg.cancelling, floor, seen, seen_before, stated,
           claim_told, claim_left, leg.started, foreign_since, actions, errors_from, errors_told,
-          charge_wait, charge_retry, made_way, awaited_plan);
+          charge_wait, charge_retry, made_way, lift, awaited_plan);
 }
 
 // The monitor is told all that traffic knows; the classes come from the plant.

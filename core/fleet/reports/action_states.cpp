@@ -6,6 +6,7 @@
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/lifts.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/vda5050/actions.hpp"
@@ -40,6 +41,7 @@ void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now) {
                     !has_nothing_left(live.state);
             cancelled = !again;
         }
+        note_lift_ended(live, *found);
         add_event(
             fleet, now, event::kVehicleAction, {}, {}, live.record.id, {},
             {{"action", pending.action.type},

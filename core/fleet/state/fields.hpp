@@ -39,6 +39,7 @@ PULSELINE_LAST(fleet::StepPhase, kAfter)
 PULSELINE_LAST(fleet::JobMethod, kClear)
 PULSELINE_LAST(fleet::Link, kGone)
 PULSELINE_LAST(fleet::Activity, kUnknown)
+PULSELINE_LAST(fleet::LiftMove::State, kFailed)
 PULSELINE_LAST(fleet::PoseBasis::Kind, kReflectors)
 
 namespace geometry {
@@ -134,7 +135,7 @@ void fields(V& visit, S& it) {
           parking_feet, load_kg);
 }
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
-                 actions, node_actions, json)
+                 actions, node_actions, instant_actions, json)
 }  // namespace vda5050
 
 namespace fleet {
@@ -198,9 +199,10 @@ void fields(V& visit, S& it) {
           started, expected);
 }
 PULSELINE_FIELDS(LoadView, force_n, centre, worst, fault)
+PULSELINE_FIELDS(LiftMove, what, action_id, actor, at, state, why)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,
-                 integration, needs_resume, needs_resume_reason, made_way, load, state)
+                 integration, needs_resume, needs_resume_reason, made_way, load, lift, state)
 PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.

@@ -92,6 +92,7 @@ struct LiveVehicle {
     /// When it went aside for others, the last three times: one that does so again and again gets
     /// nowhere.
     std::vector<Time> made_way;
+    std::optional<LiftMove> lift;  // the newest; a restart of the server forgets it, as it ends it
 
     /// Outlines of the floor of the leg; they cost some milliseconds and change only with the base.
     struct Areas {

@@ -52,6 +52,18 @@ CodesUnderWay codes_under_way(const vda5050::StateMessage& state) {
     return codes;
 }
 
+const char* to_string(LiftMove::State state) {
+    switch (state) {
+        case LiftMove::State::kUnderWay:
+            return "under_way";
+        case LiftMove::State::kDone:
+            return "done";
+        case LiftMove::State::kFailed:
+            return "failed";
+    }
+    return "";
+}
+
 const char* to_string(Activity activity) {
     switch (activity) {
         case Activity::kStanding:

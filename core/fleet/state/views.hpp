@@ -20,6 +20,18 @@ struct LoadView {
     std::optional<Reason> fault;               // the rule of its type that the load breaks
 };
 
+/// Brackets or parking feet that a person has moved outside an order.
+struct LiftMove {
+    enum class State { kUnderWay, kDone, kFailed };
+    StepAction what;
+    std::string action_id;
+    std::string actor;
+    Time at;
+    State state = State::kUnderWay;
+    std::string why;  // of a failed one: as the vehicle says, or link_lost
+};
+const char* to_string(LiftMove::State state);  // "under_way"
+
 /// How long the vehicle has been silent (no frame, no pong).
 enum class Link { kNever, kLive, kLate, kLost, kGone };
 const char* to_string(Link link);  // "live"
@@ -85,8 +97,9 @@ struct VehicleView {
     Integration integration = Integration::kUtilise;
     bool needs_resume = false;
     Reason needs_resume_reason;
-    std::vector<Time> made_way;   // newest last; see LiveVehicle
-    LoadView load;                // of a vehicle with brackets
+    std::vector<Time> made_way;  // newest last; see LiveVehicle
+    LoadView load;               // of a vehicle with brackets
+    std::optional<LiftMove> lift;
     vda5050::StateMessage state;  // as last reported; all defaults before the first
 };
 

@@ -5,6 +5,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/lifts.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -32,6 +33,7 @@ void note_heard(FleetState& fleet, LiveVehicle& live, Time now) {
 }
 
 void connect(FleetState& fleet, LiveVehicle& live, Time now) {
+    give_up_lift(fleet, live, now);  // of a line that nobody saw break
     live.connected = true;
     live.reconciled = false;
     live.newest_header = 0;
@@ -44,6 +46,7 @@ void connect(FleetState& fleet, LiveVehicle& live, Time now) {
 
 void disconnect(FleetState& fleet, LiveVehicle& live, Time now) {
     if (!live.connected) return;
+    give_up_lift(fleet, live, now);
     live.connected = false;
     live.reconciled = false;
     add_event(fleet, now, event::kVehicleDisconnected, {}, {}, live.record.id, {});
@@ -56,6 +59,7 @@ void update_links(FleetState& fleet, Time now) {
         const Link to = link_after(now - *live.last_heard);
         if (to == live.link) continue;
         set_link(fleet, live, to, now);
+        if (to == Link::kLost) give_up_lift(fleet, live, now);
         if (to == Link::kLost && live.has_leg()) {
             require_person(fleet, live, {reasons::kVehicleWasLost, {}}, now);
         }

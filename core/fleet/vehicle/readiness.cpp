@@ -63,6 +63,7 @@ constexpr Condition kConditions[] = {
     {Bar::kPausesItself,   true,  true,  false},
     {Bar::kForeignOrder,   true,  false, false},
     {Bar::kBusy,           true,  false, false},
+    {Bar::kLiftsMoving,    true,  false, false},
     // clang-format on
 };
 
@@ -126,6 +127,8 @@ bool bars(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time now) {
             return has_foreign_order(live);
         case Bar::kBusy:
             return live.delivery.cancelling() || live.state.driving;
+        case Bar::kLiftsMoving:
+            return lifts_move(live);
         case Bar::kFeetDown:
         case Bar::kLoad:
         case Bar::kWheelFault:
@@ -172,6 +175,8 @@ Reason reason_of(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time
             return because(reasons::kForeignOrder, {{"order", live.state.order_id}});
         case Bar::kBusy:
             return because("vehicle_busy");
+        case Bar::kLiftsMoving:
+            return because("lifts_moving", {{"actor", live.lift ? live.lift->actor : ""}});
         case Bar::kLost:
         case Bar::kOrderPaused:
         case Bar::kPoseOld:
@@ -261,9 +266,19 @@ bool bars_extension(const FleetState& fleet, const LiveVehicle& live, Time now) 
 // correction is over.
 bool has_nothing_left(const vda5050::StateMessage& state) {
     return state.node_states.empty() && state.edge_states.empty() && !state.driving &&
-           std::none_of(
-               state.action_states.begin(), state.action_states.end(),
-               [](const auto& action) { return action.status == vda5050::ActionStatus::kRunning; });
+           std::none_of(state.action_states.begin(), state.action_states.end(),
+                        [](const auto& action) {
+                            return action.status == vda5050::ActionStatus::kRunning ||
+                                   action.status == vda5050::ActionStatus::kPaused;
+                        });
+}
+
+bool lifts_move(const LiveVehicle& live) {
+    if (live.lift && live.lift->state == LiftMove::State::kUnderWay) return true;
+    const auto& actions = live.state.action_states;
+    return !live.has_leg() && std::any_of(actions.begin(), actions.end(), [](const auto& action) {
+        return vda5050::is_lift(action.type) && action.status == vda5050::ActionStatus::kRunning;
+    });
 }
 
 bool is_vague(const vda5050::StateMessage& state) { return state.deviation_range_m > kHeld_m; }

@@ -24,6 +24,10 @@ bool has_foreign_order(const LiveVehicle& live);
 /// An instant action of the type has been sent, or waits to be, and the vehicle has not ended it.
 bool is_asked(const LiveVehicle& live, const char* action_type);
 
+/// Brackets or feet move outside an order, or are about to: as a person of this server wanted, or
+/// by the vehicle's own word.
+bool lifts_move(const LiveVehicle& live);
+
 /// What may bar a vehicle; readiness.cpp has the table of which bars what, in the order in which
 /// people are told.
 enum class Bar {
@@ -44,6 +48,7 @@ enum class Bar {
     kPausesItself,
     kForeignOrder,
     kBusy,
+    kLiftsMoving,  // outside an order
     kFeetDown,
     kLoad,
     kWheelFault,

@@ -92,6 +92,8 @@ void resend(FleetState& fleet, Time now) {
         }
         for (auto& pending : live.actions) {
             if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
+            // Late it would begin when nobody looks any more.
+            if (vda5050::is_lift(pending.action.type) && live.link != Link::kLive) continue;
             fleet.out.messages.push_back(
                 {id, std::nullopt, vda5050::InstantActionsMessage{{pending.action}}});
             pending.last_sent = now;

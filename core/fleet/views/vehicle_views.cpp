@@ -198,6 +198,7 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
     }
     if (with_leg && live.has_leg()) view.leg = leg_view(fleet, live, now);
     view.load = load_view(live);
+    view.lift = live.lift;
     view.paused = live.record.paused;
     view.stands_paused = stands_paused(live);
     view.integration = live.record.integration;

@@ -43,6 +43,8 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, std::mt19937_64& rand
     for (const auto& bracket : type.brackets) places.push_back({bracket.name, bracket.position});
     LiftParameters parameters;
     parameters.most_force_n = plant::bracket_rating_n(type);
+    parameters.stroke_m = type.bracket_lift.stroke_m;
+    parameters.speed_mps = type.bracket_lift.speed_mps;
     return {std::move(places), parameters, random()};
 }
 
@@ -116,11 +118,28 @@ std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action
         charging_ = true;
     } else if (lifting_) {
         return begin_bracket(action);
-    } else if (action.type == vda5050::kLowerParking) {
-        feet_->lower();
     } else {
-        feet_->raise();
+        return begin_feet(action);
     }
+    return std::nullopt;
+}
+
+std::optional<std::string> VehicleEquipment::begin_feet(const vda5050::Action& action) {
+    std::optional<std::size_t> foot;
+    if (const auto* named = find(action.params, "foot")) {
+        const auto* name = std::get_if<std::string>(named);
+        if (name == nullptr) return "bad_parameters: foot is the name of one, or all";
+        if (*name != "all") {
+            foot = feet_->find(*name);
+            if (!foot) return "unknown_foot: there is no foot " + *name;
+        }
+    }
+    const bool lower = action.type == vda5050::kLowerParking;
+    if (!lower && foot && feet_->carries(*foot)) {
+        return sentence(Reason{"foot_carries",
+                               {{"foot", feet_->name(*foot)}, {"force_n", feet_->force_n(*foot)}}});
+    }
+    lower ? feet_->lower(foot) : feet_->raise(foot);
     return std::nullopt;
 }
 
@@ -131,12 +150,17 @@ std::optional<std::string> VehicleEquipment::begin_bracket(const vda5050::Action
     if (!height_m || name == nullptr) {
         return "bad_parameters: setBracketHeight needs bracket (a name or \"all\") and height_m";
     }
+    const auto* speed = find(action.params, "speed_mps");
+    const auto speed_mps = number(speed);
+    if (speed != nullptr && !speed_mps) return "bad_parameters: speed_mps is a number";
     std::optional<std::size_t> lift;
     if (*name != "all") {
         lift = brackets_->find(*name);
         if (!lift) return "unknown_bracket: there is no bracket " + *name;
     }
-    if (const auto why_not = brackets_->begin(lift, *height_m)) return sentence(*why_not);
+    if (const auto why_not = brackets_->begin(lift, *height_m, speed_mps)) {
+        return sentence(*why_not);
+    }
     return std::nullopt;
 }
 

@@ -17,9 +17,9 @@ namespace pulseline::simulation {
 using geometry::Pose2;
 
 /// What a simulated vehicle does standing besides measuring: it charges at a charger, lowers and
-/// raises its parking feet, and its brackets, one or all in step, by setBracketHeight {bracket:
-/// name or "all", height_m}. Speeds are times the time factor. Thread safety: none. No clock: time
-/// passes by step().
+/// raises its parking feet, all or one by {foot: name}, and its brackets, one or all in step, by
+/// setBracketHeight {bracket: name or "all", height_m, speed_mps or none}. Speeds are times the
+/// time factor. Thread safety: none. No clock: time passes by step().
 class VehicleEquipment : public onboard::Equipment {
 public:
     /// `true_pose`: where the vehicle truly stands; must outlive it. `chargers`: true poses at
@@ -46,6 +46,7 @@ public:
 
 private:
     std::optional<std::string> begin_bracket(const vda5050::Action& action);
+    std::optional<std::string> begin_feet(const vda5050::Action& action);
 
     const Pose2& true_pose_;
     std::vector<std::string> action_types_;

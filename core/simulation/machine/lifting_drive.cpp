@@ -44,12 +44,19 @@ std::optional<std::size_t> LiftingDrive::find(const std::string& name) const {
     return std::nullopt;
 }
 
-std::optional<Reason> LiftingDrive::begin(std::optional<std::size_t> lift, double height_m) {
+std::optional<Reason> LiftingDrive::begin(std::optional<std::size_t> lift, double height_m,
+                                          std::optional<double> speed_mps) {
     if (moving_) return Reason{"lifts_moving", {}};
     if (!(height_m >= 0 && height_m <= parameters_.stroke_m)) {
         return Reason{"out_of_stroke",
                       {{"height_m", height_m}, {"stroke_m", parameters_.stroke_m}}};
     }
+    const double wanted_mps = speed_mps.value_or(parameters_.speed_mps);
+    if (!(wanted_mps > 0 && wanted_mps <= parameters_.speed_mps)) {
+        return Reason{"out_of_speed",
+                      {{"speed_mps", wanted_mps}, {"most_mps", parameters_.speed_mps}}};
+    }
+    wanted_mps_ = wanted_mps;
     for (std::size_t i = 0; i < lifts_.size(); ++i) {
         lifts_[i].moves = !lift || *lift == i;
         lifts_[i].wanted_m = height_m;
@@ -104,7 +111,7 @@ void LiftingDrive::cycle() {
 double LiftingDrive::pace(double left_m) const {
     const double step = parameters_.accel_mps2 * ServoAxis::kCycle_s;
     const double braking = std::sqrt(step * step + 2 * parameters_.accel_mps2 * left_m) - step;
-    return std::min({parameters_.speed_mps, speed_mps_ + step, braking});
+    return std::min({wanted_mps_, speed_mps_ + step, braking});
 }
 
 /// Those that go up (`sign` 1) or down (-1): the hindmost leads, whom it reaches go on with it.

@@ -49,9 +49,11 @@ public:
     /// What lies on the lifts: mass and centre in the body frame.
     void set_load(double load_kg, geometry::Point2 centre);
 
-    /// Moves one lift, or all in step, to a height above the lower limit switch. Refused while
-    /// moving (lifts_moving) and, with the stroke, out_of_stroke {height_m, stroke_m}.
-    std::optional<Reason> begin(std::optional<std::size_t> lift, double height_m);
+    /// Moves one lift, or all in step, to a height above the lower limit switch, at `speed_mps`;
+    /// none: as fast as they can. Refused while moving (lifts_moving), out_of_stroke {height_m,
+    /// stroke_m} and out_of_speed {speed_mps, most_mps}.
+    std::optional<Reason> begin(std::optional<std::size_t> lift, double height_m,
+                                std::optional<double> speed_mps = std::nullopt);
     void step(double dt_s);
     bool moving() const { return moving_; }
     /// They stay where they are.
@@ -89,6 +91,7 @@ private:
     std::vector<Lift> lifts_;
     double load_kg_ = 0;
     geometry::Point2 centre_;
+    double wanted_mps_ = 0;
     double speed_mps_ = 0;  // of the movement's profile
     double pending_s_ = 0;
     double settled_s_ = 0;

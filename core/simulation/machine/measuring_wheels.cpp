@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/simulation/machine/wheel_contact.hpp"
+#include "core/kinematics/rolling_wheels.hpp"
 
 namespace pulseline::simulation {
 namespace {
@@ -31,8 +31,8 @@ std::optional<double> MeasuringWheels::slip_share(std::span<const kinematics::Wh
         for (const std::size_t i : index) {
             Wheel& wheel = wheels_[i];
             const double rim = measured[i].speed_mps;
-            const double floor =
-                rolling_speed(type_, type_.wheels[i], measured[i].angle_rad, true_twist);
+            const double floor = kinematics::rolling_speed(type_, type_.wheels[i],
+                                                           measured[i].angle_rad, true_twist);
             const double shown =
                 wheel.scale * floor + type_.slip_sensor->noise_mps * normal_(random);
             wheel.lost_mps += kSmooth * (rim - shown - wheel.lost_mps);

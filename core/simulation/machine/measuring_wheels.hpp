@@ -7,7 +7,7 @@
 
 #include "core/kinematics/wheels.hpp"
 #include "core/localisation/error_budget.hpp"
-#include "core/simulation/machine/drive_limits.hpp"
+#include "core/onboard/motion/drive_limits.hpp"
 
 namespace pulseline::simulation {
 
@@ -40,7 +40,7 @@ private:
 
     const plant::VehicleType type_;
     std::vector<Wheel> wheels_;
-    DriveLimits limits_;
+    onboard::DriveLimits limits_;
     double since_look_s_ = kLook_s;
     std::normal_distribution<double> normal_;
 };

@@ -43,16 +43,32 @@ void ParkingGear::set_load(double load_kg, geometry::Point2 centre) {
     load_centre_ = centre;
 }
 
+bool ParkingGear::carries(std::size_t foot) const {
+    return lifted_m_ > 0 && feet_[foot].force_n >= kFootTouches_n;
+}
+
 bool ParkingGear::extended() const {
     return std::ranges::any_of(feet_, [](const Foot& foot) { return foot.axis.position() > 0; });
 }
 
-void ParkingGear::lower() {
-    for (Foot& foot : feet_) foot.touches = false;
+std::optional<std::size_t> ParkingGear::find(const std::string& name) const {
+    const auto found = std::ranges::find(parking_.feet, name, &plant::ParkingFoot::name);
+    if (found == parking_.feet.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - parking_.feet.begin());
+}
+
+void ParkingGear::lower(std::optional<std::size_t> foot) {
+    alone_ = foot;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        if (takes_part(i)) feet_[i].touches = false;
+    }
     begin(Phase::kFeels);
 }
 
-void ParkingGear::raise() { begin(Phase::kSinks); }
+void ParkingGear::raise(std::optional<std::size_t> foot) {
+    alone_ = foot;
+    begin(foot ? Phase::kRetracts : Phase::kSinks);
+}
 
 void ParkingGear::begin(Phase phase) {
     settle();
@@ -102,21 +118,32 @@ void ParkingGear::cycle() {
         return std::abs(foot.commanded_m - foot.axis.measured_position()) <= kFootThere_m;
     });
     settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
-    if (settled_s_ < kFootSettle_s) return;
-    const bool all_touch = std::ranges::all_of(feet_, &Foot::touches);
-    const bool none_presses =
-        std::ranges::all_of(feet_, [](const Foot& foot) { return foot.force_n < kFootTouches_n; });
-    if (phase_ == Phase::kFeels && all_touch) {
+    if (settled_s_ >= kFootSettle_s) advance();
+}
+
+/// All are where they were sent to: what comes next, or the end.
+void ParkingGear::advance() {
+    const auto all = [this](auto holds) {
+        for (std::size_t i = 0; i < feet_.size(); ++i) {
+            if (takes_part(i) && !holds(feet_[i])) return false;
+        }
+        return true;
+    };
+    if (phase_ == Phase::kFeels && all([](const Foot& foot) { return foot.touches; })) {
+        if (alone_) return stop();
         phase_ = Phase::kLifts;
     } else if (phase_ == Phase::kLifts && lifted_m_ >= parking_.lift_m) {
         stop();
-    } else if (phase_ == Phase::kSinks && none_presses) {
+    } else if (phase_ == Phase::kSinks &&
+               all([](const Foot& foot) { return foot.force_n < kFootTouches_n; })) {
         phase_ = Phase::kRetracts;
     } else if (phase_ == Phase::kRetracts &&
-               std::ranges::all_of(feet_, [](const Foot& f) { return f.commanded_m == 0; })) {
+               all([](const Foot& foot) { return foot.commanded_m == 0; })) {
         stop();
-        lifted_m_ = 0;
-        for (Foot& foot : feet_) foot.axis.home(0);
+        for (std::size_t i = 0; i < feet_.size(); ++i) {
+            if (takes_part(i)) feet_[i].axis.home(0);
+        }
+        if (!extended()) lifted_m_ = 0;
     }
 }
 
@@ -128,12 +155,14 @@ void ParkingGear::move(Foot& foot, double to_m) {
 
 /// Each by itself: the floor is not even.
 void ParkingGear::feel() {
-    for (Foot& foot : feet_) {
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        Foot& foot = feet_[i];
         foot.touches = foot.force_n >= kFootTouches_n;  // another's push may take it off again
         const bool near = foot.commanded_m >= parking_.clearance_m - kFloorNear_m;
         const double speed_mps =
             near ? std::min(kFeels_mps, parking_.speed_mps) : parking_.speed_mps;
-        const double further_m = foot.touches ? 0 : speed_mps * ServoAxis::kCycle_s;
+        const bool stays = foot.touches || !takes_part(i);
+        const double further_m = stays ? 0 : speed_mps * ServoAxis::kCycle_s;
         move(foot, std::min(foot.commanded_m + further_m, parking_.stroke_m));
     }
 }
@@ -155,8 +184,10 @@ void ParkingGear::move_in_step(double sign) {
 }
 
 void ParkingGear::retract() {
-    for (Foot& foot : feet_)
-        move(foot, std::max(0.0, foot.commanded_m - parking_.speed_mps * ServoAxis::kCycle_s));
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+        const double way_m = takes_part(i) ? parking_.speed_mps * ServoAxis::kCycle_s : 0;
+        move(feet_[i], std::max(0.0, feet_[i].commanded_m - way_m));
+    }
 }
 
 /// The vehicle on its wheels and on those feet that reach the floor.
@@ -189,8 +220,10 @@ bool ParkingGear::check() {
     for (std::size_t i = 0; i < feet_.size(); ++i) {
         Foot& foot = feet_[i];
         const bool at_end = foot.axis.position() >= parking_.stroke_m - kFootThere_m;
-        if (phase_ == Phase::kFeels && at_end && !foot.touches) {
-            fail({"foot_without_floor", {{"foot", name(i)}, {"extension_m", foot.axis.position()}}},
+        if (phase_ == Phase::kFeels && takes_part(i) && at_end && !foot.touches) {
+            const Params where{{"foot", name(i)}, {"extension_m", foot.axis.position()}};
+            fail(alone_ ? Reason{"foot_reaches_no_floor", where}
+                        : Reason{"foot_without_floor", where},
                  Phase::kSinks);
             return false;
         }
@@ -209,9 +242,9 @@ bool ParkingGear::check() {
     return true;
 }
 
-/// What has begun to carry lets down again, in step.
+/// What has begun to carry lets down again, in step. One alone has let down nothing: it stays.
 void ParkingGear::fail(Reason cause, Phase next) {
-    begin(next);
+    begin(alone_ ? Phase::kStands : next);
     cause_ = std::move(cause);
 }
 

@@ -23,7 +23,8 @@ using FloorUnder = std::function<std::optional<double>(geometry::Point2 body)>;
 /// section 2.1: "parking mechanisms"; a ball head each, so that a foot stands flat). Lowering: each
 /// goes down by itself until it touches, then all raise the vehicle in step. Raising: all in step
 /// until the wheels carry it, then each by itself to its upper switch. A foot that finds no floor
-/// raises nothing, and all go up again. All in the vehicle's own time. No clock.
+/// raises nothing, and all go up again. One alone goes down until it touches, or, when it does not
+/// carry, up to its switch. All in the vehicle's own time. No clock.
 class ParkingGear {
 public:
     /// REQUIRES: the type has parking feet.
@@ -32,20 +33,25 @@ public:
     /// Its load: mass and centre in the body frame.
     void set_load(double load_kg, geometry::Point2 centre);
 
-    void lower();
-    void raise();
+    /// `foot`: that one alone. REQUIRES: it is below count(), and of raise that it does not carry.
+    void lower(std::optional<std::size_t> foot = std::nullopt);
+    void raise(std::optional<std::size_t> foot = std::nullopt);
     void step(double dt_s);
     /// They stay where they are.
     void stop();
     bool moving() const { return phase_ != Phase::kStands; }
+    /// The vehicle is lifted, and this foot has a share of it.
+    bool carries(std::size_t foot) const;
     /// Out of its upper switch.
     bool extended() const;
-    /// Why the last movement did not end as it should: foot_without_floor {foot, extension_m},
-    /// foot_overloaded {foot, force_n, limit_n}, foot_lost_contact {foot}.
+    /// Why the last movement did not end as it should: foot_without_floor {foot, extension_m}, of
+    /// one alone foot_reaches_no_floor, which stays; foot_overloaded {foot, force_n, limit_n},
+    /// foot_lost_contact {foot}.
     const std::optional<Reason>& stop_cause() const { return cause_; }
 
     std::size_t count() const { return feet_.size(); }
     const std::string& name(std::size_t foot) const { return parking_.feet[foot].name; }
+    std::optional<std::size_t> find(const std::string& name) const;
     double extension_m(std::size_t foot) const { return feet_[foot].axis.position(); }
     /// What the force sensor of a foot shows now.
     double force_n(std::size_t foot);
@@ -62,8 +68,10 @@ private:
         bool touches = false;
     };
 
+    bool takes_part(std::size_t foot) const { return !alone_ || *alone_ == foot; }
     void begin(Phase phase);
     void cycle();
+    void advance();
     void feel();
     void move_in_step(double sign);
     void retract();
@@ -81,7 +89,8 @@ private:
     double load_kg_ = 0;
     geometry::Point2 load_centre_;
     Phase phase_ = Phase::kStands;
-    double lifted_m_ = 0;  // since all touched; lowered again, they go on from there
+    std::optional<std::size_t> alone_;  // the one that moves; none: all
+    double lifted_m_ = 0;               // since all touched; lowered again, they go on from there
     double pending_s_ = 0;
     double settled_s_ = 0;
     Eigen::Vector3d plane_ = Eigen::Vector3d::Zero();

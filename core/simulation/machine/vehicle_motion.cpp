@@ -89,7 +89,7 @@ void VehicleMotion::step(double dt_s) {
     }
 }
 
-void VehicleMotion::take(const PathReference::Passed& passed) {
+void VehicleMotion::take(const onboard::PathReference::Passed& passed) {
     if (passed.way > 0) displace(passed);
     if (passed.fine && passed.finished) {
         fine_shares_.pop_front();
@@ -104,7 +104,7 @@ void VehicleMotion::take(const PathReference::Passed& passed) {
 
 /// Moves the believed pose along the path, steering out its deviation from it, and the true pose by
 /// the same motion with the vehicle's errors.
-void VehicleMotion::displace(const PathReference::Passed& passed) {
+void VehicleMotion::displace(const onboard::PathReference::Passed& passed) {
     const Pose2& from = passed.from;
     const Pose2& to = passed.to;
     const Pose2 driven = believed_ * (inverse(from) * to);

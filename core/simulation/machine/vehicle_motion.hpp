@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "core/localisation/odometry_noise.hpp"
-#include "core/simulation/machine/path_reference.hpp"
+#include "core/onboard/motion/path_reference.hpp"
 #include "core/simulation/machine/simulated_drive.hpp"
 
 namespace pulseline::simulation {
+
+using geometry::Pose2;
 
 /// What separates the true motion of a platform from what its odometry believes: standard
 /// deviations of seeded errors. The defaults end a 20 m drive typically 3 to 8 mm and some
@@ -92,8 +94,8 @@ private:
         double share_of(double size) const;
     };
 
-    void take(const PathReference::Passed& passed);
-    void displace(const PathReference::Passed& passed);
+    void take(const onboard::PathReference::Passed& passed);
+    void displace(const onboard::PathReference::Passed& passed);
     void settle(double peak_rate);
     double normal(double sigma) { return sigma * unit_normal_(random_); }
 
@@ -111,7 +113,7 @@ private:
 
     Pose2 true_;
     Pose2 believed_;
-    PathReference reference_;
+    onboard::PathReference reference_;
 };
 
 }  // namespace pulseline::simulation

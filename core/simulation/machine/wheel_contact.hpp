@@ -13,13 +13,6 @@ namespace pulseline::simulation {
 
 using geometry::Pose2;
 
-/// How fast a wheel standing at `angle_rad` rolls when the body moves with `twist`.
-double rolling_speed(const plant::VehicleType& type, const plant::Wheel& wheel, double angle_rad,
-                     const kinematics::Twist& twist);
-
-/// Pose after moving with a steady twist for `h_s` (to third order in the angle turned).
-Pose2 moved(const Pose2& pose, const kinematics::Twist& twist, double h_s);
-
 /// Between the wheels and the floor: creep, slip, slope and chance turn what the wheels roll into
 /// how the body truly moves.
 class WheelContact {

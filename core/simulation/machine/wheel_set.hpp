@@ -9,7 +9,7 @@
 
 #include "core/kinematics/wheels.hpp"
 #include "core/localisation/error_budget.hpp"
-#include "core/simulation/machine/drive_limits.hpp"
+#include "core/onboard/motion/drive_limits.hpp"
 #include "core/simulation/machine/servo_axis.hpp"
 
 namespace pulseline::simulation {
@@ -80,7 +80,7 @@ private:
     double roll(Wheel& wheel, double wanted_mps, double grade_force_n);
 
     localisation::DriveErrors errors_;
-    DriveLimits limits_;
+    onboard::DriveLimits limits_;
     std::vector<Wheel> wheels_;
     std::vector<kinematics::WheelMotion> present_;
     std::vector<kinematics::WheelMotion> measured_;

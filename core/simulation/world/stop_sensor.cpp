@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/localisation/reading_speed.hpp"
+#include "core/onboard/code_reading.hpp"
 #include "core/vision/marker_reader.hpp"
 
 namespace pulseline::simulation {
@@ -20,13 +21,6 @@ std::vector<FloorCode> near(const plant::Camera& camera, const Pose2& hall_from_
     for (const FloorCode& code : codes)
         if (distance(code.pose.position(), foot) < view_m + 2 * code.size_m) kept.push_back(code);
     return kept;
-}
-
-vda5050::CameraReading not_found(const plant::Camera& camera, std::string why) {
-    vda5050::CameraReading reading;
-    reading.camera = camera.name;
-    reading.why_not = std::move(why);
-    return reading;
 }
 
 /// The code that lies next to the camera's foot as far as the vehicle knows; null: it knows none.
@@ -58,28 +52,6 @@ vision::MarkerReading reinterpreted(vision::MarkerReading reading, const plant::
 
 }  // namespace
 
-std::optional<Pose2> body_from_code(const vda5050::CameraReading& reading) {
-    if (!reading.found) return std::nullopt;
-    return Pose2{reading.code.x_m, reading.code.y_m, reading.angle_rad};
-}
-
-vda5050::CameraReading camera_reading(const plant::Camera& calibrated,
-                                      const vision::MarkerReading& reading,
-                                      const SensingOptions& options) {
-    const Pose2 code = vision::body_from_marker(reading, calibrated);
-    vda5050::CameraReading out;
-    out.camera = calibrated.name;
-    out.found = true;
-    out.payload = reading.payload;
-    out.code = code.position();
-    out.angle_rad = code.heading_rad;
-    out.sigma_m = localisation::code_sigma_m(
-        options.errors, calibrated, std::hypot(reading.x_m, reading.y_m),
-        reading.sigma_px / vision::pixels_per_metre(calibrated), options.loaded);
-    out.rms_px = reading.rms_px;
-    return out;
-}
-
 StopView sense_stop(std::span<const plant::Camera> actual,
                     std::span<const plant::Camera> calibrated, const Pose2& hall_from_body,
                     std::span<const FloorCode> codes, const SensingOptions& options,
@@ -93,10 +65,11 @@ StopView sense_stop(std::span<const plant::Camera> actual,
         view.sizes_m.push_back(look.size_m);
         const double smear_px = norm(options.smear_m) * vision::pixels_per_metre(actual[i]);
         const auto found = [&](const vision::MarkerReading& reading) {
-            view.readings.push_back(camera_reading(calibrated[i], reading, options));
+            view.readings.push_back(
+                onboard::code_reading(calibrated[i], reading, options.errors, options.loaded));
         };
         const auto missed = [&](const char* why) {
-            view.readings.push_back(not_found(calibrated[i], why));
+            view.readings.push_back(onboard::no_code(calibrated[i], why));
         };
         if (options.mode == Sensing::kAnalytic) {
             const bool blind = options.dark || smear_px > localisation::kMostSmear_px;

@@ -55,12 +55,4 @@ StopView sense_stop(std::span<const plant::Camera> actual,
                     std::span<const FloorCode> codes, const SensingOptions& options,
                     std::mt19937_64& random);
 
-/// Where a reading has its code; nothing when it found none.
-std::optional<Pose2> body_from_code(const vda5050::CameraReading& reading);
-
-/// The reading of one camera as the vehicle reports it, in the body frame.
-vda5050::CameraReading camera_reading(const plant::Camera& calibrated,
-                                      const vision::MarkerReading& reading,
-                                      const SensingOptions& options);
-
 }  // namespace pulseline::simulation

@@ -78,7 +78,8 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "pauseSchedule",    "resumeSchedule",
                                              "closeFloor",       "reopenFloor",
                                              "localize",         "measureByLight",
-                                             "previewMotions"};
+                                             "previewMotions",   "moveLifts",
+                                             "stopLifts"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

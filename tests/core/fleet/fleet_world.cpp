@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/vda5050/actions.hpp"
+
 namespace pulseline::fleet::testing {
 namespace {
 
@@ -156,14 +158,32 @@ void FakeVehicle::see_codes() {
     }
 }
 
+void FakeVehicle::end_lifts(const std::string& why) {
+    for (auto& action : state.action_states) {
+        if (!vda5050::is_lift(action.type) || action.status != vda5050::ActionStatus::kRunning) {
+            continue;
+        }
+        action.status =
+            why.empty() ? vda5050::ActionStatus::kFinished : vda5050::ActionStatus::kFailed;
+        action.result_description = why;
+    }
+}
+
 void FakeVehicle::receive(const VehicleMessage& message) {
     if (message.instant_actions) {
         for (const auto& action : message.instant_actions->actions) {
             const bool known = std::any_of(state.action_states.begin(), state.action_states.end(),
                                            [&](const auto& a) { return a.id == action.id; });
             if (known) continue;  // a doubled message
+            const bool runs = vda5050::is_lift(action.type) && !lifts_end;
             state.action_states.push_back(
-                {action.id, action.type, vda5050::ActionStatus::kFinished, {}, {}});
+                {action.id,
+                 action.type,
+                 runs ? vda5050::ActionStatus::kRunning : vda5050::ActionStatus::kFinished,
+                 {},
+                 {}});
+            if (action.type == "startPause") end_lifts("vehicle_paused");
+            if (action.type == "stopLifts") end_lifts("lifts_stopped");
             if (action.type == "startPause") state.paused = true;
             if (action.type == "stopPause") state.paused = false;
             if (action.type == "stopCharging") state.charging = false;
@@ -314,7 +334,7 @@ void World::connect_all() {
 void World::announce(std::vector<std::string> actions) {
     for (const auto& [id, vehicle] : vehicles) {
         vda5050::Factsheet factsheet;
-        factsheet.actions = factsheet.node_actions = actions;
+        factsheet.actions = factsheet.node_actions = factsheet.instant_actions = actions;
         factsheet.actions.insert(factsheet.actions.end(), {"measureStop", "adjustToMarker"});
         fleet->vehicle_factsheet(id, factsheet, now);
     }

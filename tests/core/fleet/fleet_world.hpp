@@ -41,6 +41,8 @@ public:
     void receive(const VehicleMessage& message);
     /// One more released node, one action or one standstill; true when something changed.
     bool step();
+    /// What moves outside an order ends; `why`: it has failed so.
+    void end_lifts(const std::string& why = {});
     /// Power cycle: forgets order and pose.
     void restart();
     /// What it was told. REQUIRES: it has an order.
@@ -53,7 +55,8 @@ public:
     std::optional<std::string> measure_fails;
     std::string action_fails;               // type of the action that fails
     std::vector<std::string> actions_done;  // types in the order in which they finished
-    bool stands = false;                    // does not move, whatever it is told
+    bool lifts_end = true;   // what is moved outside an order comes to its end at once
+    bool stands = false;     // does not move, whatever it is told
     bool sees_codes = true;  // reports the codes below its cameras while standing on them
     std::vector<plant::Transmitter> transmitters;  // of the newest setTransmitters
     std::vector<plant::Reflector> reflectors;      // of the newest setReflectors
@@ -83,7 +86,7 @@ public:
     /// Server dies without warning before anything uncommitted left it, and starts again.
     void crash_server();
     void connect_all();
-    /// All vehicles say in their factsheets that nodes may ask for these.
+    /// All vehicles say in their factsheets that they do these, at nodes and outside an order.
     void announce(std::vector<std::string> actions);
 
     FakeVehicle& vehicle(const std::string& id) { return vehicles.at(plant::VehicleId(id)); }

@@ -314,6 +314,8 @@ const Case kCases[] = {
      "/vehicle_types/0/load_rules/centre", "without_brackets"},
     {"LoadWithNoUnbalanceAtAll", [](Plant& p) { p.vehicle_types[0].load_rules.most_unbalance = 0; },
      "/vehicle_types/0/load_rules/most_unbalance", "not_positive"},
+    {"BracketsWithoutStroke", [](Plant& p) { p.vehicle_types[0].bracket_lift.stroke_m = 0; },
+     "/vehicle_types/0/bracket_lift/stroke_m", "not_positive"},
     {"HomeOfAnotherType",
      [](Plant& p) {
          VehicleType other = p.vehicle_types[0];

@@ -105,6 +105,52 @@ TEST_F(VehicleEquipmentTest, RefusesBracketActionsThatSayTooLittleOrTooMuch) {
     EXPECT_TRUE(refused(bracket_height("all", 0.5), "out_of_stroke"));
 }
 
+TEST_F(VehicleEquipmentTest, OneFootGoesDownAndUpAlone) {
+    EXPECT_FALSE(equipment.begin(action("lowerParking", {{"foot", std::string("back left")}})));
+    run();
+    EXPECT_FALSE(equipment.failure());
+    for (const auto& foot : state().parking_feet)
+        EXPECT_NEAR(foot.extension_m, foot.name == "back left" ? 0.1 : 0, 0.015) << foot.name;
+    EXPECT_TRUE(equipment.holds_vehicle());
+    EXPECT_FALSE(equipment.begin(action("raiseParking", {{"foot", std::string("back left")}})));
+    run();
+    EXPECT_FALSE(equipment.failure());
+    EXPECT_FALSE(equipment.holds_vehicle());
+    const auto fifth = equipment.begin(action("lowerParking", {{"foot", std::string("fifth")}}));
+    ASSERT_TRUE(fifth);
+    EXPECT_EQ(fifth->rfind("unknown_foot:", 0), 0u);
+    EXPECT_TRUE(equipment.begin(action("lowerParking", {{"foot", 5.0}})));
+    EXPECT_FALSE(equipment.busy());
+}
+
+TEST_F(VehicleEquipmentTest, AFootThatCarriesIsNotTakenAwayAlone) {
+    EXPECT_FALSE(equipment.begin(action("lowerParking")));
+    run();
+    const auto before = state().parking_feet;
+    const auto refused =
+        equipment.begin(action("raiseParking", {{"foot", std::string("front left")}}));
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->rfind("foot_carries: foot front left, force_n ", 0), 0u) << *refused;
+    EXPECT_FALSE(equipment.busy());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        EXPECT_EQ(state().parking_feet[i].extension_m, before[i].extension_m);
+}
+
+TEST_F(VehicleEquipmentTest, BracketsMoveAtTheSpeedThatIsAskedFor) {
+    auto slow = bracket_height("all", 0.05);
+    slow.params.push_back({"speed_mps", 0.005});
+    EXPECT_FALSE(equipment.begin(slow));
+    EXPECT_NEAR(run(), 1.0, 0.15);  // ten times faster than 0.05 m at 0.005 m/s
+    EXPECT_FALSE(equipment.begin(bracket_height("all", 0.0)));
+    EXPECT_LT(run(), 0.7);
+    for (const ParamValue& wrong : {ParamValue(0.011), ParamValue(0.0), ParamValue(-0.001)}) {
+        auto action = bracket_height("all", 0.05);
+        action.params.push_back({"speed_mps", wrong});
+        EXPECT_EQ(equipment.begin(action)->rfind("out_of_speed:", 0), 0u);
+    }
+    EXPECT_FALSE(equipment.busy());
+}
+
 TEST_F(VehicleEquipmentTest, AbortLeavesThemWhereTheyAre) {
     EXPECT_FALSE(equipment.begin(bracket_height("all", 0.2)));
     equipment.step(0.5, 0);

@@ -142,6 +142,40 @@ TEST_F(Parking, LoweredTwiceOrStoppedInBetweenItIsRaisedAsFarAsOnce) {
     EXPECT_NEAR(stopped.plane()[0], raised_m, 5e-4);
 }
 
+TEST_F(Parking, OneAloneGoesDownUntilItTouchesAndLiftsNothing) {
+    ParkingGear feet = gear(even);
+    feet.lower(2);
+    run(feet);
+    ASSERT_FALSE(feet.stop_cause());
+    EXPECT_NEAR(feet.extension_m(2), type.parking->clearance_m, 0.003);
+    for (const std::size_t other : {0, 1, 3}) EXPECT_EQ(feet.extension_m(other), 0);
+    EXPECT_LT(sum_n(feet), 0.1 * weight_n);
+
+    feet.lower();
+    run(feet);
+    EXPECT_FALSE(feet.stop_cause());
+    EXPECT_NEAR(sum_n(feet), weight_n, 0.02 * weight_n) << "all take it then as ever";
+    feet.raise();
+    run(feet);
+    EXPECT_FALSE(feet.extended());
+}
+
+TEST_F(Parking, OneAloneWithoutFloorStaysWhereItIsAndSaysSo) {
+    ParkingGear feet = gear([](geometry::Point2 body) -> std::optional<double> {
+        if (body.x_m > 5.1 && body.y_m > 1) return std::nullopt;
+        return 0;
+    });
+    feet.lower(0);
+    run(feet);
+    ASSERT_TRUE(feet.stop_cause());
+    EXPECT_EQ(feet.stop_cause()->code, "foot_reaches_no_floor");
+    EXPECT_TRUE(feet.extended());
+    feet.raise(0);
+    run(feet);
+    EXPECT_FALSE(feet.stop_cause());
+    EXPECT_FALSE(feet.extended());
+}
+
 TEST_F(Parking, StandsWhereItIsWhenStopped) {
     ParkingGear feet = gear(even);
     feet.lower();

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <variant>
 
 #include "core/simulation/machine/servo_drive.hpp"
@@ -27,10 +28,10 @@ std::vector<Case> cases() {
 }
 
 /// A vehicle at full speed on a way of 40 m, far from its end.
-ServoDrive driving(const plant::VehicleType& type) {
-    ServoDrive drive(type, {}, 3);
-    drive.append(straight({}, 40));
-    while (drive.velocity_mps() < 0.95 * type.max_speed_mps) drive.step(kStep_s);
+std::unique_ptr<ServoDrive> driving(const plant::VehicleType& type) {
+    auto drive = std::make_unique<ServoDrive>(type, Pose2{}, 3);
+    drive->append(straight({}, 40));
+    while (drive->velocity_mps() < 0.95 * type.max_speed_mps) drive->step(kStep_s);
     return drive;
 }
 
@@ -47,7 +48,8 @@ double number(const Reason& reason) { return std::get<double>(reason.params.at(0
 
 TEST(ServoFaults, ABrokenWheelStopsTheDriveOnItsPathUntilItIsMended) {
     for (const auto& [type, wheel] : cases()) {
-        ServoDrive drive = driving(type);
+        const auto driven = driving(type);
+        ServoDrive& drive = *driven;
         ASSERT_TRUE(drive.break_wheel(wheel));
         const double latest_m = brake(drive);
         ASSERT_TRUE(drive.stop_cause());
@@ -76,7 +78,8 @@ TEST(ServoFaults, ABrokenSteeringDriveKeepsAStandingVehicleFromMoving) {
 
 TEST(ServoFaults, ADeadEncoderIsNoticedByWhatDoesNotFollow) {
     for (const auto& [type, wheel] : cases()) {
-        ServoDrive drive = driving(type);
+        const auto driven = driving(type);
+        ServoDrive& drive = *driven;
         ASSERT_TRUE(drive.kill_encoder(wheel));
         const double latest_m = brake(drive);
         ASSERT_TRUE(drive.stop_cause()) << type.name;
@@ -89,7 +92,8 @@ TEST(ServoFaults, ADeadEncoderIsNoticedByWhatDoesNotFollow) {
 
 TEST(ServoFaults, AWheelThatSlipsStopsTheDriveWithItsShareAndItGoesOnWhenAcknowledged) {
     for (const auto& [type, wheel] : cases()) {
-        ServoDrive drive = driving(type);
+        const auto driven = driving(type);
+        ServoDrive& drive = *driven;
         ASSERT_TRUE(drive.set_slip(wheel, 0.2));
         const double latest_m = brake(drive);
         ASSERT_TRUE(drive.stop_cause()) << type.name;
@@ -114,7 +118,8 @@ TEST(ServoFaults, AWheelThatSlipsStopsTheDriveWithItsShareAndItGoesOnWhenAcknowl
 TEST(ServoFaults, WithoutMeasuringWheelsNobodySeesAllWheelsSlip) {
     plant::VehicleType type = differential();
     type.slip_sensor.reset();
-    ServoDrive drive = driving(type);
+    const auto driven = driving(type);
+    ServoDrive& drive = *driven;
     for (const char* wheel : {"left", "right"}) drive.set_slip(wheel, 0.2);
     for (int i = 0; i < 1200; ++i) drive.step(kStep_s);
     EXPECT_FALSE(drive.stop_cause());
@@ -134,7 +139,8 @@ TEST(ServoFaults, TheNoiseOfMeasuringWheelsStopsNobody) {
 }
 
 TEST(ServoFaults, ASlightSlipIsNotNoticedButFound) {
-    ServoDrive drive = driving(mecanum());
+    const auto driven = driving(mecanum());
+    ServoDrive& drive = *driven;
     for (const char* wheel : {"FL", "FR", "BL", "BR"}) drive.set_slip(wheel, 0.03);
     for (int i = 0; i < 1200; ++i) drive.step(kStep_s);
     EXPECT_FALSE(drive.stop_cause());

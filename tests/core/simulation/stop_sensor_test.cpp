@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/localisation/dual_camera.hpp"
+#include "core/onboard/code_reading.hpp"
 #include "core/plant/marker_geometry.hpp"
 #include "core/vision/optics/camera_picture.hpp"
 
@@ -184,7 +185,7 @@ TEST(CameraPicture, FitsTheFrameAndKeepsHalfTheSize) {
     ASSERT_TRUE(view.readings[0].found);
 
     const cv::Mat picture =
-        vision::annotate(view.images[0], cameras[0], body_from_code(view.readings[0]));
+        vision::annotate(view.images[0], cameras[0], onboard::body_from_code(view.readings[0]));
 
     EXPECT_EQ(picture.size(), cv::Size(640, 512));
     for (const cv::Mat& image : {picture, view.images[0]}) {
@@ -205,7 +206,7 @@ TEST(CameraPicture, DrawsTheOffsetDotOverTheCode) {
     reading.angle_rad = kPi / 2;
     const double px_m = 2 / vision::pixels_per_metre(cameras[0]);
 
-    const cv::Mat picture = vision::annotate(grey, cameras[0], body_from_code(reading));
+    const cv::Mat picture = vision::annotate(grey, cameras[0], onboard::body_from_code(reading));
 
     const auto dot = picture.at<cv::Vec3b>(static_cast<int>(256 + 0.010 / px_m),
                                            static_cast<int>(320 + 0.020 / px_m));

@@ -11,7 +11,7 @@
 #include "api/vda5050/order.hpp"
 #include "api/vda5050/state.hpp"
 #include "server/agent/hand_held.hpp"
-#include "server/agent/vehicle.hpp"
+#include "server/agent/simulated_vehicle.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
 #include "tests/db/temp_folder.hpp"
 #include "tests/server/agent/small_hall.hpp"
@@ -29,7 +29,7 @@ protected:
     void run(std::chrono::milliseconds time) {
         for (auto t = 0ms; t < time; t += 20ms) {
             now += 20ms;
-            vehicle.step(0.02, now);
+            simulated.step(0.02, now);
             while (auto frame = vehicle.outbox().take()) {
                 if (frame->binary) continue;
                 auto read = vda5050::decode_frame(frame->bytes);
@@ -55,11 +55,10 @@ protected:
     }
 
     simulation::World world = simulation::make_world(small_plant(), 1);
-    Vehicle vehicle{world,
-                    world.plant.vehicles[0],
-                    {20, 10, 0},
-                    VehicleSettings{1, 10, false, {}, 1, {}},
-                    nullptr};
+    SimulatedVehicle simulated{world,       world.plant.vehicles[0],
+                               {20, 10, 0}, SimulationSettings{1, 10, false, {}, false, {}},
+                               {},          nullptr};
+    Vehicle& vehicle = simulated.program();
     vda5050::HeaderSource headers{"Tang", "TP-01"};
     Vehicle::Steady::time_point now = Vehicle::Steady::time_point(1h);
     std::map<vda5050::Topic, int> sent;
@@ -221,14 +220,14 @@ protected:
         world.plant.vehicles[0].load_kg = 18000;
     }
     void start(std::vector<Fault> faults, std::vector<vda5050::Action> actions = {}) {
-        VehicleSettings settings{1, 10, false, {}, 1, std::move(faults), true};
-        servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0}, settings,
-                      nullptr);
-        servo->link_up();
+        servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0},
+                      SimulationSettings{1, 10, false, {}, true, std::move(faults)},
+                      SimulatedVehicle::Program{}, nullptr);
+        servo->program().link_up();
         tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.0005, 0.0001});
         auto order = straight_order({20, 10, 0}, 12);
         order.nodes[1].actions = std::move(actions);
-        servo->receive(vda5050::encode_frame(
+        servo->program().receive(vda5050::encode_frame(
             vda5050::Topic::kOrder, false,
             vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
     }
@@ -237,7 +236,7 @@ protected:
         action.type = type;
         action.id = "id-" + type;
         action.init_position = init;
-        servo->receive(vda5050::encode_frame(
+        servo->program().receive(vda5050::encode_frame(
             vda5050::Topic::kInstantActions, false,
             vda5050::encode_instant_actions({{action}},
                                             headers.next(vda5050::Topic::kInstantActions, {}))));
@@ -246,7 +245,7 @@ protected:
         for (auto t = 0ms; t < time; t += 20ms) {
             now += 20ms;
             servo->step(0.02, now);
-            while (auto frame = servo->outbox().take()) {
+            while (auto frame = servo->program().outbox().take()) {
                 if (frame->binary) continue;
                 const auto read = vda5050::decode_frame(frame->bytes);
                 if (read && read->topic == vda5050::Topic::kState) {
@@ -255,7 +254,7 @@ protected:
             }
         }
     }
-    std::optional<Vehicle> servo;
+    std::optional<SimulatedVehicle> servo;
 };
 
 TEST_F(ServoVehicleTest, DrivesItsOrderAndShowsItsWheels) {
@@ -301,7 +300,7 @@ TEST_F(ServoVehicleTest, GoesRoundABoxInTheCorridorOfItsEdgesAndTellsSo) {
         order.edges.push_back(edge);
         order.nodes.push_back(node);
     }
-    servo->receive(vda5050::encode_frame(
+    servo->program().receive(vda5050::encode_frame(
         vda5050::Topic::kOrder, false,
         vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
     bool told = false;
@@ -344,11 +343,11 @@ TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
     const db::TempFolder folder;
     std::vector<std::size_t> learned;
     for (int start = 0; start < 2; ++start) {
-        VehicleSettings settings{1, 10, false, {}, 1, {}, true};
-        settings.learned = folder.path();
+        SimulatedVehicle::Program program;
+        program.learned = folder.path();
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20.04, 9.985, 0.003},
-                      settings, nullptr);
-        servo->link_up();
+                      SimulationSettings{1, 10, false, {}, true, {}}, program, nullptr);
+        servo->program().link_up();
         tell("initPosition", vda5050::InitPosition{{20, 10, 0}, "hall", "", 0.002, 0.001});
         vda5050::Action adjust;
         adjust.type = "adjustToMarker";
@@ -358,7 +357,7 @@ TEST_F(ServoVehicleTest, LearnsOnFromWhatItHadLearnedBeforeItsStart) {
         order.nodes.resize(1);
         order.edges.clear();
         order.nodes[0].actions = {adjust};
-        servo->receive(vda5050::encode_frame(
+        servo->program().receive(vda5050::encode_frame(
             vda5050::Topic::kOrder, false,
             vda5050::encode_order(order, headers.next(vda5050::Topic::kOrder, {}))));
         drive(20000ms);

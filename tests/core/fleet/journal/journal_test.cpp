@@ -42,7 +42,7 @@ std::string every_call(Recorder& recorder) {
     fleet.vehicle_connected(v1, kNow);
     fleet.vehicle_heard(v1, kNow);
     fleet.vehicle_state(v1, state, kNow);
-    fleet.vehicle_factsheet(v1, {"series", 1, 2, 3, 4, {"a"}, {"b"}, "{}"}, kNow);
+    fleet.vehicle_factsheet(v1, {"series", 1, 2, 3, 4, {"a"}, {"b"}, {"c"}, "{}"}, kNow);
     fleet.vehicle_message_refused(v1, state.errors[0], kNow);
     fleet.vehicle_identity_conflict(v1, kNow);
     fleet.vehicle_disconnected(v1, kNow);
@@ -69,6 +69,9 @@ std::string every_call(Recorder& recorder) {
     fleet.commands_expired({v1}, {id}, kNow);
     fleet.clock_differs(Duration(-7), kNow);
     fleet.clock_agrees(kNow);
+    const StepAction up{"setBracketHeight", {{"bracket", "all"}, {"height_m", 0.1}}};
+    static_cast<void>(fleet.move_lifts(v1, up, "me", kNow));
+    static_cast<void>(fleet.stop_lifts(v1, "me", kNow));
     planning::LegPlan plan;
     plan.segments.resize(2);
     plan.route = {plant::NodeId("n1")};

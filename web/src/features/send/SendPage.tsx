@@ -88,7 +88,7 @@ export function SendPage() {
 }
 
 /** What a start would do, in the words of the command bar. */
-function useSentences({ vehicle, station, option, busy, entry }: Send) {
+function useSentences({ vehicle, station, option, busy, entry, feet }: Send) {
   const { t } = useTranslation("send");
   const words = useWords();
   if (!vehicle || !station) return { title: t("say.choose"), what: "", waits: undefined };
@@ -99,7 +99,12 @@ function useSentences({ vehicle, station, option, busy, entry }: Send) {
     `${capitalise(moveWords(option.segments ?? [], (k, p) => t(k, p), t("words.join")))}${t("say.stop")}`;
   return {
     title: busy ? t("say.then", { what: does, order: busy.order.name }) : does,
-    what: moves === undefined ? "" : `${moves} ${t("say.people")}`,
+    what:
+      moves === undefined
+        ? ""
+        : [feet.raise && t("say.raise"), moves, feet.lower && t("say.park"), t("say.people")]
+            .filter(Boolean)
+            .join(" "),
     waits:
       entry.kind === "occupied" || entry.kind === "reserved"
         ? t(`say.waits_${entry.kind}`, { by: words.vehicle(entry.by), number: station.number })

@@ -10,12 +10,16 @@ export interface Choice {
   chooseVehicle: (id: string) => void;
   chooseStation: (digits: string) => void;
   chooseMode: (mode: MotionMode) => void;
+  /** It lowers its feet on arrival. */
+  park: boolean;
+  choosePark: (park: boolean) => void;
 }
 
 /** Vehicle, station and mode chosen so far. Vehicle and station are kept in the address (see sendAddress). */
 export function useChoice(): Choice {
   const { query } = useLocation();
   const [mode, chooseMode] = useState<MotionMode>("auto");
+  const [park, choosePark] = useState(false);
   const choose = useCallback((change: { vehicle?: string; station?: string }) => {
     navigate(sendAddress(change), { replace: true });
     chooseMode("auto");
@@ -27,5 +31,7 @@ export function useChoice(): Choice {
     chooseVehicle: useCallback((vehicle) => choose({ vehicle }), [choose]),
     chooseStation: useCallback((station) => choose({ station }), [choose]),
     chooseMode,
+    park,
+    choosePark,
   };
 }

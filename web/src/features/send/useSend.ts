@@ -11,6 +11,7 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
+import { feetActions, feetPlan, previewWithFeet } from "./steps/feet";
 import { codesCheck, floorCheck } from "./steps/wayChecks";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
@@ -24,7 +25,7 @@ export type Send = ReturnType<typeof useSend>;
 
 /** What follows from the choice: what is asked of the planner, what it says, what Start would send and why it may not. */
 export function useSend(choice: Choice, /** A move is watched: nothing is previewed. */ watching: boolean) {
-  const { mode, digits } = choice;
+  const { mode, digits, park } = choice;
   const plant = usePlant().data;
   const allVehicles = useVehicles();
   const vehicles = useMemo(() => sortForSending(allVehicles, plant), [allVehicles, plant]);
@@ -40,6 +41,8 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const entry = lookUpStation(digits, plant, states, vehicle);
   const station = stationOf(entry);
   const busy = busyWith(vehicle, orders);
+  const { raise, lower } = feetPlan(vehicle, busy !== undefined, park);
+  const feet = useMemo(() => ({ raise, lower }), [raise, lower]);
   const asks =
     !watching &&
     onScreen &&
@@ -55,16 +58,18 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
           station: station.number,
           mode,
           pose: vehicle.pose,
-          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}`,
+          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}${raise}${lower}`,
           stationsKey: states.map((s) => `${s.occupied_by}/${s.reserved_by}`).join(","),
           after: busyKey(busy),
         }),
         vehicle: vehicle.id,
         station: station.number,
         mode,
+        actions: feetActions(feet),
       }
     : undefined;
-  const { preview, retry } = usePreview(question);
+  const asked = usePreview(question);
+  const preview = useMemo(() => previewWithFeet(asked.preview, feet), [asked.preview, feet]);
   const data =
     preview.kind === "ready" ? preview.data : preview.kind === "loading" ? preview.last : undefined;
   const step = data?.steps[0];
@@ -90,9 +95,13 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const body = useMemo<NewJobOrder | undefined>(
     () =>
       ready.kind === "ready" && vehicle && station && option
-        ? { vehicle: vehicle.id, priority: 0, steps: [{ station: station.number, motion_mode: option.mode }] }
+        ? {
+            vehicle: vehicle.id,
+            priority: 0,
+            steps: [{ station: station.number, motion_mode: option.mode, ...feetActions(feet) }],
+          }
         : undefined,
-    [ready.kind, vehicle, station, option],
+    [ready.kind, vehicle, station, option, feet],
   );
   return {
     plant,
@@ -103,7 +112,8 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
     station,
     busy,
     preview,
-    retry,
+    retry: asked.retry,
+    feet,
     step,
     option,
     leadThere,

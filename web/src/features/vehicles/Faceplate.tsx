@@ -20,6 +20,7 @@ import { CameraCard } from "./CameraCard";
 import { ElsewhereCard } from "./ElsewhereCard";
 import { FixesCard } from "./FixesCard";
 import { IntegrationCard } from "./IntegrationCard";
+import { LiftsCard } from "./LiftsCard";
 import { LoadsCard } from "./LoadsCard";
 import { PoseCard } from "./PoseCard";
 import { shownCameras } from "./shownCameras";
@@ -53,6 +54,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
 
   const lost = useLinkLost();
   const old = lost || stale(vehicle) || (heard_s ?? Infinity) >= kLate_s;
+  const lifts = <LiftsCard key={vehicle.id} vehicle={vehicle} type={type} refused={refused} />;
   const loads = <LoadsCard vehicle={vehicle} type={type} stale={old} heard_s={heard_s} />;
   const shown = shownCameras(vehicle, type);
   const cameras =
@@ -82,6 +84,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
       <WhyCard vehicle={vehicle} type={type} target={target} heard_s={heard_s} stale={old} />
       <PoseCard vehicle={vehicle} heard={heard} now={now} />
       <FixesCard fixes={vehicle.fixes ?? []} now={now} />
+      {!narrow && lifts}
       <IntegrationCard key={vehicle.integration} vehicle={vehicle} refused={refused} />
     </>
   );
@@ -118,7 +121,16 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
               selected={tab}
               onSelect={setTab}
               items={[
-                { id: "loads", title: t("tabs.loads"), content: loads },
+                {
+                  id: "loads",
+                  title: t("tabs.loads"),
+                  content: (
+                    <>
+                      {loads}
+                      {lifts}
+                    </>
+                  ),
+                },
                 ...(eyeless
                   ? []
                   : [

@@ -1,9 +1,9 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
+import { feetDown } from "@/shared/live/feet";
 import { Card } from "@/shared/ui";
 import { age, fixed } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { feetDown } from "./drawing/faceplate";
 import { summarise, titleOf } from "./drawing/loads";
 import { PlatformDrawing } from "./drawing/PlatformDrawing";
 

@@ -1,6 +1,7 @@
 import type { Reason, StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { faultKey } from "@/shared/words/faults";
-import { feetDown, wheelState } from "./drawing/faceplate";
+import { feetDown } from "@/shared/live/feet";
+import { wheelState } from "./drawing/faceplate";
 import { summarise } from "./drawing/loads";
 
 /** One line under "Why is it standing?": what was looked at and what it says. */

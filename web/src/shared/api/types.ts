@@ -23,6 +23,7 @@ export type Link = Schemas["Link"];
 export type Activity = Schemas["Activity"];
 export type Vehicle = Schemas["Vehicle"];
 export type Leg = Schemas["Leg"];
+export type LiftCommand = Schemas["LiftCommand"];
 export type MarkerChain = Schemas["MarkerChain"];
 export type Fleet = Schemas["Fleet"];
 export type JobState = Schemas["JobState"];

@@ -30,7 +30,7 @@ const data = (over: Partial<DryRun> = {}): DryRun => ({
   ...over,
 });
 const vehicle = { id: "TP-01" } as Vehicle;
-const question = { key: "a", vehicle: "TP-01", station: 7, mode: "auto" as const };
+const question = { key: "a", vehicle: "TP-01", station: 7, mode: "auto" as const, actions: {} };
 
 describe("previewKey", () => {
   const input = {

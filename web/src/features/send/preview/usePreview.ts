@@ -1,6 +1,6 @@
 import { useCallback, useEffect, useRef, useState } from "react";
 import { api, ApiProblem, call } from "@/shared/api";
-import type { DryRun, MotionMode } from "@/shared/api/types";
+import type { DryRun, MotionMode, NewJobOrder } from "@/shared/api/types";
 import { kDebounceMs, NewestOnly, type Preview } from "./preview";
 
 /** What is asked: undefined asks nothing. `key` says when an answer is out of date. */
@@ -9,6 +9,8 @@ export interface PreviewQuestion {
   vehicle: string;
   station: number;
   mode: MotionMode;
+  /** Around the drive, as the order will have them. */
+  actions: Pick<NewJobOrder["steps"][number], "before" | "after">;
 }
 
 function isAbout(data: DryRun | undefined, question: PreviewQuestion): boolean {
@@ -56,7 +58,7 @@ export function usePreview(question: PreviewQuestion | undefined): { preview: Pr
       const body = {
         vehicle: asked.vehicle,
         priority: 0,
-        steps: [{ station: asked.station, motion_mode: asked.mode }],
+        steps: [{ station: asked.station, motion_mode: asked.mode, ...asked.actions }],
       };
       call(api.POST("/api/v1/job-orders", { params: { query: { dryRun: true } }, body }))
         .then((data): Preview => ({ kind: "ready", data: data as DryRun }), failure)

@@ -7,6 +7,7 @@ import { duration } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { ChecksStep, ChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
+import { ParkRow } from "./ParkRow";
 import { StationStep } from "./StationStep";
 import { Step } from "./Step";
 import type { Choice } from "../useChoice";
@@ -104,6 +105,9 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
               onOpen(undefined);
             }}
           />
+          {vehicle && vehicle.parking_feet.length > 0 && (
+            <ParkRow park={choice.park} onPark={choice.choosePark} />
+          )}
         </Step>
         <Step
           number={4}

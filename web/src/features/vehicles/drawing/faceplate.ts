@@ -79,13 +79,6 @@ export function wheelState(wheel: Vehicle["wheels"][number]): WheelState {
   return wheel.temperature_c >= kWarm_c ? "warm" : "ok";
 }
 
-/** Extension from which a foot stands on the floor (the server's limit for starting a move). */
-export const kFootDown_m = 0.002;
-
-export function feetDown(feet: Vehicle["parking_feet"]): boolean {
-  return feet.some((f) => f.extension_m > kFootDown_m);
-}
-
 /** Name of a bracket's corner for the texts: "front_left". */
 export function bracketKey(type: VehicleType | undefined, name: string): string {
   const at = type?.brackets.find((b) => b.name === name)?.position;

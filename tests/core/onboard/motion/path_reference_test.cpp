@@ -1,4 +1,4 @@
-#include "core/simulation/machine/path_reference.hpp"
+#include "core/onboard/motion/path_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,13 +6,13 @@
 
 #include "tests/core/simulation/platform.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 namespace {
 
-using testing::arc;
-using testing::platform_type;
-using testing::straight;
-using testing::turn;
+using simulation::testing::arc;
+using simulation::testing::platform_type;
+using simulation::testing::straight;
+using simulation::testing::turn;
 
 constexpr double kStep_s = 0.01;
 
@@ -126,4 +126,4 @@ TEST(PathReference, CreepsOverFineMoves) {
 }
 
 }  // namespace
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

@@ -4,7 +4,7 @@
 #include "core/kinematics/wheels.hpp"
 #include "core/plant/plant.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 
 using geometry::Pose2;
 
@@ -22,6 +22,8 @@ public:
     void ask(const Pose2& from, const kinematics::Twist& twist);
     /// One step towards this share of the twist asked for.
     void step(double h_s, double share);
+    /// It stands at once, where it is.
+    void stand() { twist_ = {}; }
     /// Ends it at once. REQUIRES: standing().
     void drop();
     /// It has turned out to be elsewhere (hall frame): `by` times its pose.
@@ -48,4 +50,4 @@ private:
     kinematics::Twist asked_;
 };
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

@@ -2,10 +2,9 @@
 
 #include "core/base/angle.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 
-/// When the supervision of a simulated machine stops it, and what its wheels must be before they
-/// may roll.
+/// When the supervision of a drive stops it, and what its wheels must be before they may roll.
 struct DriveLimits {
     double aligned_rad = radians(0.2);  // wheels closer to their direction may roll
     double slip = 0.07;  // share between rim and floor: one wheel of two losing 20 % shows 10
@@ -19,4 +18,4 @@ struct DriveLimits {
     double path_rad = radians(4);
 };
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

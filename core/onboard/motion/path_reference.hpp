@@ -7,10 +7,10 @@
 
 #include "core/kinematics/motion.hpp"
 #include "core/kinematics/wheels.hpp"
+#include "core/onboard/motion/twist_reference.hpp"
 #include "core/plant/plant.hpp"
-#include "core/simulation/machine/twist_reference.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 
 /// Where a vehicle should be: a point that drives a queue of segments with trapezoidal speed
 /// profile, passing from one to the next without a stop where the motion continues in the same kind
@@ -48,6 +48,11 @@ public:
     bool held() const { return held_; }
     /// From now on at this share of every rate, 0 to 1; slowing down takes its time.
     void slow_to(double share) { rate_share_ = share; }
+    /// It stands at once, where it is: its machine has braked without it.
+    void stand() {
+        rate_ = 0;
+        steered_.stand();
+    }
     /// Drops the queue, or what it is steered by. REQUIRES: standing().
     void clear();
     /// The pieces covered, in their order; valid until the next call.
@@ -117,4 +122,4 @@ kinematics::Twist derivative(const kinematics::Segment& segment, double s);
 /// No way of the body's centre: the segment is measured in radians.
 bool turns_on_the_spot(const kinematics::Segment& segment);
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

@@ -1,4 +1,4 @@
-#include "core/simulation/machine/twist_reference.hpp"
+#include "core/onboard/motion/twist_reference.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 
 #include "tests/core/simulation/platform.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 namespace {
 
 using kinematics::Twist;
@@ -75,4 +75,4 @@ TEST(TwistReference, EndsWhenItStandsAndIsAskedForNothing) {
 }
 
 }  // namespace
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

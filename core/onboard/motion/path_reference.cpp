@@ -1,4 +1,4 @@
-#include "core/simulation/machine/path_reference.hpp"
+#include "core/onboard/motion/path_reference.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 
 #include "core/kinematics/primitives.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 namespace {
 
 using kinematics::Segment;
@@ -305,4 +305,4 @@ void PathReference::finish_front(Passed passed) {
     passed_.push_back(passed);
 }
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

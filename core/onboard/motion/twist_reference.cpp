@@ -1,12 +1,12 @@
-#include "core/simulation/machine/twist_reference.hpp"
+#include "core/onboard/motion/twist_reference.hpp"
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
-#include "core/simulation/machine/wheel_contact.hpp"
+#include "core/kinematics/rolling_wheels.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 namespace {
 
 using kinematics::Twist;
@@ -66,4 +66,4 @@ double TwistReference::braking_m() const {
     return speed * speed / (2 * max_accel_mps2_);
 }
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

@@ -1,4 +1,4 @@
-#include "core/simulation/machine/servo_drive.hpp"
+#include "core/onboard/motion/wheel_drive.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -7,7 +7,7 @@
 
 #include "core/control/path_tracker.hpp"
 
-namespace pulseline::simulation {
+namespace pulseline::onboard {
 namespace {
 
 using kinematics::Segment;
@@ -15,6 +15,7 @@ using kinematics::Twist;
 using kinematics::WheelMotion;
 
 constexpr double kNoWay = 1e-9;
+constexpr double kRounding_s = 1e-9;  // so little less of time is a whole cycle
 constexpr double kStartShare = 0.05;  // of the speed for which the standing wheels are steered
 constexpr int kLooks = 100;           // ahead on a run, at the wheels' directions
 constexpr double kFarAhead = 1e9;
@@ -32,31 +33,23 @@ constexpr double kThere_rad = 2e-5;
 constexpr double kBehind_m = 0.01;
 constexpr double kCatchUp_m = 0.2;
 constexpr double kLeastPace = 0.5;
-constexpr double kPatience_s = 3;  // then the brake takes what is left
-constexpr double kScrubTurn_rad = 0.1;
+constexpr double kPatience_s = 3;          // then the brake takes what is left
 constexpr double kNewDirection_rad = 0.2;  // steered so by twists, it first stands and steers
 
 }  // namespace
 
-ServoDrive::ServoDrive(plant::VehicleType type, const Pose2& true_pose, std::uint64_t seed,
-                       double time_factor, double load_kg, const localisation::ErrorBudget& errors)
+WheelDrive::WheelDrive(plant::VehicleType type, Wheels& wheels, const Pose2& believed,
+                       double time_factor)
     : type_(std::move(type)),
+      wheels_(wheels),
       time_factor_(time_factor),
-      errors_(errors.drive),
-      random_(seed),
-      wheels_(type_, load_kg, errors.drive, random_),
-      contact_(type_, load_kg, errors.drive, random_),
-      measuring_(type_, errors.slip_sensor, random_),
       odometry_(type_),
       reference_(type_, 1),
-      true_(true_pose),
-      believed_(true_pose),
-      goal_(true_pose),
-      wanted_(type_.wheels.size()),
-      accel_mps2_(type_.wheels.size()),
-      grade_n_(type_.wheels.size()) {}
+      believed_(believed),
+      goal_(believed),
+      wanted_(type_.wheels.size()) {}
 
-void ServoDrive::append(const Segment& segment, double max_speed_mps) {
+void WheelDrive::append(const Segment& segment, double max_speed_mps) {
     reference_.append(segment, max_speed_mps / time_factor_);
     if (phase_ != Phase::kDriving) return;
     steerable_ = kFarAhead;
@@ -65,12 +58,12 @@ void ServoDrive::append(const Segment& segment, double max_speed_mps) {
     }
 }
 
-void ServoDrive::correct(std::span<const Segment> moves) {
+void WheelDrive::correct(std::span<const Segment> moves) {
     assert(idle());
     for (const Segment& move : moves) reference_.append_fine(move);
 }
 
-void ServoDrive::steer(const Twist& twist) {
+void WheelDrive::steer(const Twist& twist) {
     const double share = 1 / time_factor_;
     const Twist own{share * twist.vx_mps, share * twist.vy_mps, share * twist.turn_radps};
     reference_.steer(believed_, own);
@@ -83,7 +76,7 @@ void ServoDrive::steer(const Twist& twist) {
     }
 }
 
-void ServoDrive::set_believed(const Pose2& pose) {
+void WheelDrive::set_believed(const Pose2& pose) {
     if (reference_.steered()) {
         const Pose2 by = pose * inverse(believed_);
         reference_.shift(by);
@@ -93,52 +86,50 @@ void ServoDrive::set_believed(const Pose2& pose) {
     believed_ = pose;
 }
 
-void ServoDrive::slow_to(double share) {
+void WheelDrive::slow_to(double share) {
     speed_share_ = share;
     reference_.slow_to(share);
 }
 
-void ServoDrive::clear() {
+void WheelDrive::clear() {
     assert(standing());
     reference_.clear();
     phase_ = Phase::kBraked;
 }
 
-void ServoDrive::acknowledge() {
-    if (wheels_.fault()) return;
+void WheelDrive::acknowledge() {
+    if (wheels_.fault() || wheels_.lost()) return;
     cause_.reset();
     slipping_s_ = 0;
 }
 
-Twist ServoDrive::twist() const {
+Twist WheelDrive::twist() const {
     const Twist& own = told_.twist;
     return {time_factor_ * own.vx_mps, time_factor_ * own.vy_mps, time_factor_ * own.turn_radps};
 }
 
-std::vector<WheelMotion> ServoDrive::wheels() const {
+std::vector<WheelMotion> WheelDrive::wheels() const {
     std::vector<WheelMotion> wheels = wheels_.measured();
     for (std::size_t i = 0; i < wheels.size(); ++i) {
         if (!type_.wheels[i].driven) {
             wheels[i].speed_mps =
-                rolling_speed(type_, type_.wheels[i], wheels[i].angle_rad, told_.twist);
+                kinematics::rolling_speed(type_, type_.wheels[i], wheels[i].angle_rad, told_.twist);
         }
         wheels[i].speed_mps *= time_factor_;
     }
     return wheels;
 }
 
-void ServoDrive::step(double dt_s) {
+void WheelDrive::step(double dt_s) {
     pending_s_ += dt_s * time_factor_;
-    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
-         pending_s_ -= ServoAxis::kCycle_s)
-        cycle();
+    for (; pending_s_ >= Wheels::kCycle_s - kRounding_s; pending_s_ -= Wheels::kCycle_s) cycle();
 }
 
-void ServoDrive::cycle() {
-    in_phase_s_ += ServoAxis::kCycle_s;
+void WheelDrive::cycle() {
+    in_phase_s_ += Wheels::kCycle_s;
+    if (wheels_.lost()) lose_machine();
     if (!cause_) {
-        if (auto wheel = wheels_.fault())
-            stop_for({onboard::stop_causes::kWheelFault, {{"wheel", *wheel}}});
+        if (auto wheel = wheels_.fault()) stop_for({stop_causes::kWheelFault, {{"wheel", *wheel}}});
     }
     const bool stays = held_ || cause_ || speed_share_ == 0;
     switch (phase_) {
@@ -155,10 +146,19 @@ void ServoDrive::cycle() {
     }
 }
 
+/// The machine brakes by itself. Had the reference gone on meanwhile, the machine would be told to
+/// follow it as soon as it is heard again.
+void WheelDrive::lose_machine() {
+    stop_for({stop_causes::kMachineSilent, {}});
+    if (phase_ == Phase::kBraked) return;
+    reference_.stand();
+    come_to_rest();
+}
+
 /// Steers the standing wheels for the first of the way, feedback included.
-void ServoDrive::begin() {
+void WheelDrive::begin() {
     goal_ = reference_.pose();
-    due_.assign(WheelSet::kDeadCycles, goal_);
+    due_.assign(static_cast<std::size_t>(wheels_.dead_cycles()), goal_);
     watch_path();
     if (cause_) return;
     const Twist twist =
@@ -167,9 +167,6 @@ void ServoDrive::begin() {
     wanted_ = wanted ? *wanted : wheels_.present();
     choose_steering(wheels_.present());
     for (WheelMotion& wheel : wanted_) wheel.speed_mps = 0;
-    if (!wheels_.aligned(wanted_, kScrubTurn_rad)) {
-        true_ = true_ * Pose2{normal(errors_.scrub_m), normal(errors_.scrub_m), 0};
-    }
     must_steer_ = false;
     phase_ = Phase::kSteering;
     in_phase_s_ = 0;
@@ -177,7 +174,7 @@ void ServoDrive::begin() {
 }
 
 /// Of a wheel's two directions the one with which it can be driven farther, or else the nearer.
-void ServoDrive::choose_steering(const std::vector<WheelMotion>& present) {
+void WheelDrive::choose_steering(const std::vector<WheelMotion>& present) {
     steerable_ = kFarAhead;
     for (std::size_t i = 0; i < wanted_.size(); ++i) {
         if (!type_.wheels[i].steered) continue;
@@ -196,7 +193,7 @@ void ServoDrive::choose_steering(const std::vector<WheelMotion>& present) {
 }
 
 /// Way on the present run until a wheel that now stands at `angle_rad` reaches its steering limit.
-double ServoDrive::steerable_way(std::size_t wheel, double angle_rad) const {
+double WheelDrive::steerable_way(std::size_t wheel, double angle_rad) const {
     const double limit_rad = kinematics::kSteeringLimit_rad - kFeedback_rad;
     if (reference_.empty() || !type_.wheels[wheel].steered) return kFarAhead;
     if (std::abs(angle_rad) > limit_rad) return 0;
@@ -215,17 +212,17 @@ double ServoDrive::steerable_way(std::size_t wheel, double angle_rad) const {
     return kFarAhead;
 }
 
-void ServoDrive::steer_standing() {
+void WheelDrive::steer_standing() {
     if (must_steer_ && !reference_.empty()) return begin();
     if (wheels_.aligned(wanted_, limits_.aligned_rad)) {
         phase_ = Phase::kDriving;
         return;
     }
-    turn_wheels(wanted_, true);
+    wheels_.steer(wanted_);
 }
 
 /// Share of the time for the reference: codes that put the vehicle back add up on a long way.
-double ServoDrive::reference_pace() const {
+double WheelDrive::reference_pace() const {
     const Twist twist = reference_.twist();
     const double speed = std::hypot(twist.vx_mps, twist.vy_mps);
     if (speed <= kNoWay) return 1;
@@ -235,13 +232,12 @@ double ServoDrive::reference_pace() const {
     return std::max(kLeastPace, 1 - (behind_m - kBehind_m) / kCatchUp_m);
 }
 
-void ServoDrive::drive() {
+void WheelDrive::drive() {
     due_.push_back(goal_);
     due_.pop_front();
-    for (const auto& passed : reference_.step(reference_pace() * ServoAxis::kCycle_s)) {
+    for (const auto& passed : reference_.step(reference_pace() * Wheels::kCycle_s)) {
         goal_ = passed.to;
         steerable_ -= passed.way;
-        if (!passed.on_the_spot) peak_mps_ = std::max(peak_mps_, passed.way / ServoAxis::kCycle_s);
     }
     must_steer_ |= steerable_ <= reference_.braking_way() + kBrakeAhead;
     if (reference_.standing()) {
@@ -255,7 +251,7 @@ void ServoDrive::drive() {
 
 /// The position loops take up what is left of the motion, and the tracker what is left along it:
 /// across it no wheel could go without being steered.
-void ServoDrive::settle() {
+void WheelDrive::settle() {
     const Pose2 left = inverse(believed_) * goal_;
     const double speed = std::hypot(last_.vx_mps, last_.vy_mps);
     const double turn = std::abs(last_.turn_radps);
@@ -275,7 +271,7 @@ void ServoDrive::settle() {
 }
 
 /// Wheels, floor and odometry of one cycle.
-void ServoDrive::follow(const Twist& twist) {
+void WheelDrive::follow(const Twist& twist) {
     const auto wanted = kinematics::wheels_of(type_, twist, wheels_.present());
     // A differential vehicle is never asked to go sideways, so there is always an answer.
     if (wanted) wanted_ = *wanted;
@@ -287,66 +283,47 @@ void ServoDrive::follow(const Twist& twist) {
         wanted_[i] = {present[i].angle_rad, wanted_[i].speed_mps * std::cos(jump)};
         must_steer_ = true;
     }
-    turn_wheels(wanted_, false);
-    for (std::size_t i = 0; i < accel_mps2_.size(); ++i) accel_mps2_[i] = wheels_.accel_mps2(i);
-    true_twist_ =
-        contact_.body_twist(wheels_.rolled(), accel_mps2_, true_, ServoAxis::kCycle_s, random_);
-    true_ = moved(true_, true_twist_, ServoAxis::kCycle_s);
+    wheels_.roll(wanted_);
     told_ = odometry_.body_of(wheels_.measured());
-    believed_ = moved(believed_, told_.twist, ServoAxis::kCycle_s);
+    believed_ = kinematics::moved(believed_, told_.twist, Wheels::kCycle_s);
     watch_path();
     watch_slip();
 }
 
-void ServoDrive::turn_wheels(const std::vector<WheelMotion>& wanted, bool standing) {
-    if (!standing) contact_.grade_forces(wheels_.rolled(), true_, grade_n_);
-    wheels_.cycle(wanted, standing, grade_n_);
-}
-
-void ServoDrive::watch_path() {
+void WheelDrive::watch_path() {
     const double off_m = distance(goal_.position(), believed_.position());
     const double off_rad = std::abs(wrap(goal_.heading_rad - believed_.heading_rad));
     if (off_m > limits_.path_m || off_rad > limits_.path_rad) {
-        stop_for({onboard::stop_causes::kOffPath, {{"distance_m", off_m}}});
+        stop_for({stop_causes::kOffPath, {{"distance_m", off_m}}});
     }
 }
 
-void ServoDrive::watch_slip() {
-    double share = measuring_
-                       .slip_share(wheels_.measured(), contact_.rolling(), true_twist_,
-                                   ServoAxis::kCycle_s, random_)
-                       .value_or(0);
+void WheelDrive::watch_slip() {
+    double share = wheels_.slip_share().value_or(0);
     const double pace = std::hypot(told_.twist.vx_mps, told_.twist.vy_mps);
     if (pace > limits_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
-    slipping_s_ = share > limits_.slip ? slipping_s_ + ServoAxis::kCycle_s : 0;
+    slipping_s_ = share > limits_.slip ? slipping_s_ + Wheels::kCycle_s : 0;
     if (slipping_s_ <= limits_.slip_time_s) return;
     if (auto wheel = wheels_.lagging()) {
         wheels_.switch_off(*wheel);
-        return stop_for({onboard::stop_causes::kWheelFault, {{"wheel", *wheel}}});
+        return stop_for({stop_causes::kWheelFault, {{"wheel", *wheel}}});
     }
-    stop_for({onboard::stop_causes::kSlip, {{"share", share}}});
+    stop_for({stop_causes::kSlip, {{"share", share}}});
 }
 
 /// The first cause stays: what follows comes of it.
-void ServoDrive::stop_for(Reason cause) {
+void WheelDrive::stop_for(Reason cause) {
     if (!cause_) cause_ = std::move(cause);
 }
 
-/// The brakes fall in, and the chassis sags.
-void ServoDrive::come_to_rest() {
+void WheelDrive::come_to_rest() {
     wheels_.brake();
     ++rests_;
-    const double share = std::min(1.0, std::exchange(peak_mps_, 0) / type_.max_speed_mps);
-    const double settle_m = errors_.fine_m + share * errors_.settle_m;
-    const double settle_rad = errors_.fine_rad + share * errors_.settle_rad;
-    true_ = true_ * Pose2{normal(settle_m), normal(settle_m), normal(settle_rad)};
     told_ = {};
     last_ = {};
-    true_twist_ = {};
     slipping_s_ = 0;
-    measuring_.rest();
     phase_ = Phase::kBraked;
     in_phase_s_ = 0;
 }
 
-}  // namespace pulseline::simulation
+}  // namespace pulseline::onboard

@@ -1,0 +1,157 @@
+#include "core/fleet/vehicle/lifts.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <variant>
+
+#include "core/fleet/state/event_types.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/fleet/state/reason_codes.hpp"
+#include "core/fleet/vehicle/interlocks.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+#include "core/vda5050/actions.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+constexpr std::string_view kAll = "all";  // of them
+
+/// Empty: it says none.
+std::string text_of(const StepAction& lift, const char* name) {
+    for (const Param& param : lift.params) {
+        const auto* text = std::get_if<std::string>(&param.value);
+        if (param.name == name && text != nullptr) return *text;
+    }
+    return {};
+}
+
+/// Nothing: it says none.
+std::optional<double> number_of(const StepAction& lift, const char* name) {
+    for (const Param& param : lift.params) {
+        const auto* number = std::get_if<double>(&param.value);
+        if (param.name == name && number != nullptr) return *number;
+    }
+    return std::nullopt;
+}
+
+template <class Things>
+Status has_one_named(const LiveVehicle& live, const char* code, const char* kind,
+                     const std::string& wanted, const Things& things) {
+    std::string names(kAll);
+    for (const auto& thing : things) {
+        if (thing.name == wanted) return {};
+        names += ", " + thing.name;
+    }
+    if (wanted == kAll) return {};
+    const std::string& id = live.record.id.str();
+    return fail(Errc::kUnreachable, code,
+                "Vehicle " + id + " has no " + kind + " of that name. It has " + names + ".",
+                std::string("/") + kind, {{"vehicle", id}, {kind, wanted}});
+}
+
+Status has_bracket(const LiveVehicle& live, const StepAction& wanted) {
+    const auto& lift = live.type->bracket_lift;
+    const std::string who = "The brackets of " + live.record.id.str();
+    const double height_m = number_of(wanted, "height_m").value_or(-1);
+    if (!(height_m >= 0 && height_m <= lift.stroke_m)) {
+        return fail(Errc::kUnreachable, "out_of_stroke",
+                    who + " reach from 0 to " + std::to_string(lift.stroke_m) + " m.", "/height_m",
+                    {{"height_m", height_m}, {"stroke_m", lift.stroke_m}});
+    }
+    const double speed_mps = number_of(wanted, "speed_mps").value_or(lift.speed_mps);
+    if (!(speed_mps > 0 && speed_mps <= lift.speed_mps)) {
+        return fail(Errc::kUnreachable, "out_of_speed",
+                    who + " move with " + std::to_string(lift.speed_mps) + " m/s at most.",
+                    "/speed_mps", {{"speed_mps", speed_mps}, {"most_mps", lift.speed_mps}});
+    }
+    return has_one_named(live, "unknown_bracket", "bracket", text_of(wanted, "bracket"),
+                         live.type->brackets);
+}
+
+bool is_under_way(const LiveVehicle& live) {
+    return live.lift && live.lift->state == LiftMove::State::kUnderWay;
+}
+
+Status has_them(const LiveVehicle& live, const StepAction& wanted) {
+    const std::string& id = live.record.id.str();
+    const bool announced =
+        live.factsheet && std::ranges::find(live.factsheet->instant_actions, wanted.type) !=
+                              live.factsheet->instant_actions.end();
+    if (!vda5050::is_lift(wanted.type) || !announced) {
+        return fail(
+            Errc::kUnreachable, "unknown_lift",
+            "Vehicle " + id + " does not say that it can do " + wanted.type + " outside an order.",
+            "/type", {{"vehicle", id}, {"action", wanted.type}});
+    }
+    if (wanted.type == vda5050::kSetBracketHeight) return has_bracket(live, wanted);
+    const std::string foot = text_of(wanted, "foot");
+    if (foot.empty() || !live.type->parking) return {};
+    return has_one_named(live, "unknown_foot", "foot", foot, live.type->parking->feet);
+}
+
+}  // namespace
+
+Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted) {
+    if (Status has = has_them(live, wanted); !has) return has;
+    const std::string& id = live.record.id.str();
+    const auto conflict = [&](const char* code, const std::string& what, Params more = {}) {
+        more.insert(more.begin(), Param{"vehicle", id});
+        return fail(Errc::kConflict, code, "Vehicle " + id + what, {}, std::move(more));
+    };
+    if (lifts_move(live)) {
+        const std::string actor = live.lift ? live.lift->actor : "";
+        return conflict("lifts_moving",
+                        " still moves its brackets or feet" +
+                            (actor.empty() ? "" : ", as " + actor + " wanted") +
+                            ". Wait for the end, or hold them.",
+                        {{"actor", actor}});
+    }
+    if (live.record.needs_resume) {
+        return conflict("needs_person", " waits for a person to let it go on.",
+                        {{"cause", live.record.needs_resume_reason.code}});
+    }
+    if (live.record.paused || live.state.paused) {
+        const std::string actor = live.record.paused ? live.record.paused->actor : "";
+        return conflict(reasons::kVehiclePaused, " is paused. Resume it first.",
+                        {{"actor", actor}});
+    }
+    if (live.has_leg() || has_foreign_order(live) || live.state.driving) {
+        return conflict("vehicle_busy",
+                        " has an order or drives. Its brackets and feet move when "
+                        "that has ended, or as a part of it.");
+    }
+    const bool all =
+        wanted.type != vda5050::kSetBracketHeight || text_of(wanted, "bracket") == kAll;
+    if (auto fault = load_view(live).fault; fault && all) {
+        return conflict(fault->code.c_str(),
+                        " carries a load that breaks a rule of its type. Put "
+                        "that right with single brackets first.",
+                        fault->params);
+    }
+    return {};
+}
+
+void note_lift_ended(LiveVehicle& live, const vda5050::ActionState& answer) {
+    if (!is_under_way(live) || live.lift->action_id != answer.id) return;
+    const bool done = answer.status == vda5050::ActionStatus::kFinished;
+    live.lift->state = done ? LiftMove::State::kDone : LiftMove::State::kFailed;
+    live.lift->why = answer.result_description;
+}
+
+void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now) {
+    std::erase_if(live.actions, [](const PendingAction& pending) {
+        return vda5050::is_lift(pending.action.type) || pending.action.type == vda5050::kStopLifts;
+    });
+    if (!is_under_way(live)) return;
+    live.lift->state = LiftMove::State::kFailed;
+    live.lift->why = "link_lost";
+    add_event(fleet, now, event::kVehicleAction, {}, {}, live.record.id, {},
+              {{"action", live.lift->what.type},
+               {"action_id", live.lift->action_id},
+               {"status", "failed"},
+               {"result", live.lift->why}});
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "core/base/result.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+
+/// Brackets and parking feet that a person moves outside an order (Tang 2020, section 2: workflow
+/// of the parked platform).
+namespace pulseline::fleet {
+
+/// Whether a person may have them moved so now. Errors, each with its remedy: unknown_lift,
+/// unknown_bracket and out_of_stroke of what the vehicle does not have; needs_person,
+/// vehicle_paused, vehicle_busy and lifts_moving; and what is wrong with a load that all brackets
+/// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right.
+Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted);
+/// The vehicle has answered what was asked for.
+void note_lift_ended(LiveVehicle& live, const vda5050::ActionState& answer);
+/// The line is cut: what has not ended is not asked for again, since nobody looks at it any more.
+void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now);
+
+}  // namespace pulseline::fleet

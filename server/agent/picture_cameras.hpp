@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/localisation/error_budget.hpp"
+#include "server/agent/machine.hpp"
+
+namespace pulseline::agent {
+
+/// Port: what takes pictures of the floor below a vehicle.
+class Shutter {
+public:
+    struct Picture {
+        cv::Mat grey;      // 8 bit
+        double age_s = 0;  // since it was exposed
+    };
+
+    virtual ~Shutter() = default;
+    /// A picture of one of the type's cameras, now. Errors: whatever keeps it from taking one.
+    virtual Result<Picture> expose(std::size_t camera) = 0;
+};
+
+/// Cameras whose pictures somebody else takes: the codes in them, standing and under way.
+class PictureCameras final : public Cameras {
+public:
+    /// `type`: with its cameras as they hang under its load. `drive` says where codes are to be
+    /// expected. What it is made of must outlive it.
+    PictureCameras(const plant::VehicleType& type, const onboard::Drive& drive, Shutter& shutter,
+                   const localisation::ErrorBudget& errors, bool loaded);
+
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) override;
+    std::vector<onboard::WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
+                                                const geometry::Pose2& hall_from_body,
+                                                double own_s) override;
+    void look() override { look_expecting({}); }
+    const std::vector<vda5050::CameraReading>& readings() const override { return readings_; }
+    std::optional<localisation::PoseFix> take_fix() override {
+        return std::exchange(fix_, std::nullopt);
+    }
+    bool take_fresh() override { return std::exchange(fresh_, false); }
+    std::vector<Picture> pictures() const override;
+    void forget() override { readings_.clear(); }
+
+private:
+    void look_expecting(std::span<const vda5050::SurveyedMarker> expected);
+
+    const plant::VehicleType& type_;
+    const onboard::Drive& drive_;
+    Shutter& shutter_;
+    localisation::ErrorBudget errors_;
+    bool loaded_;
+    std::vector<vda5050::CameraReading> readings_;
+    std::vector<vda5050::CameraReading> pictured_;  // what the images show, one per image
+    std::vector<cv::Mat> images_;                   // empty where none could be taken
+    std::vector<double> sizes_m_;                   // of the codes looked for in them
+    std::vector<double> since_frame_s_;             // of each camera
+    std::optional<localisation::PoseFix> fix_;
+    bool fresh_ = false;
+};
+
+}  // namespace pulseline::agent

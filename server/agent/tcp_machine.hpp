@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/onboard/motion/wheel_drive.hpp"
+#include "server/agent/machine.hpp"
+#include "server/agent/machine_link.hpp"
+#include "server/agent/picture_cameras.hpp"
+
+namespace pulseline::agent {
+
+/// A machine behind its controller (MACHINE.md): wheels, brackets, feet, charger and pictures. When
+/// it does not answer, its own watchdog brakes; the drive stays stopped (machine_silent) until a
+/// person has looked, and the line is taken up again by itself.
+class TcpMachine final : public Machine {
+public:
+    struct Settings {
+        double time_factor = 1;  // of a simulated machine
+        bool loaded = false;
+        localisation::ErrorBudget errors = localisation::ErrorBudget::nominal();
+    };
+
+    /// `type`: with its cameras as they hang under its load; must outlive it. Errors: those of
+    /// MachineLink, machine_refused {why}, machine_not_of_type {part, told, wanted}.
+    static Result<std::unique_ptr<TcpMachine>> open(const MachineAddress& address,
+                                                    const plant::VehicleType& type,
+                                                    const Settings& settings);
+    ~TcpMachine() override;
+
+    onboard::Drive& drive() override;
+    Cameras& cameras() override;
+    onboard::Equipment& equipment() override;
+    onboard::Scanners* scanners() override { return nullptr; }
+    onboard::Receivers* receivers() override { return nullptr; }
+    onboard::NavigationScanner* navigation_scanner() override { return nullptr; }
+    void step(double dt_s) override;
+    void write_state(vda5050::StateMessage& state) override;
+
+private:
+    class Controller;
+    class TcpWheels;
+    class TcpEquipment;
+    class TcpShutter;
+
+    TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
+               const Settings& settings);
+
+    const plant::VehicleType& type_;
+    std::unique_ptr<Controller> controller_;
+    std::unique_ptr<TcpWheels> wheels_;
+    std::unique_ptr<TcpEquipment> equipment_;
+    std::unique_ptr<TcpShutter> shutter_;
+    onboard::WheelDrive drive_;
+    PictureCameras cameras_;
+};
+
+}  // namespace pulseline::agent

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <memory>
+
+#include "server/agent/running_vehicle.hpp"
+#include "server/agent/tcp_machine.hpp"
+
+namespace pulseline::agent {
+
+/// The program of a vehicle on a machine behind its controller. Nobody here knows where it truly
+/// stands.
+class TcpVehicle final : public RunningVehicle {
+public:
+    /// `vehicle` must outlive it. Errors: those of TcpMachine::open; unknown_vehicle.
+    static Result<std::unique_ptr<TcpVehicle>> open(
+        const MachineAddress& address, const plant::Plant& plant, const plant::Vehicle& vehicle,
+        double time_factor, const localisation::ErrorBudget& errors, VehicleSettings known);
+
+    void step(double dt_s, Vehicle::Steady::time_point now) override { program_->step(dt_s, now); }
+    Vehicle& program() override { return *program_; }
+
+private:
+    TcpVehicle() = default;
+
+    plant::VehicleType type_;  // its cameras as they hang under its load
+    std::unique_ptr<TcpMachine> machine_;
+    std::unique_ptr<Vehicle> program_;
+};
+
+}  // namespace pulseline::agent

@@ -1,0 +1,46 @@
+import { describe, expect, it } from "vitest";
+import type { DryRun, Vehicle } from "@/shared/api/types";
+import { feetActions, feetPlan, previewWithFeet } from "./feet";
+
+const on = (...extensions_m: number[]) => ({
+  parking_feet: extensions_m.map((extension_m, i) => ({ name: String(i), extension_m })),
+});
+
+describe("feet around a move", () => {
+  it("are raised first where one is down, and left alone where none is", () => {
+    expect(feetPlan(on(0, 0.1, 0, 0), false, false)).toEqual({ raise: true, lower: false });
+    expect(feetPlan(on(0, 0.001, 0, 0), false, false)).toEqual({ raise: false, lower: false });
+  });
+  it("are raised first behind another order, which may leave them down", () =>
+    expect(feetPlan(on(0, 0, 0, 0), true, false).raise).toBe(true));
+  it("are lowered after it where a person wants it", () => {
+    expect(feetActions(feetPlan(on(0, 0, 0, 0), false, true))).toEqual({ after: [{ type: "lowerParking" }] });
+    expect(feetActions(feetPlan(on(0.1), false, true))).toEqual({
+      before: [{ type: "raiseParking" }],
+      after: [{ type: "lowerParking" }],
+    });
+  });
+  it("are nothing to a vehicle without any, or to none", () => {
+    expect(feetActions(feetPlan({ parking_feet: [] }, true, true))).toEqual({});
+    expect(feetActions(feetPlan(undefined as Vehicle | undefined, true, true))).toEqual({});
+  });
+});
+
+describe("the checks of a move that raises them first", () => {
+  const data = {
+    checks: [
+      { code: "parking_feet", result: "fail", params: { furthest_m: 0.12 } },
+      { code: "mode", result: "note", params: { reason: "parking_feet_down" } },
+      { code: "load", result: "fail", params: {} },
+    ],
+  } as unknown as DryRun;
+  const results = (raise: boolean) => {
+    const preview = previewWithFeet({ kind: "ready", data }, { raise, lower: false });
+    return preview.kind === "ready" ? preview.data.checks.map((c) => c.result) : undefined;
+  };
+  it("tell of them and wait for nothing else of theirs", () =>
+    expect(results(true)).toEqual(["note", "pass", "fail"]));
+  it("fail where it does not", () => expect(results(false)).toEqual(["fail", "note", "fail"]));
+  it("are left alone while there are none", () =>
+    expect(previewWithFeet({ kind: "none" }, { raise: true, lower: false })).toEqual({ kind: "none" }));
+});
