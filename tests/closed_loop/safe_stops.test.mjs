@@ -61,9 +61,14 @@ test("a wheel that slips: it stops, and nothing goes on without a person", async
   const stopped = await client.untilVehicle("TP-01", (v) => v.errors.some((error) => error.type === "wheelSlip"), "slips");
   assert.ok(stopped.errors.find((error) => error.type === "wheelSlip").fatal);
   await standsStill("TP-01");
-  assert.notEqual((await client.get(`/api/v1/job-orders/${order.id}`)).state, "Ended");
-  // It stands before its next state says so.
-  await client.untilVehicle("TP-01", (v) => v.reason?.code === "vehicle_error", "says why it stands");
+  const held = await client.get(`/api/v1/job-orders/${order.id}`);
+  assert.deepEqual([held.state, held.reason.code, held.reason.params.type], ["Interrupted", "vehicle_error", "wheelSlip"]);
+  // The wheel slips on: a person's word brings it as far as its next turns.
+  const stood = system.lastTruth("TP-01");
+  await client.post("/api/v1/fleet/resume", { vehicles: ["TP-01"] });
+  await until("it tries again", () => Math.hypot(system.lastTruth("TP-01").x_m - stood.x_m, system.lastTruth("TP-01").y_m - stood.y_m) > 0.001);
+  await client.untilVehicle("TP-01", (v) => v.needs_resume_reason?.code === "vehicle_error", "asks again");
+  await standsStill("TP-01");
 });
 
 test("dark cameras: the stop is not measured, the order is interrupted and says why", async () => {

@@ -33,7 +33,8 @@ bool is_about_vehicle(const Reason& reason) {
         reasons::kForeignOrder,     reasons::kIdentityConflict,
         reasons::kVehicleWithdrawn, reasons::kLoadOnWithdrawnVehicle,
         reasons::kDrivenByHand,     reasons::kPoseJumped,
-        reasons::kPoseLost,         reasons::kCommandExpired};
+        reasons::kPoseLost,         reasons::kCommandExpired,
+        reasons::kVehicleError};
     return std::any_of(std::begin(kCodes), std::end(kCodes),
                        [&](const char* code) { return reason.code == code; });
 }
@@ -191,7 +192,10 @@ Status Fleet::resume_fleet(const std::vector<plant::VehicleId>& vehicles, const 
         live.connection_refused = false;
         fleet.out.fleet_changed = true;
         fleet.store(live);
-        if (was_paused || live.state.paused) pause_motion(fleet, live, vda5050::kStopPause, now);
+        // It is also what a vehicle is let go on with that has stopped for an error of its own.
+        if (was_paused || live.state.paused || fatal_error(live)) {
+            pause_motion(fleet, live, vda5050::kStopPause, now);
+        }
         if (is_in_doubt(live)) end_doubt(fleet, live, now);
 
         resume_leg(fleet, live, actor, now);

@@ -61,6 +61,18 @@ void note_errors(FleetState& fleet, LiveVehicle& live,
     }
 }
 
+/// With a fatal error it has stopped of itself, and only a person knows whether it may go on. Whom
+/// a person has let go on meanwhile has not heard of it yet.
+void watch_fatal_error(FleetState& fleet, LiveVehicle& live, Time now) {
+    const auto* error = fatal_error(live);
+    if (!error || is_asked(live, vda5050::kStopPause)) return;
+    if (live.record.integration != Integration::kUtilise) return;
+    require_person(fleet, live,
+                   {reasons::kVehicleError,
+                    {{"vehicle", live.record.id.str()}, {"type", error->type}}},
+                   now);
+}
+
 /// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing
 /// moves it but they, and after the second nothing does until a person says so here.
 void watch_mode(FleetState& fleet, LiveVehicle& live, const std::string& before, Time now) {
@@ -91,6 +103,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     // What it has passed is where it says to be; on that nothing is freed or measured.
     if (live.has_leg() && !is_in_doubt(live)) handle_leg_progress(fleet, live, now);
     watch_foreign_order(fleet, live, now);
+    watch_fatal_error(fleet, live, now);
     if (!state.driving) hold_where_it_stands(fleet, live, now);
     halt_or_resume(fleet, live, now);
     offer_seen_pose(fleet, live, stated_before, now);

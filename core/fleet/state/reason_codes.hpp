@@ -15,6 +15,7 @@ inline constexpr const char* kIdentityConflict = "identity_conflict";
 inline constexpr const char* kVehicleWithdrawn = "vehicle_withdrawn";
 inline constexpr const char* kLoadOnWithdrawnVehicle = "load_on_withdrawn_vehicle";
 inline constexpr const char* kDrivenByHand = "driven_by_hand";
+inline constexpr const char* kVehicleError = "vehicle_error";
 inline constexpr const char* kPoseJumped = "pose_jumped";
 inline constexpr const char* kPoseLost = "pose_lost";
 inline constexpr const char* kCommandExpired = "command_expired";

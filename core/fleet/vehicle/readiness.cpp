@@ -78,13 +78,6 @@ bool rests_on_a_word(const VehicleRecord& record) {
            record.basis->driven_m < kDrivenOff_m;
 }
 
-const vda5050::VehicleError* fatal_error(const LiveVehicle& live) {
-    const auto& errors = live.state.errors;
-    const auto found = std::find_if(errors.begin(), errors.end(),
-                                    [](const vda5050::VehicleError& error) { return error.fatal; });
-    return found == errors.end() ? nullptr : &*found;
-}
-
 bool order_is_paused(const FleetState& fleet, const LiveVehicle& live) {
     const JobOrder* order = fleet.orders.of(live.record.id);
     return order && order->pause_requested;
@@ -168,7 +161,7 @@ Reason reason_of(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time
         case Bar::kFieldViolation:
             return because("field_violation");
         case Bar::kFatalError:
-            return because("vehicle_error", {{"type", fatal_error(live)->type}});
+            return because(reasons::kVehicleError, {{"type", fatal_error(live)->type}});
         case Bar::kPausesItself:
             return because(reasons::kVehiclePaused);
         case Bar::kForeignOrder:
@@ -284,6 +277,13 @@ bool lifts_move(const LiveVehicle& live) {
 bool is_vague(const vda5050::StateMessage& state) { return state.deviation_range_m > kHeld_m; }
 
 bool is_automatic(const LiveVehicle& live) { return live.state.operating_mode == "AUTOMATIC"; }
+
+const vda5050::VehicleError* fatal_error(const LiveVehicle& live) {
+    const auto& errors = live.state.errors;
+    const auto found = std::find_if(errors.begin(), errors.end(),
+                                    [](const vda5050::VehicleError& error) { return error.fatal; });
+    return found == errors.end() ? nullptr : &*found;
+}
 
 bool has_foreign_order(const LiveVehicle& live) {
     const vda5050::StateMessage& state = live.state;

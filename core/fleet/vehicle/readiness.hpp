@@ -17,6 +17,8 @@ bool is_on_its_way(const LiveVehicle& live);
 bool is_vague(const vda5050::StateMessage& state);
 /// False while a person drives it at the vehicle itself (VDA 5050 operatingMode).
 bool is_automatic(const LiveVehicle& live);
+/// It has stopped of itself and needs a person (VDA 5050 errorLevel FATAL); nullptr: it has not.
+const vda5050::VehicleError* fatal_error(const LiveVehicle& live);
 /// It has given up its order, or done all of it.
 bool has_nothing_left(const vda5050::StateMessage& state);
 /// It carries out an order that this server has not given, or has forgotten.

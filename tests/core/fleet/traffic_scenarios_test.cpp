@@ -104,6 +104,7 @@ TEST(TrafficScenarios, AnOrderThatHasWaitedLongGoesBeforeYoungerOnesForTheSameSt
     world.run(5);
     EXPECT_EQ(order_of(world, "V3").reason.code, "goes_first");
     broken.clear();
+    ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V2")}, "op", world.now));
     world.run(300);
 
     for (const char* id : {"V1", "V3"})
@@ -203,6 +204,7 @@ TEST(TrafficScenarios, OnTheOnlyRoadABreakdownIsWaitedForWithItsName) {
     EXPECT_EQ(order_of(world, "V1").reason.code, "floor_held");
 
     world.vehicle("V2").state.errors.clear();
+    ASSERT_TRUE(world.fleet->resume_fleet({VehicleId("V2")}, "op", world.now));
     world.run(600);
 
     EXPECT_EQ(order_of(world, "V1").state, JobState::kEnded) << "it made way once it could";
