@@ -23,7 +23,7 @@ constexpr std::size_t kMostParts = 64;  // wheels, brackets, feet or cameras of 
 /// From the program, first of all. Before it nothing else is taken.
 struct Hello {
     std::uint16_t version = kVersion;
-    double cycle_s = 0.01;     // between two set points
+    double cycle_s = 0.01;    // between two set points
     double watchdog_s = 0.1;  // without one for so long the brakes fall in
     bool operator==(const Hello&) const = default;
 };

@@ -94,7 +94,7 @@ test("sent while it stands on its feet, and parked where it arrives: raised firs
   await untilIt((v) => v.lift?.type === "lowerParking" && v.lift.state === "done", "stands on its feet");
   const page = await signedIn(browser, system, "operator", { path: "/send" });
   await page.goto(`${system.url}/send?vehicle=${kId}&station=1`);
-  await page.getByText(/Raised before it leaves: 0\.1\d m/).waitFor({ timeout: 20_000 });
+  await page.getByText(/Raised before it leaves: 0\.1\d.m out/).waitFor({ timeout: 20_000 });
   await page.getByText("Lower its feet on arrival").click();
   await page.getByText("It raises its feet first.").waitFor();
   await page.getByText("On arrival it lowers its feet.").waitFor();

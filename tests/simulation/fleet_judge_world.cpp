@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/vda5050/actions.hpp"
+#include "core/onboard/acceptance.hpp"
 #include "tests/simulation/fleet_judge_plant.hpp"
 
 namespace pulseline::fleet_judge {
@@ -151,7 +151,9 @@ void World::carry_messages() {
             fleet_->vehicle_connected(id, now());
             if (vehicles_.at(id).type().parking) {
                 vda5050::Factsheet sheet;
-                sheet.instant_actions = {vda5050::kLowerParking, vda5050::kRaiseParking};
+                sheet.node_actions = onboard::stop_action_types();
+                sheet.instant_actions = onboard::instant_action_types(vehicles_.at(id).type());
+                sheet.actions = sheet.instant_actions;
                 fleet_->vehicle_factsheet(id, sheet, now());
             }
         }

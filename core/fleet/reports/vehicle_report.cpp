@@ -67,10 +67,9 @@ void watch_fatal_error(FleetState& fleet, LiveVehicle& live, Time now) {
     const auto* error = fatal_error(live);
     if (!error || is_asked(live, vda5050::kStopPause)) return;
     if (live.record.integration != Integration::kUtilise) return;
-    require_person(fleet, live,
-                   {reasons::kVehicleError,
-                    {{"vehicle", live.record.id.str()}, {"type", error->type}}},
-                   now);
+    require_person(
+        fleet, live,
+        {reasons::kVehicleError, {{"vehicle", live.record.id.str()}, {"type", error->type}}}, now);
 }
 
 /// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing

@@ -33,8 +33,7 @@ public:
     const std::vector<kinematics::WheelMotion>& measured() const override {
         return wheels_.measured();
     }
-    bool aligned(std::span<const kinematics::WheelMotion> wanted,
-                 double limit_rad) const override {
+    bool aligned(std::span<const kinematics::WheelMotion> wanted, double limit_rad) const override {
         return wheels_.aligned(wanted, limit_rad);
     }
     bool settled() const override { return wheels_.settled(); }
