@@ -14,6 +14,7 @@ using geometry::Point2;
 using kinematics::Segment;
 
 constexpr int kMostInVain = 2;
+constexpr int kMostPasses = 2;  // times passes_outside, while each comes nearer
 // How much worse than the best it may stand when it gives up: what no move repeats.
 constexpr double kNearlyBest = 1.5;
 
@@ -40,7 +41,9 @@ Result<std::vector<Segment>> Adjustment::next(const Pose2& body_from_target,
         return refuse("too_far_from_target", "the target is out of reach of small moves");
     }
     const bool outside = is_outside(body_from_target, limits_);
-    if (passes_ >= (outside ? limits_.passes_outside : limits_.passes)) {
+    // A shunt within its reach moves it aside by 3 mm at most: who arrives 30 mm off has far to go.
+    const bool comes_nearer = outside && better && passes_ < kMostPasses * limits_.passes_outside;
+    if (passes_ >= (outside ? limits_.passes_outside : limits_.passes) && !comes_nearer) {
         return refuse("out_of_tolerance", "the passes are used up");
     }
     const bool nearly_best = badness <= kNearlyBest * badness_of(*best_, limits_);

@@ -18,7 +18,7 @@ struct AdjustmentLimits {
     /// made. 0: none, what is left is never refused.
     double accept_m = 0;
     double accept_rad = 0;
-    int passes_outside = 12;
+    int passes_outside = 12;  // twice as many while each comes nearer
 };
 
 /// True where a vehicle may not stay (AdjustmentLimits::accept_m).

@@ -67,6 +67,7 @@ void watch_fatal_error(FleetState& fleet, LiveVehicle& live, Time now) {
     const auto* error = fatal_error(live);
     if (!error || is_asked(live, vda5050::kStopPause)) return;
     if (live.record.integration != Integration::kUtilise) return;
+    if (!live.record.pose_known) return;  // a person says where it stands, and may let it go then
     require_person(
         fleet, live,
         {reasons::kVehicleError, {{"vehicle", live.record.id.str()}, {"type", error->type}}}, now);

@@ -270,6 +270,23 @@ TEST(Adjustment, FromOutsideOfWhatIsAcceptedAnyMoveIsBetterThanNone) {
     EXPECT_EQ(refused, 0);
 }
 
+// Within its reach a vehicle that cannot go sideways moves aside by three millimetres a pass.
+TEST(Adjustment, FarOffItGoesOnAsLongAsEachPassComesNearer) {
+    const auto type = differential();
+    AdjustmentLimits limits;
+    limits.accept_m = 5e-4;
+    Adjustment loop(type, limits);
+    SimpleVehicle vehicle{1, 0, 0};
+    Pose2 target{-0.004, 0.04, radians(0.1)};
+    for (;;) {
+        const auto moves = loop.next(target, {});
+        ASSERT_TRUE(moves) << moves.error().what;
+        if (moves->empty() || !is_outside(target, limits)) break;
+        target = inverse(vehicle.drive(*moves)) * target;
+    }
+    EXPECT_GT(loop.passes(), limits.passes_outside);
+}
+
 TEST(Adjustment, OutsideItEndsAllTheSameWhenAVehicleNeverComesInside) {
     const auto type = mecanum();
     AdjustmentLimits limits;

@@ -59,6 +59,22 @@ TEST(FatalError, APersonsWordReachesTheVehicleAndIsAskedForAgainWhereItDoesNotHe
     EXPECT_EQ(world.only_order().state, JobState::kInterrupted);
 }
 
+// It is asked where it stands, and that is enough for one that was on no way.
+TEST(FatalError, WhoIsLostWhereItStandsNeedsOnlyToBeToldWhere) {
+    World world;
+    world.connect_all();
+    FakeVehicle& vehicle = world.vehicle("V1");
+    vehicle.sees_codes = false;
+    vehicle.state.cameras.clear();
+    vehicle.state.position_initialized = false;
+    vehicle.state.errors.push_back({"contoursLost", true, "its map is another", {}});
+    world.run(2);
+    ASSERT_TRUE(world.fleet->init_position(kV1, {*vehicle.state.pose}, "op", world.now));
+    vehicle.state.errors.clear();
+    world.run(2);
+    EXPECT_FALSE(world.store.vehicles.at(kV1).needs_resume);
+}
+
 TEST(FatalError, WhatPassesByItselfNeedsNobody) {
     World world;
     world.connect_all();
