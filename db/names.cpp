@@ -107,6 +107,12 @@ void read(const std::string& name, plant::AreaKind& to) {
                name, to);
 }
 
+void read(const std::string& name, plant::LoadKind& to) {
+    find_plain(
+        {plant::LoadKind::kAirframe, plant::LoadKind::kProduct, plant::LoadKind::kInstrument}, name,
+        to);
+}
+
 std::int64_t count(std::int64_t value) {
     constexpr std::int64_t kMost = std::int64_t{1} << 53;  // JSON's readers hold no more
     if (value >= 0 && value <= kMost) return value;

@@ -26,6 +26,7 @@ void read(const std::string& name, plant::MotionMode& to);
 void read(const std::string& name, plant::Kinematics& to);
 void read(const std::string& name, plant::MarkerKind& to);
 void read(const std::string& name, plant::AreaKind& to);
+void read(const std::string& name, plant::LoadKind& to);
 
 /// The value, or db::Error when nobody can go on counting from it.
 std::int64_t count(std::int64_t value);

@@ -1,3 +1,4 @@
+#include "api/http/loads/load_handlers.hpp"
 #include "api/http/orders/job_order_handlers.hpp"
 #include "api/http/orders/schedule_handlers.hpp"
 #include "api/http/orders/template_handlers.hpp"
@@ -69,6 +70,10 @@ std::span<const Route> routes() {
          kOperator,
          {},
          integrate_vehicle},
+
+        {"GET", "/api/v1/loads", "listLoads", kViewer, {}, list_loads},
+        {"GET", "/api/v1/loads/{id}", "getLoad", kViewer, {}, get_load},
+        {"PUT", "/api/v1/loads/{id}/place", "placeLoad", kOperator, {}, place_load},
 
         {"GET", "/api/v1/fleet", "getFleet", kViewer, {}, get_fleet},
         {"POST", "/api/v1/fleet/pause", "pauseFleet", kOperator, {}, pause_fleet},

@@ -141,7 +141,7 @@ Result<Localization> localize(const plant::Plant& plant, const LocalizationQuest
         }
     }
     const auto prints = prints_of(plant);
-    const bool loaded = plant::is_loaded(*vehicle);
+    const bool loaded = plant::first_load(plant, vehicle->id) != nullptr;
     const auto cameras = plant::cameras_of(*type, loaded);
     for (std::size_t i = 0; i < question.images.size(); ++i) {
         const CameraImage& image = question.images[i];

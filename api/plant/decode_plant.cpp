@@ -60,6 +60,10 @@ Station decode_station(ObjectReader& in) {
     station.node = decode_key_or_none<NodeId>(in, "node");
     station.resting_place = in.boolean_or("resting_place", false);
     station.charger = in.boolean_or("charger", false);
+    if (auto support = in.object_if_any("support")) {
+        station.support = Support{support->number_or("height_m", Support{}.height_m, kMetres)};
+        support->refuse_unknown();
+    }
     station.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
     return station;
 }
@@ -134,9 +138,24 @@ Vehicle decode_vehicle(ObjectReader& in) {
     vehicle.serial_number = in.text("serial_number", kId);
     vehicle.name = in.text("name", kName);
     vehicle.home = decode_key<StationId>(in, "home");
-    vehicle.load_name = in.text_or("load_name", "", kName);
-    vehicle.load_kg = in.number_or("load_kg", 0, kQuantity);
     return vehicle;
+}
+
+Load decode_load(ObjectReader& in) {
+    Load load;
+    load.id = decode_key<LoadId>(in, "id");
+    load.name = in.text_or("name", load.id.str(), kName);
+    load.names = decode_names(in);
+    load.kind = in.one_of_or("kind", load.kind,
+                             {LoadKind::kAirframe, LoadKind::kProduct, LoadKind::kInstrument});
+    load.model = in.text_or("model", "", kName);
+    load.mass_kg = in.number_or("mass_kg", 0, kQuantity);
+    if (auto centre = in.object_if_any("centre")) load.centre = decode_point(*centre);
+    if (in.has("outline")) load.outline = decode_ring(in, "outline");
+    load.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
+    load.vehicle = decode_key_or_none<VehicleId>(in, "vehicle");
+    load.station = decode_key_or_none<StationId>(in, "station");
+    return load;
 }
 
 RoadmapNode decode_node(ObjectReader& in) {
@@ -192,6 +211,7 @@ Plant decode_plant(const Json& json, FieldErrors& errors) {
     decode_all(in, "areas", kMany, plant.areas, decode_area);
     decode_all(in, "vehicle_types", kFew, plant.vehicle_types, decode_vehicle_type);
     decode_all(in, "vehicles", kMany, plant.vehicles, decode_vehicle);
+    decode_all(in, "loads", kMany, plant.loads, decode_load, false);
     ObjectReader roadmap = in.object("roadmap");
     decode_all(roadmap, "nodes", kMany, plant.nodes, decode_node);
     decode_all(roadmap, "edges", kMany, plant.edges, decode_edge);

@@ -61,6 +61,7 @@ Json encode(const Station& s) {
                  {"charger", s.charger},
                  {"vehicle_types", encode(s.vehicle_types)}};
     if (!s.node.empty()) json["node"] = s.node.str();
+    if (s.support) json["support"] = {{"height_m", s.support->height_m}};
     put_names(json, s.names);
     return json;
 }
@@ -187,6 +188,21 @@ Json encode(const VehicleType& t);
 Json encode(const Vehicle& v);
 Json encode(const RoadmapNode& n);
 
+Json encode(const Load& load) {
+    Json json = {{"id", load.id.str()},
+                 {"name", load.name},
+                 {"kind", to_string(load.kind)},
+                 {"mass_kg", load.mass_kg}};
+    if (!load.model.empty()) json["model"] = load.model;
+    if (!(load.centre == Point2{})) json["centre"] = encode(load.centre);
+    if (!load.outline.empty()) json["outline"] = encode(load.outline);
+    if (!load.vehicle_types.empty()) json["vehicle_types"] = encode(load.vehicle_types);
+    if (!load.vehicle.empty()) json["vehicle"] = load.vehicle.str();
+    if (!load.station.empty()) json["station"] = load.station.str();
+    put_names(json, load.names);
+    return json;
+}
+
 template <class T>
 Json encode_all(const std::vector<T>& items) {
     Json list = Json::array();
@@ -243,9 +259,7 @@ Json encode(const Vehicle& v) {
             {"manufacturer", v.manufacturer},
             {"serial_number", v.serial_number},
             {"name", v.name},
-            {"home", v.home.str()},
-            {"load_name", v.load_name},
-            {"load_kg", v.load_kg}};
+            {"home", v.home.str()}};
 }
 
 Json encode(const RoadmapNode& n) {
@@ -309,6 +323,7 @@ Json encode_plant(const Plant& plant, PlantForm form) {
     if (plant.routing.accuracy_k > 0) json["routing"]["accuracy_k"] = plant.routing.accuracy_k;
     if (!plant.transmitters.empty()) json["transmitters"] = encode_all(plant.transmitters);
     if (!plant.reflectors.empty()) json["reflectors"] = encode_all(plant.reflectors);
+    if (!plant.loads.empty()) json["loads"] = encode_all(plant.loads);
     put_names(json, plant.names);
     return json;
 }

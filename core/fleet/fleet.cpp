@@ -244,13 +244,18 @@ Outputs Fleet::take_outputs(Time now) {
     for (const auto& id : std::exchange(fleet.stored_vehicles, {})) {
         if (const LiveVehicle* live = fleet.find(id)) out.records.vehicles.push_back(live->record);
     }
+    for (const auto& id : std::exchange(fleet.stored_loads, {})) {
+        out.records.loads.push_back(fleet.loads.at(id));
+    }
     const auto changed = std::exchange(fleet.changed_vehicles, {});
+    auto stations = std::exchange(fleet.changed_stations, {});
     if (with_views_) {
         for (const auto& id : changed) {
             if (const LiveVehicle* live = fleet.find(id))
                 out.vehicles.push_back(view_of(fleet, *live, now));
         }
-        for (const auto& id : station_news_->of(fleet, changed)) {
+        stations.merge(station_news_->of(fleet, changed));
+        for (const auto& id : stations) {
             const auto* station = plant::find_station(fleet.plant, id);
             if (station) out.stations.push_back(station_view(fleet, *station));
         }

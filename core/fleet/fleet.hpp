@@ -107,6 +107,11 @@ public:
     /// Whatever of them moves stays where it is, as part of an order, too. Errors: unknown_vehicle,
     /// unknown_lift, why it does not hear.
     Result<VehicleView> stop_lifts(const plant::VehicleId& id, const std::string& actor, Time now);
+    /// A person says where a load is, or that it has left the plant. The vehicles concerned stand
+    /// without an order. Errors: unknown_load, unknown_vehicle, unknown_station, and why not, each
+    /// with its remedy (vehicle/loads.hpp, floor/carrying.hpp).
+    Result<LoadRecord> place_load(const plant::LoadId& id, const LoadPlace& where,
+                                  const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
     Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
                         Time now);
@@ -182,6 +187,8 @@ public:
     std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now,
                                        bool with_leg = true) const;
     std::vector<VehicleView> vehicles(Time now) const;
+    std::vector<LoadRecord> loads() const;  // by id
+    std::optional<LoadRecord> load(const plant::LoadId& id) const;
     std::vector<StationView> stations() const;
     std::optional<StationView> station(int number) const;
     FleetView view(Time now) const;

@@ -14,6 +14,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 
 namespace pulseline::fleet {
@@ -84,6 +85,7 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
         if (vehicle.paused) bring_back(vehicle.paused->at, now);
         if (vehicle.basis) bring_back(vehicle.basis->at, now);
     }
+    for (auto& load : stored.loads) bring_back(load.at, now);
     for (auto& key : stored.idempotency) bring_back(key.at, now);
     for (auto& closure : stored.closures) bring_back(closure.created, now);
     for (auto& schedule : stored.schedules) {
@@ -141,6 +143,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         live->record = std::move(record);
         count_unseen_drive(*live);
     }
+    restore_loads(fleet, std::move(stored.loads), now);
     rebuild_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);

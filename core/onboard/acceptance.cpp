@@ -217,7 +217,9 @@ std::vector<std::string> instant_action_types(const plant::VehicleType& type) {
         vda5050::kAdjustToMarker, vda5050::kMeasureStop,      vda5050::kStopCharging};
     if (!type.receivers.empty()) types.emplace_back(vda5050::kSetTransmitters);
     if (type.navigation_scanner) types.emplace_back(vda5050::kSetReflectors);
-    if (!type.brackets.empty()) types.emplace_back(vda5050::kSetBracketHeight);
+    if (!type.brackets.empty()) {
+        types.insert(types.end(), {vda5050::kSetBracketHeight, vda5050::kPick, vda5050::kDrop});
+    }
     if (type.parking) {
         types.insert(types.end(), {vda5050::kRaiseParking, vda5050::kLowerParking});
     }

@@ -26,6 +26,11 @@ public:
     virtual void abort() = 0;
     /// Plugged in or on its feet: it must not drive.
     virtual bool holds_vehicle() const = 0;
+    /// What the load cells of its brackets show now, and how high these are; empty: it has none.
+    virtual std::vector<vda5050::BracketStatus> brackets() { return {}; }
 };
+
+/// "bracket_force_out_of_range: bracket front left, force_n 81234, limit_n 80000"
+std::string sentence_of(const Reason& reason);
 
 }  // namespace pulseline::onboard

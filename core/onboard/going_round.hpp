@@ -19,6 +19,7 @@ public:
                Executor& executor)
         : type_(type), loaded_(loaded), drive_(drive), look_out_(look_out), executor_(executor) {}
 
+    void carry(bool loaded) { loaded_ = loaded; }
     /// After the look-out's step, before the executor's.
     void step(double dt_s);
     /// True once after it began or ended to go round, or the reason not to has changed.

@@ -41,10 +41,15 @@ bool still(const Twist& twist) {
 
 }  // namespace
 
-LookOut::LookOut(Scanners& scanners, const plant::Vehicle& vehicle, Drive& drive)
+LookOut::LookOut(Scanners& scanners, bool loaded, Drive& drive)
     : scanners_(scanners), drive_(drive) {
-    for (const Polygon& piece : plant::outline_with_load(drive.type(), plant::is_loaded(vehicle))) {
-        fields_.emplace_back(drive.type(), piece);
+    carry(loaded);
+}
+
+void LookOut::carry(bool loaded) {
+    fields_.clear();
+    for (const Polygon& piece : plant::outline_with_load(drive_.type(), loaded)) {
+        fields_.emplace_back(drive_.type(), piece);
     }
 }
 

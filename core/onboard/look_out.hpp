@@ -20,7 +20,9 @@ public:
     static constexpr const char* kBlind = "scannerBlind";
 
     /// `drive` is slowed down by it; both must outlive it.
-    LookOut(Scanners& scanners, const plant::Vehicle& vehicle, Drive& drive);
+    LookOut(Scanners& scanners, bool loaded, Drive& drive);
+    /// Its body is that with the usual load of its type from now on, or that without.
+    void carry(bool loaded);
 
     /// Before what bars its run it stops with room to swing out, instead of driving up to it as
     /// near as the fields let it: for a vehicle that may go round.

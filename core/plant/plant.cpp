@@ -47,7 +47,11 @@ const RoadmapNode* find_node(const Plant& plant, const NodeId& id) {
     return find_id(plant.nodes, id);
 }
 
-bool is_loaded(const Vehicle& vehicle) { return vehicle.load_kg > 0 || !vehicle.load_name.empty(); }
+const Load* find_load(const Plant& plant, const LoadId& id) { return find_id(plant.loads, id); }
+const Load* first_load(const Plant& plant, const VehicleId& vehicle) {
+    if (vehicle.empty()) return nullptr;
+    return find(plant.loads, [&](const Load& load) { return load.vehicle == vehicle; });
+}
 
 Polygon corridor_band(Point2 from, Point2 to, const Corridor& corridor, double beyond_m) {
     const Point2 ahead = (1 / geometry::distance(from, to)) * (to - from);
@@ -74,6 +78,18 @@ const char* to_string(AreaKind kind) {
 
 const char* to_string(Tolerance::Shape shape) {
     return shape == Tolerance::Shape::kBox ? "box" : "ellipse";
+}
+
+const char* to_string(LoadKind kind) {
+    switch (kind) {
+        case LoadKind::kAirframe:
+            return "airframe";
+        case LoadKind::kProduct:
+            return "product";
+        case LoadKind::kInstrument:
+            return "instrument";
+    }
+    return "product";
 }
 
 }  // namespace pulseline::plant

@@ -23,7 +23,9 @@ using AreaId = Key<struct AreaTag>;
 using VehicleId = Key<struct VehicleTag>;
 using TransmitterId = Key<struct TransmitterTag>;
 using ReflectorId = Key<struct ReflectorTag>;
+using LoadId = Key<struct LoadTag>;
 
+enum class LoadKind { kAirframe, kProduct, kInstrument };
 enum class AreaKind { kZone, kLane, kNoGo, kObstacle };
 
 struct Hall {
@@ -45,6 +47,13 @@ struct Tolerance {
     double dheading_rad = 0.2 * 3.14159265358979323846 / 180.0;
 };
 
+/// Hoist or stands at a station, on which a load can hang or stand while no vehicle carries it
+/// (Tang 2020, Fig. 4: station 0, preparation and hoisting).
+struct Support {
+    double height_m = 0.12;  // of the brackets of a vehicle below, at which they touch the load
+    bool operator==(const Support&) const = default;
+};
+
 struct Station {
     StationId id;
     int number = 0;  // what people and codes say; unique in the plant
@@ -56,6 +65,7 @@ struct Station {
     NodeId node;                    // its roadmap node
     bool resting_place = false;     // vehicles may be sent there to wait
     bool charger = false;           // a vehicle standing there can charge; also a resting place
+    std::optional<Support> support = {};       // none: loads come and go on vehicles only
     std::vector<VehicleTypeId> vehicle_types;  // who may stop there; empty: everybody
     Names names;
 };
@@ -129,9 +139,24 @@ struct Vehicle {
     std::string manufacturer;   // VDA 5050 identity
     std::string serial_number;  // [A-Za-z0-9_.:-]+
     std::string name;
-    StationId home;         // where the simulated one starts and where it rests
-    std::string load_name;  // what it carries in the demo, e.g. "A-103"; empty: nothing
-    double load_kg = 0;
+    StationId home;  // where the simulated one starts and where it rests
+};
+
+/// A thing that vehicles carry: an aircraft, a product, an instrument. Where it is changes as the
+/// plant works and is the fleet's to know; here stands only where it is at first.
+struct Load {
+    LoadId id;
+    std::string name;  // "A-101", as people say it
+    LoadKind kind = LoadKind::kAirframe;
+    std::string model;   // what it is one of; may be empty
+    double mass_kg = 0;  // 0: nobody has weighed it
+    Point2 centre;       // of gravity, from the middle of the brackets below it, along the body
+    Polygon outline;     // body frame of the vehicle below it; empty: what its type usually carries
+    std::vector<VehicleTypeId> vehicle_types;  // who may carry it; empty: whoever has brackets
+    // At first; both empty: it is not in the plant yet.
+    VehicleId vehicle;  // that carries it
+    StationId station;  // on whose support it is
+    Names names;
 };
 
 struct RoadmapNode {
@@ -182,6 +207,7 @@ struct Plant {
     std::vector<Area> areas;
     std::vector<VehicleType> vehicle_types;
     std::vector<Vehicle> vehicles;
+    std::vector<Load> loads;
     std::vector<RoadmapNode> nodes;
     std::vector<RoadmapEdge> edges;
     RoutingCost routing;
@@ -199,13 +225,15 @@ const Vehicle* find_vehicle(const Plant& plant, const VehicleId& id);
 const Vehicle* find_vehicle(const Plant& plant, const std::string& manufacturer,
                             const std::string& serial_number);
 const RoadmapNode* find_node(const Plant& plant, const NodeId& id);
-/// Whether the vehicle carries something that counts with its outline.
-bool is_loaded(const Vehicle& vehicle);
+const Load* find_load(const Plant& plant, const LoadId& id);
+/// What the vehicle carries at first; nullptr: nothing.
+const Load* first_load(const Plant& plant, const VehicleId& vehicle);
 /// The floor of a corridor along a straight way, `beyond_m` longer at both ends; convex. REQUIRES:
 /// the ends differ.
 Polygon corridor_band(Point2 from, Point2 to, const Corridor& corridor, double beyond_m);
 
 const char* to_string(AreaKind kind);           // "zone", "lane", "no_go", "obstacle"
 const char* to_string(Tolerance::Shape shape);  // "box", "ellipse"
+const char* to_string(LoadKind kind);           // "airframe", "product", "instrument"
 
 }  // namespace pulseline::plant

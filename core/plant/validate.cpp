@@ -31,6 +31,7 @@ std::vector<Fault> validate(const Plant& plant) {
         detail::check_stations(plant, index, further);
         detail::check_igps(plant, index, further);
         detail::check_reflectors(plant, index, further);
+        detail::check_loads(plant, index, further);
         detail::check_roadmap(plant, index, further);
     }
     for (Fault& fault : further.take()) faults.push_back(std::move(fault));

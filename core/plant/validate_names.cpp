@@ -225,6 +225,7 @@ void check_names(const Plant& plant, const Index& index, Faults& faults) {
     check_ids(plant.areas, "areas", faults);
     check_ids(plant.vehicle_types, "vehicle_types", faults);
     check_ids(plant.vehicles, "vehicles", faults);
+    check_ids(plant.loads, "loads", faults);
     check_ids(plant.nodes, "roadmap/nodes", faults);
     check_ids(plant.edges, "roadmap/edges", faults);
     for (std::size_t i = 0; i < plant.transmitters.size(); ++i) {

@@ -256,6 +256,7 @@ void check_numbers(const Plant& plant, Faults& faults) {
         n.positive("/tolerance/dy_m", s.tolerance.dy_m);
         n.positive("/tolerance/dheading_rad", s.tolerance.dheading_rad);
         n.not_negative("/number", s.number);
+        if (s.support) n.not_negative("/support/height_m", s.support->height_m);
     }
     for (std::size_t i = 0; i < plant.markers.size(); ++i) {
         const Marker& m = plant.markers[i];
@@ -276,14 +277,10 @@ void check_numbers(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         check_type(plant.vehicle_types[i], at("vehicle_types", i), faults);
     }
-    for (std::size_t i = 0; i < plant.vehicles.size(); ++i) {
-        Numbers(at("vehicles", i), faults).not_negative("/load_kg", plant.vehicles[i].load_kg);
-        const VehicleType* type = find_vehicle_type(plant, plant.vehicles[i].type);
-        if (type != nullptr && plant.vehicles[i].load_kg > type->max_load_kg) {
-            faults.add(at("vehicles", i, "/load_kg"), "overloaded",
-                       "The load is more than its type may carry.",
-                       "Lower load_kg or correct max_load_kg of the type.");
-        }
+    for (std::size_t i = 0; i < plant.loads.size(); ++i) {
+        Numbers n(at("loads", i), faults);
+        n.not_negative("/mass_kg", plant.loads[i].mass_kg);
+        n.point("/centre", plant.loads[i].centre);
     }
     for (std::size_t i = 0; i < plant.nodes.size(); ++i) {
         Numbers(at("roadmap/nodes", i), faults).point("/position", plant.nodes[i].position);

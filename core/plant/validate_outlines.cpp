@@ -55,6 +55,10 @@ void check_outlines(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.areas.size(); ++i) {
         check_outline(plant.areas[i].outline, at("areas", i, "/outline"), faults);
     }
+    for (std::size_t i = 0; i < plant.loads.size(); ++i) {
+        if (plant.loads[i].outline.empty()) continue;
+        check_outline(plant.loads[i].outline, at("loads", i, "/outline"), faults);
+    }
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         const VehicleType& type = plant.vehicle_types[i];
         check_outline(type.footprint, at("vehicle_types", i, "/footprint"), faults);

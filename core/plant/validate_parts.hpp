@@ -58,6 +58,8 @@ void check_stations(const Plant& plant, const Index& index, Faults& faults);
 void check_igps(const Plant& plant, const Index& index, Faults& faults);
 /// Reflectors where a scanner can tell them apart, and enough of them. Needs the same.
 void check_reflectors(const Plant& plant, const Index& index, Faults& faults);
+/// Loads where they can be, one at a place, and none that nobody there may carry. Needs the same.
+void check_loads(const Plant& plant, const Index& index, Faults& faults);
 /// Nodes, edges, and stations to be reached over them.
 void check_roadmap(const Plant& plant, const Index& index, Faults& faults);
 

@@ -159,7 +159,7 @@ void check_homes(const Plant& plant, const Index& index, Faults& faults) {
                        "Set resting_place of the station or choose another home.");
         }
         Home home{i, *hall, {}};
-        const auto body = outline_with_load(**type, !vehicle.load_name.empty());
+        const auto body = outline_with_load(**type, first_load(plant, vehicle.id) != nullptr);
         const std::string what = in_the_way(plant, **hall, station.pose, body);
         if (!what.empty()) {
             faults.add(

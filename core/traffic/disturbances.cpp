@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "core/traffic/traffic.hpp"
 
@@ -52,6 +53,14 @@ Status Traffic::found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex 
     note_touched();
     tell_touched();
     return {};
+}
+
+Status Traffic::found_at(VehicleIndex vehicle, GraphIndex graph, const TileSet& stand,
+                         PlaceIndex place, Time now) {
+    const GraphIndex before = std::exchange(vehicles_[vehicle].graph, graph);
+    auto found = found_at(vehicle, stand, place, now);
+    if (!found) vehicles_[vehicle].graph = before;
+    return found;
 }
 
 ClosureIndex Traffic::close(const TileSet& tiles, Time) {

@@ -175,6 +175,9 @@ public:
     /// floor_held {vehicle, tile} when another holds floor there: nothing is changed but that the
     /// vehicle is halted; stop the other one first.
     Status found_at(VehicleIndex vehicle, const TileSet& stand, PlaceIndex place, Time now);
+    /// The same with another body, which drives by `graph` from now on.
+    Status found_at(VehicleIndex vehicle, GraphIndex graph, const TileSet& stand, PlaceIndex place,
+                    Time now);
     /// No grants into the tiles any more; who stands on closed floor may leave it, on any way that
     /// ends with no more of its body on closed floor.
     ClosureIndex close(const TileSet& tiles, Time now);

@@ -34,10 +34,18 @@ inline constexpr const char* kSetBracketHeight = "setBracketHeight";
 // Whatever of brackets and feet moves stays where it is: an instant action of vehicles with lifts.
 inline constexpr const char* kStopLifts = "stopLifts";
 
+// Takes a load over from what holds it, and sets it down there (VDA 5050, 6.8.2: loadId, weight).
+inline constexpr const char* kPick = "pick";
+inline constexpr const char* kDrop = "drop";
+
+inline bool is_transfer(std::string_view action_type) {
+    return action_type == kPick || action_type == kDrop;
+}
+
 /// Moves brackets or parking feet: at a node of an order, or by itself as an instant action.
 inline bool is_lift(std::string_view action_type) {
     return action_type == kRaiseParking || action_type == kLowerParking ||
-           action_type == kSetBracketHeight;
+           action_type == kSetBracketHeight || is_transfer(action_type);
 }
 
 // On an edge, while it is driven: look for these codes; go slowly enough to arrive precisely.

@@ -143,6 +143,7 @@ void StopRow::set(const fleet::StopRecord& s) {
     attempt = s.attempt;
     method = s.method;
     markers = texts_to_json(s.markers);
+    load = s.load.str();
     at_ns = to_ns(s.at);
 }
 
@@ -161,6 +162,7 @@ fleet::StopRecord StopRow::get() const {
     s.attempt = static_cast<int>(attempt);
     s.method = method;
     s.markers = texts_from_json(markers);
+    s.load = plant::LoadId(load);
     s.at = time_from_ns(at_ns);
     s.arrival.reset();
     if (has_arrival != 0) s.arrival = arrival;
@@ -189,6 +191,19 @@ fleet::Event EventRow::get() const {
     event.actor = actor;
     event.params = params_from_json(params);
     return event;
+}
+
+void LoadPlaceRow::set(const fleet::LoadRecord& load) {
+    id = load.id.str();
+    vehicle = load.vehicle.str();
+    station = load.station.str();
+    at_ns = to_ns(load.at);
+    actor = load.actor;
+}
+
+fleet::LoadRecord LoadPlaceRow::get() const {
+    return {plant::LoadId(id), plant::VehicleId(vehicle), plant::StationId(station),
+            time_from_ns(at_ns), actor};
 }
 
 void VehicleRow::set(const fleet::VehicleRecord& v) {

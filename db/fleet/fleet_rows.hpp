@@ -57,10 +57,11 @@ struct StopRow {
         "theoretical_y_m, theoretical_heading_rad, measured_x_m, measured_y_m, "
         "measured_heading_rad, dx_m, dy_m, dheading_rad, along_m, left_m, sigma_xy_m, "
         "sigma_heading_rad, tolerance_shape, tolerance_dx_m, tolerance_dy_m, "
-        "tolerance_dheading_rad, inside, attempt, method, markers, load_kg, at_ns, has_arrival, "
+        "tolerance_dheading_rad, inside, attempt, method, markers, load_kg, load, at_ns, "
+        "has_arrival, "
         "arrival_dx_m, arrival_dy_m, arrival_dheading_rad, arrival_expected_m, "
         "arrival_expected_rad";
-    std::string id, order_id, leg, vehicle, station, mode, tolerance_shape, method, markers;
+    std::string id, order_id, leg, vehicle, station, mode, tolerance_shape, method, markers, load;
     std::int64_t step = 0, station_number = 0, attempt = 0, at_ns = 0;
     int inside = 0, has_arrival = 0;
     fleet::Arrival arrival;
@@ -73,7 +74,7 @@ struct StopRow {
                         n.measured.x_m, n.measured.y_m, n.measured.heading_rad, n.dx_m, n.dy_m,
                         n.dheading_rad, n.along_m, n.left_m, n.sigma_xy_m, n.sigma_heading_rad,
                         tolerance_shape, n.tolerance.dx_m, n.tolerance.dy_m,
-                        n.tolerance.dheading_rad, inside, attempt, method, markers, n.load_kg,
+                        n.tolerance.dheading_rad, inside, attempt, method, markers, n.load_kg, load,
                         at_ns, has_arrival, arrival.dx_m, arrival.dy_m, arrival.dheading_rad,
                         arrival.expected_m, arrival.expected_rad);
     }
@@ -90,6 +91,17 @@ struct EventRow {
     auto fields() { return std::tie(seq, at_ns, type, order_id, leg, vehicle, actor, params); }
     void set(const fleet::Event& event);
     fleet::Event get() const;
+};
+
+/// Where a load is.
+struct LoadPlaceRow {
+    static constexpr const char* kColumns = "id, vehicle, station, at_ns, actor";
+    std::string id, vehicle, station, actor;
+    std::int64_t at_ns = 0;
+
+    auto fields() { return std::tie(id, vehicle, station, at_ns, actor); }
+    void set(const fleet::LoadRecord& load);
+    fleet::LoadRecord get() const;
 };
 
 struct VehicleRow {

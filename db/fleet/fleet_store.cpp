@@ -160,6 +160,7 @@ struct FleetStore::Statements {
           drop_events(sql, kDropEvents, std::tie(events_upto)),
           put_vehicle(sql, upsert_into("vehicles_state", VehicleRow::kColumns, "id"),
                       vehicle.fields()),
+          put_load(sql, upsert_into("loads_state", LoadPlaceRow::kColumns, "id"), load.fields()),
           put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
                   key.fields()),
           drop_keys(sql, kDropKeys, std::tie(keys_before)),
@@ -179,6 +180,7 @@ struct FleetStore::Statements {
     StopRow stop;
     EventRow event;
     VehicleRow vehicle;
+    LoadPlaceRow load;
     KeyRow key;
     ClosureRow closure;
     ScheduleRow schedule;
@@ -187,8 +189,8 @@ struct FleetStore::Statements {
     std::int64_t keys_before = 0;
     std::int64_t events_upto = 0;
     Statement put_order, put_step, drop_steps, put_stop, put_event, drop_events, put_vehicle,
-        put_key, drop_keys, put_closure, drop_closure, put_schedule, drop_schedule, put_template,
-        drop_template;
+        put_load, put_key, drop_keys, put_closure, drop_closure, put_schedule, drop_schedule,
+        put_template, drop_template;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -257,6 +259,10 @@ void FleetStore::commit(const fleet::Records& records) {
             s.vehicle.set(vehicle);
             s.put_vehicle.run();
             crash_point(CrashPoint::kCommitAfterVehicle);
+        }
+        for (const auto& load : records.loads) {
+            s.load.set(load);
+            s.put_load.run();
         }
         for (const auto& stop : records.stops) {
             s.stop.set(stop);
@@ -327,6 +333,12 @@ fleet::StoredFleet FleetStore::load() {
             std::tuple<>(), vehicle.fields());
         for (vehicles.start(); vehicles.fetch();) stored.vehicles.push_back(vehicle.get());
         check_legs(stored);
+
+        LoadPlaceRow load;
+        Statement loads(
+            sql, std::string("SELECT ") + LoadPlaceRow::kColumns + " FROM loads_state ORDER BY id",
+            std::tuple<>(), load.fields());
+        for (loads.start(); loads.fetch();) stored.loads.push_back(load.get());
 
         KeyRow key;
         Statement keys(sql,

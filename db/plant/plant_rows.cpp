@@ -200,6 +200,8 @@ void StationRow::set(const plant::Station& station) {
     charger = station.charger;
     vehicle_types = keys_to_json(station.vehicle_types);
     names = names_to_json(station.names);
+    has_support = station.support.has_value();
+    support_height_m = station.support ? station.support->height_m : 0;
 }
 
 plant::Station StationRow::get() const {
@@ -213,6 +215,7 @@ plant::Station StationRow::get() const {
     station.charger = charger != 0;
     station.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
     station.names = names_from_json(names);
+    if (has_support != 0) station.support = plant::Support{support_height_m};
     return station;
 }
 
@@ -229,6 +232,29 @@ plant::Vehicle PlantVehicleRow::get() const {
     vehicle.type = plant::VehicleTypeId(type);
     vehicle.home = plant::StationId(home);
     return vehicle;
+}
+
+void LoadRow::set(const plant::Load& load) {
+    element = load;
+    id = load.id.str();
+    kind = plant::to_string(load.kind);
+    outline = polygon_to_json(load.outline);
+    vehicle_types = keys_to_json(load.vehicle_types);
+    vehicle = load.vehicle.str();
+    station = load.station.str();
+    names = names_to_json(load.names);
+}
+
+plant::Load LoadRow::get() const {
+    plant::Load load = element;
+    load.id = plant::LoadId(id);
+    read(kind, load.kind);
+    load.outline = polygon_from_json(outline);
+    load.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
+    load.vehicle = plant::VehicleId(vehicle);
+    load.station = plant::StationId(station);
+    load.names = names_from_json(names);
+    return load;
 }
 
 }  // namespace pulseline::db

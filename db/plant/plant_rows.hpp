@@ -180,10 +180,11 @@ struct StationRow {
     static constexpr const char* kColumns =
         "position, id, number, name, hall, x_m, y_m, heading_rad, tolerance_shape, tolerance_dx_m, "
         "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types, "
-        "charger, names";
+        "charger, names, has_support, support_height_m";
     std::int64_t position = 0;
     std::string id, hall, tolerance_shape, markers, node, vehicle_types, names;
-    int resting_place = 0, charger = 0;
+    int resting_place = 0, charger = 0, has_support = 0;
+    double support_height_m = 0;
     plant::Station element;
 
     auto fields() {
@@ -191,7 +192,7 @@ struct StationRow {
         return std::tie(position, id, s.number, s.name, hall, s.pose.x_m, s.pose.y_m,
                         s.pose.heading_rad, tolerance_shape, s.tolerance.dx_m, s.tolerance.dy_m,
                         s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types,
-                        charger, names);
+                        charger, names, has_support, support_height_m);
     }
     void set(const plant::Station& station);
     plant::Station get() const;
@@ -200,18 +201,35 @@ struct StationRow {
 struct PlantVehicleRow {
     static constexpr const char* kTable = "vehicles";
     static constexpr const char* kColumns =
-        "position, id, type, manufacturer, serial_number, name, home, load_name, load_kg";
+        "position, id, type, manufacturer, serial_number, name, home";
     std::int64_t position = 0;
     std::string id, type, home;
     plant::Vehicle element;
 
     auto fields() {
         auto& v = element;
-        return std::tie(position, id, type, v.manufacturer, v.serial_number, v.name, home,
-                        v.load_name, v.load_kg);
+        return std::tie(position, id, type, v.manufacturer, v.serial_number, v.name, home);
     }
     void set(const plant::Vehicle& vehicle);
     plant::Vehicle get() const;
+};
+
+struct LoadRow {
+    static constexpr const char* kTable = "loads";
+    static constexpr const char* kColumns =
+        "position, id, name, kind, model, mass_kg, centre_x_m, centre_y_m, outline, vehicle_types, "
+        "vehicle, station, names";
+    std::int64_t position = 0;
+    std::string id, kind, outline, vehicle_types, vehicle, station, names;
+    plant::Load element;
+
+    auto fields() {
+        auto& l = element;
+        return std::tie(position, id, l.name, kind, l.model, l.mass_kg, l.centre.x_m, l.centre.y_m,
+                        outline, vehicle_types, vehicle, station, names);
+    }
+    void set(const plant::Load& load);
+    plant::Load get() const;
 };
 
 }  // namespace pulseline::db

@@ -13,7 +13,7 @@ constexpr const char* kReadGrid = "SELECT grid FROM halls WHERE position = :posi
 // Later tables refer to earlier ones.
 constexpr const char* kTables[] = {"plant",         "halls",    "nodes",        "edges",
                                    "vehicle_types", "markers",  "transmitters", "reflectors",
-                                   "areas",         "stations", "vehicles"};
+                                   "areas",         "stations", "vehicles",     "loads"};
 
 template <class Row, class T>
 void write_all(soci::session& sql, const std::vector<T>& elements) {
@@ -95,6 +95,7 @@ std::optional<plant::Plant> read_plant(soci::session& sql) {
     read_all<AreaRow>(sql, plant.areas);
     read_all<StationRow>(sql, plant.stations);
     read_all<PlantVehicleRow>(sql, plant.vehicles);
+    read_all<LoadRow>(sql, plant.loads);
     return plant;
 }
 
@@ -141,6 +142,7 @@ std::int64_t PlantStore::import(const plant::Plant& plant) {
         write_all<AreaRow>(sql, plant.areas);
         write_all<StationRow>(sql, plant.stations);
         write_all<PlantVehicleRow>(sql, plant.vehicles);
+        write_all<LoadRow>(sql, plant.loads);
     });
     return revision;
 }

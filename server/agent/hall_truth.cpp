@@ -23,6 +23,18 @@ std::vector<simulation::FloorCode> codes_around(const simulation::World& world,
     return codes;
 }
 
+double first_load_kg(const plant::Plant& plant, const plant::Vehicle& vehicle) {
+    const auto* load = plant::first_load(plant, vehicle.id);
+    return load == nullptr ? 0 : load->mass_kg;
+}
+
+std::optional<simulation::TrueLoad> carried_at_first(const plant::Plant& plant,
+                                                     const plant::Vehicle& vehicle) {
+    const auto* load = plant::first_load(plant, vehicle.id);
+    if (load == nullptr) return std::nullopt;
+    return simulation::TrueLoad{load->id, load->mass_kg, load->centre};
+}
+
 std::vector<geometry::Pose2> charger_contacts(const plant::Plant& plant) {
     std::vector<geometry::Pose2> poses;
     for (const auto& station : plant.stations) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/simulation/world/floor_camera.hpp"
@@ -13,6 +14,10 @@ namespace pulseline::agent {
 std::vector<simulation::FloorCode> codes_around(const simulation::World& world,
                                                 const plant::HallId& hall,
                                                 const geometry::Pose2& true_pose, bool drawn);
+/// What lies on a vehicle when the world begins; nothing: it is empty.
+double first_load_kg(const plant::Plant& plant, const plant::Vehicle& vehicle);
+std::optional<simulation::TrueLoad> carried_at_first(const plant::Plant& plant,
+                                                     const plant::Vehicle& vehicle);
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> charger_contacts(const plant::Plant& plant);
 

@@ -158,7 +158,8 @@ Status run(const MachineOptions& options) {
                         " with a type and a home station");
     }
     plant::VehicleType loaded = *type;
-    loaded.cameras = plant::cameras_of(loaded, plant::is_loaded(*vehicle));
+    loaded.cameras =
+        plant::cameras_of(loaded, plant::first_load(world.plant, vehicle->id) != nullptr);
     auto pose = simulation::placed_pose(world, *vehicle, options.seed);
     if (!pose) return fail(pose.error());
     std::optional<TruthLog> truth;

@@ -16,6 +16,7 @@
 #include "core/simulation/machine/servo_drive.hpp"
 #include "core/simulation/world/scanners.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/hall_truth.hpp"
 
 namespace pulseline::agent {
 namespace {
@@ -131,9 +132,10 @@ Result<mapping::OccupancyMap> map_hall(const simulation::World& world,
                                        const std::function<void(double)>& progress,
                                        double within_m) {
     const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
-    const bool loaded = plant::is_loaded(vehicle);
+    const bool loaded = plant::first_load(world.plant, vehicle.id) != nullptr;
     const Pose2 start = way.front().start;
-    simulation::ServoDrive drive(type, start, seed, 1, vehicle.load_kg, world.errors);
+    simulation::ServoDrive drive(type, start, seed, 1, first_load_kg(world.plant, vehicle),
+                                 world.errors);
     drive.set_believed(start);
     CameraSensing cameras(world, hall, drive, false, seed, loaded);
     simulation::SimulatedScanners scanners(world, hall, type, drive.true_pose(), seed);

@@ -73,17 +73,20 @@ SimulatedController::SimulatedController(const simulation::World& world,
       type_(type),
       hall_(plant::find_station(world.plant, vehicle.home)->hall),
       wheels_(type, true_pose, simulation::seed_for(settings.seed, "motion " + vehicle.id.str()),
-              vehicle.load_kg, world.errors),
+              first_load_kg(world.plant, vehicle), world.errors),
       equipment_(type, wheels_.true_pose(), charger_contacts(world.plant),
-                 settings.battery_percent.value_or(kUsualBattery), 1, vehicle.load_kg,
+                 settings.battery_percent.value_or(kUsualBattery), 1,
+                 first_load_kg(world.plant, vehicle),
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       cameras_(type.cameras),
       random_(simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
       settings_(settings),
+      load_kg_(first_load_kg(world.plant, vehicle)),
       warm_k_(type.wheels.size()) {
+    equipment_.work_below(world.supports, hall_, carried_at_first(world.plant, vehicle));
+    const bool loaded = plant::first_load(world.plant, vehicle.id) != nullptr;
     for (auto& camera : cameras_) {
-        camera = simulation::true_camera(camera, world.errors.camera, plant::is_loaded(vehicle),
-                                         random_);
+        camera = simulation::true_camera(camera, world.errors.camera, loaded, random_);
     }
 }
 
@@ -164,6 +167,7 @@ std::optional<std::string> SimulatedController::drive(const SetPoints& points) {
         warm_k_[i] += kMachineCycle_s / kDriveHeatTime_s * (kDriveHeat_k * share - warm_k_[i]);
     }
     equipment_.step(kMachineCycle_s, fastest_mps * kMachineCycle_s);
+    if (std::exchange(load_kg_, equipment_.load_kg()) != load_kg_) wheels_.set_load(load_kg_);
     return std::nullopt;
 }
 

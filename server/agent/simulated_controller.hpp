@@ -57,6 +57,7 @@ private:
     std::vector<plant::Camera> cameras_;  // as they truly hang
     std::mt19937_64 random_;
     Settings settings_;
+    double load_kg_;
     std::optional<machine::Hello> hello_;
     std::optional<std::uint32_t> lift_;  // under way
     bool braked_ = true;

@@ -26,15 +26,13 @@ geometry::Polygon thing_at(geometry::Point2 place) {
     return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
 }
 
-std::unique_ptr<simulation::SimulatedDrive> make_drive(const plant::VehicleType& type,
-                                                       const plant::Vehicle& vehicle,
-                                                       const geometry::Pose2& true_pose,
-                                                       const SimulationSettings& settings,
-                                                       const localisation::ErrorBudget& errors) {
+std::unique_ptr<simulation::SimulatedDrive> make_drive(
+    const plant::VehicleType& type, const plant::Vehicle& vehicle, const geometry::Pose2& true_pose,
+    double load_kg, const SimulationSettings& settings, const localisation::ErrorBudget& errors) {
     const auto seed = simulation::seed_for(settings.seed, "motion " + vehicle.id.str());
     if (drives_by_wheels(type, settings)) {
         return std::make_unique<simulation::ServoDrive>(type, true_pose, seed, settings.time_factor,
-                                                        vehicle.load_kg, errors);
+                                                        load_kg, errors);
     }
     return std::make_unique<simulation::VehicleMotion>(type, true_pose, seed, settings.time_factor);
 }
@@ -54,17 +52,20 @@ SimulatedMachine::SimulatedMachine(const simulation::World& world, const plant::
       type_(type),
       hall_(plant::find_station(world.plant, vehicle.home)->hall),
       settings_(std::move(settings)),
-      drive_(make_drive(type_, vehicle, true_pose, settings_, world.errors)),
+      drive_(make_drive(type_, vehicle, true_pose, first_load_kg(world.plant, vehicle), settings_,
+                        world.errors)),
       cameras_(world, hall_, *drive_, settings_.rendered,
                simulation::seed_for(settings_.seed, "eyes " + vehicle.id.str()),
-               plant::is_loaded(vehicle)),
+               plant::first_load(world.plant, vehicle.id) != nullptr),
+      load_kg_(first_load_kg(world.plant, vehicle)),
       equipment_(type_, drive_->true_pose(), charger_contacts(world.plant),
-                 first_charge(vehicle, settings_), settings_.time_factor, vehicle.load_kg,
+                 first_charge(vehicle, settings_), settings_.time_factor, load_kg_,
                  simulation::seed_for(settings_.seed, "body " + vehicle.id.str())),
       body_(*drive_) {
     const auto seed = [&](const char* part) {
         return simulation::seed_for(settings_.seed, part + (" " + vehicle.id.str()));
     };
+    equipment_.work_below(world.supports, hall_, carried_at_first(world.plant, vehicle));
     const auto& stands = drive_->true_pose();
     if (!type_.receivers.empty()) {
         receivers_.emplace(world, hall_, type_, stands, seed("receivers"));
@@ -80,6 +81,7 @@ SimulatedMachine::SimulatedMachine(const simulation::World& world, const plant::
 void SimulatedMachine::step(double dt_s) {
     body_.step(dt_s);
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
+    if (std::exchange(load_kg_, equipment_.load_kg()) != load_kg_) drive_->set_load(load_kg_);
 }
 
 void SimulatedMachine::write_state(vda5050::StateMessage& state) {
@@ -97,7 +99,7 @@ void SimulatedMachine::show_body(const plant::HallId& hall, geometry::Point2 fro
                                  std::vector<geometry::Polygon>& to) const {
     const auto& pose = drive_->true_pose();
     if (hall != hall_ || distance(pose.position(), from) > kSeen_m) return;
-    for (const auto& piece : plant::outline_with_load(type_, plant::is_loaded(vehicle_))) {
+    for (const auto& piece : plant::outline_with_load(type_, load_kg_ > 0)) {
         to.push_back(geometry::transformed(pose, piece));
     }
 }

@@ -70,6 +70,7 @@ private:
     SimulationSettings settings_;
     std::unique_ptr<simulation::SimulatedDrive> drive_;
     CameraSensing cameras_;
+    double load_kg_;
     simulation::VehicleEquipment equipment_;
     BodyStatus body_;
     // Who does not drive by its wheels sees nothing, and thousands of them cost nothing.

@@ -12,8 +12,8 @@ using namespace std::chrono_literals;
 
 constexpr auto kTruthInterval = 50ms;
 
-plant::VehicleType as_loaded(plant::VehicleType type, const plant::Vehicle& vehicle) {
-    type.cameras = plant::cameras_of(type, plant::is_loaded(vehicle));
+plant::VehicleType as_loaded(plant::VehicleType type, bool loaded) {
+    type.cameras = plant::cameras_of(type, loaded);
     return type;
 }
 
@@ -26,6 +26,7 @@ VehicleSettings known_beforehand(const simulation::World& world, const plant::Ve
     known.odometry = drives_by_wheels(type, settings)
                          ? localisation::odometry_noise(world.errors.drive, type)
                          : simulation::odometry_noise(simulation::MotionErrors{});
+    known.loaded = plant::first_load(world.plant, vehicle.id) != nullptr;
     known.vehicles = program.vehicles;
     known.learned = std::move(program.learned);
     known.map = std::move(program.map);
@@ -38,7 +39,8 @@ VehicleSettings known_beforehand(const simulation::World& world, const plant::Ve
 SimulatedVehicle::SimulatedVehicle(const simulation::World& world, const plant::Vehicle& vehicle,
                                    const geometry::Pose2& true_pose, SimulationSettings settings,
                                    Program program, TruthLog* truth)
-    : type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type), vehicle)),
+    : type_(as_loaded(*plant::find_vehicle_type(world.plant, vehicle.type),
+                      plant::first_load(world.plant, vehicle.id) != nullptr)),
       machine_(world, vehicle, type_, true_pose, settings),
       program_(vehicle, type_, machine_,
                known_beforehand(world, vehicle, type_, settings, std::move(program))),

@@ -321,6 +321,16 @@ public:
                std::ranges::any_of(told.feet, [](const auto& f) { return f.extension_m > 0; });
     }
 
+    std::vector<vda5050::BracketStatus> brackets() override {
+        std::vector<vda5050::BracketStatus> told;
+        for (std::size_t i = 0; i < controller_.told().brackets.size(); ++i) {
+            const auto& bracket = controller_.told().brackets[i];
+            told.push_back(
+                {type_.brackets[i].name, bracket.force_a_n, bracket.force_b_n, bracket.height_m});
+        }
+        return told;
+    }
+
     void take_ended() {
         for (auto& ended : controller_.take_ended()) {
             if (under_way_ != ended.id) continue;
@@ -438,13 +448,9 @@ void TcpMachine::write_state(vda5050::StateMessage& state) {
     state.battery_percent = told.battery_percent;
     state.charging = told.charging;
     state.e_stop = told.stopped ? "AUTOACK" : "NONE";
+    state.brackets = equipment_->brackets();
     double load_n = 0;
-    for (std::size_t i = 0; i < told.brackets.size(); ++i) {
-        const auto& bracket = told.brackets[i];
-        state.brackets.push_back(
-            {type_.brackets[i].name, bracket.force_a_n, bracket.force_b_n, bracket.height_m});
-        load_n += bracket.force_a_n + bracket.force_b_n;
-    }
+    for (const auto& bracket : state.brackets) load_n += bracket.force_a_n + bracket.force_b_n;
     state.load_kg = load_n / kGravity_mps2;
     for (std::size_t i = 0; i < told.feet.size(); ++i) {
         state.parking_feet.push_back(

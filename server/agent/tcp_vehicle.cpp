@@ -13,13 +13,14 @@ Result<std::unique_ptr<TcpVehicle>> TcpVehicle::open(
                     "vehicle " + vehicle.id.str() + " lacks its type");
     }
     std::unique_ptr<TcpVehicle> opened(new TcpVehicle);
-    const bool loaded = plant::is_loaded(vehicle);
+    const bool loaded = plant::first_load(plant, vehicle.id) != nullptr;
     opened->type_ = *type;
     opened->type_.cameras = plant::cameras_of(*type, loaded);
     auto machine = TcpMachine::open(address, opened->type_, {time_factor, loaded, errors});
     if (!machine) return fail(machine.error());
     opened->machine_ = std::move(*machine);
     known.errors = errors;
+    known.loaded = loaded;
     known.odometry = localisation::odometry_noise(errors.drive, opened->type_);
     opened->program_ = std::make_unique<Vehicle>(vehicle, opened->type_, *opened->machine_, known);
     return opened;

@@ -42,18 +42,18 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
       drive_(machine.drive()),
       cameras_(machine.cameras()),
       stop_senses_(cameras_),
+      handling_(machine.equipment(), type),
       learned_(settings.learned.empty() ? std::nullopt
                                         : std::optional<LearnedMoves>(
                                               std::in_place, settings.learned, vehicle.id.str())),
-      executor_(drive_, stop_senses_, settings.hall.str(), &machine.equipment(),
-                learned_before(learned_)),
+      executor_(drive_, stop_senses_, settings.hall.str(), &handling_, learned_before(learned_)),
       estimate_(geometry::Pose2{}, settings.odometry),
       rest_watch_(drive_, estimate_),
       watch_(cameras_, drive_, estimate_),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
-    const bool loaded = plant::is_loaded(vehicle);
-    if (!drive_.wheels().empty()) guard_.emplace(type_, loaded);
+    loaded_ = type_.brackets.empty() ? settings_.loaded : handling_.carries();
+    if (!drive_.wheels().empty()) guard_.emplace(type_, loaded_);
     drive_.set_believed({});  // where it stands it is told, or its codes or receivers say
     if (auto* receivers = machine.receivers()) {
         light_.emplace(*receivers, drive_, estimate_, watch_.trail(), settings.errors.receiver);
@@ -63,9 +63,9 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
         reflectors_.emplace(*scanner, drive_, estimate_, watch_.trail(), settings.errors.reflector);
     }
     if (auto* scanners = machine.scanners()) {
-        look_out_.emplace(*scanners, vehicle, drive_);
+        look_out_.emplace(*scanners, loaded_, drive_);
         executor_.see(look_out_->scans());
-        going_round_.emplace(type_, loaded, drive_, *look_out_, executor_);
+        going_round_.emplace(type_, loaded_, drive_, *look_out_, executor_);
         if (settings.map) {
             contours_.emplace(*scanners, drive_, estimate_, watch_.trail(), settings.map,
                               settings.particles_seed);
@@ -77,6 +77,7 @@ void Vehicle::step(double dt_s, Steady::time_point now) {
     drive(dt_s);
     keep_learned();
     machine_.step(dt_s);
+    feel_load();
     if (!drive_.standing()) stood_since_ = now;
     if (cameras_.take_fresh()) {
         pictures_due_ = true;
@@ -112,6 +113,18 @@ void Vehicle::drive(double dt_s) {
         know_pose(part_s);
         left_s = parts > 1 ? left_s - part_s : 0;
     }
+}
+
+/// Once brackets have come to rest it knows its body anew.
+void Vehicle::feel_load() {
+    handling_.step();
+    const bool rests = std::exchange(lifting_, handling_.busy()) && !lifting_;
+    if (!rests || type_.brackets.empty()) return;
+    const bool loaded = handling_.carries();
+    if (std::exchange(loaded_, loaded) == loaded) return;
+    if (guard_) guard_.emplace(type_, loaded);
+    if (look_out_) look_out_->carry(loaded);
+    if (going_round_) going_round_->carry(loaded);
 }
 
 void Vehicle::keep_learned() {

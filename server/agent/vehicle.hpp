@@ -10,6 +10,7 @@
 #include "api/vda5050/header.hpp"
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
+#include "core/onboard/load_handling.hpp"
 #include "core/onboard/look_out.hpp"
 #include "core/onboard/pose/contour_watch.hpp"
 #include "core/onboard/pose/light_watch.hpp"
@@ -31,6 +32,7 @@ struct VehicleSettings {
     /// How well its machine drives and sees, as it is stated.
     localisation::ErrorBudget errors;
     localisation::OdometryNoise odometry;
+    bool loaded = false;       // at first; one with brackets feels it
     int vehicles = 1;          // in this process: they share one processor for pictures
     std::string learned = {};  // folder for what it learns; empty: forgotten at the end
     std::shared_ptr<const mapping::MatchedMap> map = {};  // of its hall; none: it has none
@@ -85,6 +87,7 @@ private:
     void send_visualization();
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
+    void feel_load();
     void know_pose(double dt_s);
     void lead_at_rest(double dt_s);
     void log_refused() const;
@@ -107,6 +110,7 @@ private:
     onboard::Drive& drive_;
     Cameras& cameras_;
     StopSenses stop_senses_;
+    onboard::LoadHandling handling_;
     std::optional<LearnedMoves> learned_;
     onboard::Executor executor_;
     std::optional<onboard::LookOut> look_out_;        // with scanners
@@ -122,6 +126,8 @@ private:
     Outbox outbox_;
     onboard::PoseGuard::Advice advice_ = onboard::PoseGuard::Advice::kDrive;
     bool lost_ = false;      // on its way, and nothing has told it since
+    bool loaded_ = false;    // as its brackets feel, or it knows beforehand
+    bool lifting_ = false;   // moves brackets or feet
     bool stopping_ = false;  // at a stop, measuring or adjusting
     bool linked_ = false;
     bool state_due_ = true;

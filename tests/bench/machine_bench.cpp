@@ -74,7 +74,7 @@ int run(const std::string& out) {
     if (!plant) return 2;
     const auto* vehicle = plant::find_vehicle(*plant, plant::VehicleId(kVehicle));
     plant::VehicleType type = *plant::find_vehicle_type(*plant, vehicle->type);
-    type.cameras = plant::cameras_of(type, plant::is_loaded(*vehicle));
+    type.cameras = plant::cameras_of(type, plant::first_load(*plant, vehicle->id) != nullptr);
     const std::string port = std::to_string(free_port());
     const Process machine({PULSELINE_AGENT, "machine", "--world", world, "--vehicle", kVehicle,
                            "--listen", "tcp://127.0.0.1:" + port});

@@ -13,7 +13,7 @@ export function manyVehicles(count) {
   const width = columns * (LENGTH_M + 8) + 8, height = rows * LANE_M + 8;
   const camera = base.vehicle_types[0].cameras[0];
   const plant = {
-    ...base, id: `load-${count}`, name: `Load, ${count} carriers`, areas: [], stations: [], markers: [], vehicles: [], roadmap: { nodes: [], edges: [] },
+    ...base, id: `load-${count}`, name: `Load, ${count} carriers`, areas: [], stations: [], markers: [], vehicles: [], loads: [], roadmap: { nodes: [], edges: [] },
     halls: [{ id: hall.id, name: hall.name, outline: [[0, 0], [width, 0], [width, height], [0, height]].map(([x_m, y_m]) => ({ x_m, y_m })) }],
     vehicle_types: [{ ...base.vehicle_types[0], id: "carrier", name: "Small carrier", footprint: box(2, 1), load_footprint: [], brackets: [], load_rules: undefined, parking: undefined, clearance_m: 0.3, max_speed_mps: 1, max_accel_mps2: 0.5, max_turn_rate_radps: 0.5, max_turn_accel_radps2: 0.5,
       wheels: base.vehicle_types[0].wheels.map((w) => ({ ...w, position: { x_m: Math.sign(w.position.x_m) * 0.8, y_m: Math.sign(w.position.y_m) * 0.4 } })),
@@ -30,7 +30,7 @@ export function manyVehicles(count) {
     plant.roadmap.edges.push({ id: `e${i}a`, from: `n${2 * i + 1}`, to: `n${2 * i + 2}` }, { id: `e${i}b`, from: `n${2 * i + 2}`, to: `n${2 * i + 1}` });
     // Lanes are joined at their first stations, so that every station can be reached.
     if (i > 0) plant.roadmap.edges.push({ id: `j${i}a`, from: `n${2 * i - 1}`, to: `n${2 * i + 1}` }, { id: `j${i}b`, from: `n${2 * i + 1}`, to: `n${2 * i - 1}` });
-    plant.vehicles.push({ id: `V${i + 1}`, type: "carrier", manufacturer: "load", serial_number: `V${i + 1}`, name: `V${i + 1}`, home: `st${2 * i + 1}`, load_name: "", load_kg: 0 });
+    plant.vehicles.push({ id: `V${i + 1}`, type: "carrier", manufacturer: "load", serial_number: `V${i + 1}`, name: `V${i + 1}`, home: `st${2 * i + 1}` });
   }
   return plant;
 }

@@ -27,7 +27,7 @@ World plant_world(const std::string& path) {
     std::vector<fleet::FloorClass> classes;
     for (const auto& vehicle : plant->vehicles) {
         const auto* type = plant::find_vehicle_type(*plant, vehicle.type);
-        const bool loaded = plant::is_loaded(vehicle);
+        const bool loaded = plant::first_load(*plant, vehicle.id) != nullptr;
         auto known = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
             return c.type == type && c.loaded == loaded;
         });

@@ -117,6 +117,7 @@ public:
         s.attempt = 3;
         s.method = "dual_camera";
         s.markers = {"ST02-F", "ST02-B"};
+        s.load = plant::LoadId("A-101");
         s.at = at(ms);
         s.arrival = fleet::Arrival{number(), number(), number(), number(), number()};
         return s;

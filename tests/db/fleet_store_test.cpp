@@ -66,6 +66,8 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
     fleet::Records records;
     records.orders = {samples.order(1, 0), samples.order(2, 10)};
     records.vehicles = {samples.vehicle("TP-01")};
+    records.loads = {{plant::LoadId("A-101"), plant::VehicleId("TP-01"), {}, samples.at(4), "ann"},
+                     {plant::LoadId("A-102"), {}, plant::StationId("st07"), samples.at(5), ""}};
     records.stops = {samples.stop(2, 20)};
     records.events = {samples.event(1, 5), samples.event(2, 20)};
     records.idempotency = {{"mes", "key-1", "ab", records.orders[0].id, samples.at(3)}};
@@ -86,6 +88,10 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
               records.vehicles[0].leg_data.edges[1].segment.centre);
     EXPECT_EQ(stored.vehicles[0].leg_data.nodes[2].actions[0].params,
               records.vehicles[0].leg_data.nodes[2].actions[0].params);
+    ASSERT_EQ(stored.loads.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(columns<LoadPlaceRow>(stored.loads[i]), columns<LoadPlaceRow>(records.loads[i]));
+    }
     ASSERT_EQ(stored.idempotency.size(), 1u);
     EXPECT_EQ(stored.idempotency[0].order, records.orders[0].id);
     EXPECT_EQ(stored.last_event_seq, 2);

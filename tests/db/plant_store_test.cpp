@@ -251,6 +251,61 @@ TEST(PlantStore, KeepsTheFeetOfATypeAndTheUsualOnesOfTypesOfBefore) {
     EXPECT_THROW(PlantStore(database).load(), Error);
 }
 
+TEST(PlantStore, KeepsEveryFieldOfLoadsAndWhatHoldsThem) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant::Load load = plant.loads.at(0);
+    load.kind = plant::LoadKind::kInstrument;
+    load.model = "tracker";
+    load.centre = {0.1, -0.2};
+    load.outline = geometry::rectangle(2, 1);
+    load.vehicle_types = {plant.vehicle_types[0].id};
+    load.names = {{"zh", "飞机"}};
+    plant.loads.at(0) = load;
+    plant::Load& other = plant.loads.emplace_back();
+    other.id = plant::LoadId("A-102");
+    other.name = "A-102";
+    other.station = plant.stations.back().id;
+    plant.stations.back().support = plant::Support{0.25};
+    PlantStore(database).import(plant);
+    const auto kept = *PlantStore(database).load();
+    plant.revision = kept.revision;
+    expect_same(kept, plant);
+    database.sql() << "UPDATE loads SET kind = 'whale'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
+/// Until version 23 a vehicle had a name and a mass of what it carries.
+TEST(PlantStore, WhatVehiclesCarriedBeforeIsALoadOfItsOwn) {
+    const TempFolder folder;
+    const std::string file = folder.file("old.db");
+    {
+        Database database(file);
+        PlantStore(database).import(demo("pulse-line"));
+        for (const char* back :
+             {"DROP TABLE loads", "DROP TABLE loads_state",
+              "ALTER TABLE vehicles ADD COLUMN load_name TEXT NOT NULL DEFAULT ''",
+              "ALTER TABLE vehicles ADD COLUMN load_kg REAL NOT NULL DEFAULT 0",
+              "ALTER TABLE stations DROP COLUMN has_support",
+              "ALTER TABLE stations DROP COLUMN support_height_m",
+              "ALTER TABLE stop_records DROP COLUMN load",
+              "UPDATE vehicles SET load_name = 'A 101', load_kg = 18200",
+              "PRAGMA user_version = 23"}) {
+            database.sql() << back;
+        }
+    }
+    Database database(file);
+    const auto plant = *PlantStore(database).load();
+    ASSERT_EQ(plant.loads.size(), 1u);
+    const plant::Load& load = plant.loads[0];
+    EXPECT_EQ(load.id, plant::LoadId("TP-01-load"));
+    EXPECT_EQ(load.name, "A 101");
+    EXPECT_EQ(load.mass_kg, 18200);
+    EXPECT_EQ(load.vehicle, plant::VehicleId("TP-01"));
+    EXPECT_EQ(load.vehicle_types, std::vector{plant.vehicles[0].type});
+    EXPECT_FALSE(plant.stations.back().support);
+}
+
 TEST(PlantStore, TypesOfBeforeHaveTheScannersThatAreUsual) {
     Database database(":memory:");
     PlantStore(database).import(demo("measuring-hall"));

@@ -68,11 +68,12 @@ function hallOf40() {
   const model = finalAssembly();
   const names = { "transport-platform": "TP", "measuring-vehicle": "MV", "omni-mover": "OM", "delivery-vehicle": "DL" };
   const counts = {};
+  model.loads = [];
   model.vehicles = model.stations.map((station) => {
     const [type] = station.vehicle_types;
     const id = `${names[type]}-${String((counts[type] = (counts[type] ?? 0) + 1)).padStart(2, "0")}`;
     station.resting_place = true;
-    return { id, type, manufacturer: "pulseline", serial_number: id, name: id, home: station.id, load_name: "", load_kg: 0 };
+    return { id, type, manufacturer: "pulseline", serial_number: id, name: id, home: station.id };
   });
   return model;
 }

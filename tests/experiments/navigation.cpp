@@ -23,6 +23,7 @@
 #include "core/simulation/world/receivers.hpp"
 #include "core/simulation/world/scanners.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/hall_truth.hpp"
 #include "server/agent/map_hall.hpp"
 #include "tests/experiments/error_curves.hpp"
 #include "tests/experiments/experiments.hpp"
@@ -87,12 +88,13 @@ Checkpoint checkpoint(const onboard::PoseEstimate& estimate, const Pose2& truth)
 Drive drive_along(const simulation::World& world, const plant::Vehicle& vehicle, std::uint64_t seed,
                   const std::shared_ptr<const mapping::MatchedMap>& map) {
     const auto& type = *plant::find_vehicle_type(world.plant, vehicle.type);
-    const bool loaded = plant::is_loaded(vehicle);
+    const bool loaded = plant::first_load(world.plant, vehicle.id) != nullptr;
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
     const Pose2 truth{kStart_m * normal(random), kStart_m * normal(random),
                       kStart_rad * normal(random)};
-    simulation::ServoDrive drive(type, truth, seed, 1, vehicle.load_kg, world.errors);
+    simulation::ServoDrive drive(type, truth, seed, 1, agent::first_load_kg(world.plant, vehicle),
+                                 world.errors);
     drive.set_believed({});
     agent::CameraSensing cameras(world, world.plant.halls.front().id, drive, false, seed, loaded);
     onboard::PoseEstimate estimate{Pose2{}, localisation::odometry_noise(world.errors.drive, type)};
@@ -243,7 +245,8 @@ Family family_of(const plant::Plant& plant, const char* id) {
     const auto& vehicle = *plant::find_vehicle(plant, plant::VehicleId(id));
     const auto& type = *plant::find_vehicle_type(plant, vehicle.type);
     Family family{plant, vehicle, type};
-    for (const auto& camera : plant::cameras_of(type, plant::is_loaded(vehicle))) {
+    for (const auto& camera :
+         plant::cameras_of(type, plant::first_load(plant, vehicle.id) != nullptr)) {
         family.spacing_m =
             std::max(family.spacing_m, localisation::blind_way_m(camera, type.usual_code.size_m));
     }

@@ -13,6 +13,7 @@
 #include "core/simulation/world/receivers.hpp"
 #include "core/vda5050/actions.hpp"
 #include "server/agent/camera_sensing.hpp"
+#include "server/agent/hall_truth.hpp"
 #include "server/agent/stop_senses.hpp"
 
 namespace pulseline::experiments {
@@ -94,8 +95,9 @@ public:
           hall_(plant::find_station(plant_, vehicle_.home)->hall),
           drive_(*plant::find_vehicle_type(plant_, vehicle_.type),
                  simulation::placed_pose(world, vehicle_, seed).value(), seed, runs.time_factor,
-                 vehicle_.load_kg, world.errors),
-          cameras_(world, hall_, drive_, true, seed, plant::is_loaded(vehicle_)),
+                 agent::first_load_kg(world.plant, vehicle_), world.errors),
+          cameras_(world, hall_, drive_, true, seed,
+                   plant::first_load(world.plant, vehicle_.id) != nullptr),
           receivers_(world, hall_, drive_.type(), drive_.true_pose(), seed),
           senses_(cameras_),
           eyes_(senses_, drive_, runs.spoil_m),

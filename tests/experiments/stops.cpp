@@ -69,7 +69,7 @@ std::string terms_of(const std::string& plants, const StopFamily& family,
     const auto& vehicle = *plant::find_vehicle(plant, plant::VehicleId(family.vehicle));
     const auto& type = *plant::find_vehicle_type(plant, vehicle.type);
     auto terms = localisation::code_terms(errors, type.cameras.front(), kOffset_m,
-                                          plant::is_loaded(vehicle));
+                                          plant::first_load(plant, vehicle.id) != nullptr);
     terms.push_back({"survey", plant.markers.front().sigma_xy_m});
     std::ranges::sort(terms, std::greater{}, &localisation::ErrorTerm::sigma_m);
     std::string text = "sigma of a code, mm:";

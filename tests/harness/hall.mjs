@@ -34,8 +34,9 @@ export function plantOf({ spots, lanes, vehicles, obstacles = [], chargers = [],
       nodes: Object.entries(spots).map(([id, [x_m, y_m]]) => ({ id, hall: hall.id, position: { x_m, y_m } })),
       edges: lanes.flatMap((lane) => { const [a, b] = lane.split("-"); return [{ id: `${a}.${b}`, from: a, to: b }, { id: `${b}.${a}`, from: b, to: a }]; }),
     },
+    loads: [],
     vehicles: vehicles.map((station, i) => ({
-      id: `V${i + 1}`, type: "transport-platform", manufacturer: "pulseline", serial_number: `V${i + 1}`, name: `V${i + 1}`, home: `s${station}`, load_name: "", load_kg: 0,
+      id: `V${i + 1}`, type: "transport-platform", manufacturer: "pulseline", serial_number: `V${i + 1}`, name: `V${i + 1}`, home: `s${station}`,
     })),
   });
   model.markers.push(...laneCodes(model));

@@ -38,7 +38,8 @@ function allowedOf({ orders, system: { plant: { model } } }) {
   const inNames = named.flatMap(({ names }) => [...(names?.zh ?? "").matchAll(/[A-Za-z]{2,}/g)].map(([word]) => word));
   return [
     "Pulseline", kWalker,
-    ...model.vehicles.flatMap((v) => [v.id, v.name, v.load_name]).filter((name) => name !== ""),
+    ...model.vehicles.flatMap((v) => [v.id, v.name]),
+    ...(model.loads ?? []).flatMap((load) => [load.id, load.name]),
     ...model.markers.map((marker) => marker.payload),
     ...inNames,
     programOf(orders.done), // the beginning of a token's id

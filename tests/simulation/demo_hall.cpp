@@ -273,7 +273,7 @@ private:
             const auto* station = plant::find_station(plant_, step.station);
             planning::LegRequest request;
             request.type = &vehicle.type();
-            request.loaded = plant::is_loaded(vehicle.what());
+            request.loaded = plant::first_load(plant_, vehicle.what().id) != nullptr;
             request.hall = station->hall;
             request.start = at;
             request.target = step.station;

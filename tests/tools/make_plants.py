@@ -155,7 +155,7 @@ class Plant:
         self.ident, self.name = ident, name
         self.halls, self.stations, self.markers, self.areas = [], [], [], []
         self.transmitters, self.reflectors = [], []
-        self.types, self.vehicles, self.nodes, self.edges = [], [], {}, []
+        self.types, self.vehicles, self.loads, self.nodes, self.edges = [], [], [], {}, []
         self.hall = None
         self.routing = {"k_same": 10, "k_diff": 20, "reference_step_m": 1, "turn_threshold_rad": 5 * DEG}
 
@@ -182,7 +182,7 @@ class Plant:
         for i, (x, y) in enumerate(places):
             self.reflectors.append({"id": f"r-{i + 1:02d}", "hall": self.hall, "position": point(x, y)})
 
-    def station(self, number, name, p, vehicle_type, rest=True, charger=False):
+    def station(self, number, name, p, vehicle_type, rest=True, charger=False, support=False):
         ident = f"st{number:02d}"
         markers = []
         if vehicle_type is PLATFORM:
@@ -201,6 +201,8 @@ class Plant:
             "markers": markers, "node": ident, "resting_place": rest, "vehicle_types": [vehicle_type["id"]]})
         if charger:
             self.stations[-1]["charger"] = True
+        if support:
+            self.stations[-1]["support"] = {"height_m": 0.12}
         self.node(ident, p[0], p[1])
 
     def node(self, ident, x, y):
@@ -224,8 +226,10 @@ class Plant:
 
     def vehicle(self, ident, vehicle_type, home, load="", load_kg=0):
         self.vehicles.append({"id": ident, "type": vehicle_type["id"], "manufacturer": "pulseline",
-                              "serial_number": ident, "name": ident, "home": f"st{home:02d}", "load_name": load,
-                              "load_kg": load_kg})
+                              "serial_number": ident, "name": ident, "home": f"st{home:02d}"})
+        if load:
+            self.loads.append({"id": load, "name": load, "kind": "airframe", "model": "Trainer aircraft", "mass_kg": load_kg,
+                               "vehicle": ident})
 
     def write(self, folder):
         halls, stations, areas, types = ([named_too(thing) for thing in things] for things in
@@ -236,6 +240,7 @@ class Plant:
                  **({"transmitters": self.transmitters} if self.transmitters else {}),
                  **({"reflectors": self.reflectors} if self.reflectors else {}), "areas": areas,
                  "vehicle_types": types, "vehicles": self.vehicles,
+                 **({"loads": self.loads} if self.loads else {}),
                  "roadmap": {"nodes": list(self.nodes.values()), "edges": self.edges},
                  "routing": self.routing}
         lines = []
@@ -284,7 +289,7 @@ def pulse_line(folder):
          [(x - 0.35, 44.4, x + 0.35, 45) for x in range(10, 110, 10)])
     p.types = [far_sighted(PLATFORM)]
     for n, where in TANG.items():
-        p.station(n, WORK[n], where, PLATFORM)
+        p.station(n, WORK[n], where, PLATFORM, support=n == 7)
     p.area("pulse-line", "zone", "Pulse line", box(1, 3, 105, 40))
     p.chain([f"st{n:02d}" for n in TANG])
     for edge in p.edges:
@@ -379,7 +384,7 @@ def final_assembly(folder):
 
     # A: the pulse line
     for n, where in {**TANG, 8: (107, 30, PI), 9: (107, 14, PI / 2)}.items():
-        p.station(n, WORK[n], where, PLATFORM, charger=n == 6)
+        p.station(n, WORK[n], where, PLATFORM, charger=n == 6, support=n == 7)
     p.station(10, "Kit drop", (114.6, 20, PI / 2), DELIVERY)
     # B: measuring hall, C: iGPS cell, D: landmark lab, and the parking bays
     xs = (8.5, 15.3, 22.1, 28.9, 35.7, 42.5)

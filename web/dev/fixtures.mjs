@@ -36,6 +36,12 @@ export function snapshot(model, now = Date.now()) {
   const st = (n) => byNumber.get(n);
   const type = new Map(model.vehicle_types.map((t) => [t.id, t]));
   const made = new Map(model.vehicles.map((v) => [v.id, v]));
+  const carriedBy = (id) => {
+    const load = (model.loads ?? []).find((one) => one.vehicle === id);
+    return load
+      ? { load: load.id, load_kg: load.mass_kg, load_name: load.name }
+      : { load_kg: 0, load_name: "" };
+  };
   const vehicle = (name, over) => {
     const v = made.get(name);
     const t = type.get(v.type);
@@ -75,8 +81,7 @@ export function snapshot(model, now = Date.now()) {
       })),
       cameras: [],
       parking_feet: [],
-      load_kg: v.load_kg ?? 0,
-      load_name: v.load_name ?? "",
+      ...carriedBy(v.id),
       ...over,
     };
   };

@@ -115,6 +115,7 @@ Json stop_record_json(const fleet::StopRecord& stop) {
                  {"markers", stop.markers},
                  {"load_kg", stop.load_kg},
                  {"at", rfc3339(stop.at)}};
+    if (!stop.load.empty()) json["load"] = stop.load.str();
     if (stop.arrival) json["arrival"] = arrival_json(*stop.arrival);
     return json;
 }

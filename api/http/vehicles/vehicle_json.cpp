@@ -135,6 +135,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     const plant::Vehicle* known = plant::find_vehicle(plant, vehicle.id);
     const plant::VehicleType* type =
         known != nullptr ? plant::find_vehicle_type(plant, known->type) : nullptr;
+    const plant::Load* load = plant::find_load(plant, vehicle.carries);
     Json json = {
         {"id", vehicle.id.str()},
         {"name", known != nullptr ? known->name : vehicle.id.str()},
@@ -160,9 +161,10 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
                                   return camera_json(type, images, vehicle.id, reading);
                               })},
         {"parking_feet", list_json(state.parking_feet, foot_json)},
-        // Before the first state of a vehicle only the plant knows what it carries.
-        {"load_kg", !vehicle.last_heard && known != nullptr ? known->load_kg : state.load_kg},
-        {"load_name", known != nullptr ? known->load_name : ""}};
+        // Before its first state only the server knows what a vehicle carries.
+        {"load_kg", !vehicle.last_heard && load != nullptr ? load->mass_kg : state.load_kg},
+        {"load_name", load != nullptr ? load->name : ""}};
+    if (load != nullptr) json["load"] = load->id.str();
     if (const auto& worst = vehicle.load.worst) {
         json["worst_bracket"] = {
             {"bracket", worst->bracket}, {"share", worst->share}, {"limit", worst->limit}};
@@ -239,6 +241,7 @@ Json station_state_json(const fleet::StationView& station) {
                  {"reserved_by", station.reserved_by.str()},
                  {"ready", station.ready}};
     if (!station.last_stop.empty()) json["last_stop"] = station.last_stop.str();
+    if (!station.holds.empty()) json["load"] = station.holds.str();
     return json;
 }
 

@@ -23,7 +23,7 @@ constexpr double kMostSpeed_mps = 1;
 constexpr double kLeastWithin_m = 0.001;
 constexpr double kLeastWithin_rad = 1e-4;
 
-enum class Lift { kUnknown, kSetBracketHeight, kLowerParking, kRaiseParking };
+enum class Lift { kUnknown, kSetBracketHeight, kLowerParking, kRaiseParking, kPick, kDrop };
 
 const char* to_string(Lift lift) {
     switch (lift) {
@@ -33,6 +33,10 @@ const char* to_string(Lift lift) {
             return vda5050::kLowerParking;
         case Lift::kRaiseParking:
             return vda5050::kRaiseParking;
+        case Lift::kPick:
+            return vda5050::kPick;
+        case Lift::kDrop:
+            return vda5050::kDrop;
         case Lift::kUnknown:
             break;
     }
@@ -58,8 +62,8 @@ Result<fleet::StatedPose> read_stated_pose(const Request& request) {
 
 Result<fleet::StepAction> read_lift_move(const Request& request) {
     return read_object<fleet::StepAction>(request, [](ObjectReader& in) {
-        const Lift lift =
-            in.one_of("type", {Lift::kSetBracketHeight, Lift::kLowerParking, Lift::kRaiseParking});
+        const Lift lift = in.one_of("type", {Lift::kSetBracketHeight, Lift::kLowerParking,
+                                             Lift::kRaiseParking, Lift::kPick, Lift::kDrop});
         fleet::StepAction action;
         action.type = to_string(lift);
         if (lift == Lift::kSetBracketHeight) {
@@ -70,7 +74,9 @@ Result<fleet::StepAction> read_lift_move(const Request& request) {
                 const double speed_mps = in.number("speed_mps", {kLeastSpeed_mps, kMostSpeed_mps});
                 action.params.push_back({"speed_mps", speed_mps});
             }
-        } else if (in.has("foot")) {
+        } else if (lift == Lift::kPick) {
+            action.params = {{"load", in.text("load", kPartName)}};
+        } else if (lift != Lift::kDrop && in.has("foot")) {
             action.params = {{"foot", in.text("foot", kPartName)}};
         }
         return action;

@@ -2,11 +2,13 @@
 
 #include "core/fleet/commands/reachable.hpp"
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/floor/carrying.hpp"
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/lifts.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 #include "core/fleet/views/vehicle_views.hpp"
@@ -23,10 +25,18 @@ Result<VehicleView> Fleet::move_lifts(const plant::VehicleId& id, const StepActi
     if (Status heard = is_heard(*live, {}, "Its brackets and feet can be moved"); !heard) {
         return fail(std::move(heard).error());
     }
-    if (Status may = may_move_lifts(*live, wanted); !may) return fail(std::move(may).error());
+    if (Status may = may_move_lifts(fleet, *live, wanted); !may)
+        return fail(std::move(may).error());
     vda5050::Action action;
     action.type = wanted.type;
     action.params = wanted.params;
+    if (vda5050::is_transfer(wanted.type)) action = transfer_action(fleet, *live, wanted);
+    if (wanted.type == vda5050::kPick) {
+        const auto* load = load_at(fleet, live->record.at_station);
+        if (Status held = hold_floor_with(fleet, *live, load, now); !held) {
+            return fail(std::move(held).error());
+        }
+    }
     action.id = to_string(fleet.ids.next(now));
     live->lift = LiftMove{wanted, action.id, actor, now, LiftMove::State::kUnderWay, {}};
     Params params{{"action", wanted.type}, {"action_id", action.id}};

@@ -20,20 +20,6 @@ using traffic::TileSet;
 constexpr double kMoved_m = 0.02;
 constexpr double kMoved_rad = 0.2 * kPi / 180.0;
 
-std::size_t class_of(const FleetState& fleet, const LiveVehicle& live) {
-    const auto& classes = fleet.floor.classes;
-    const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
-        return c.type == live.type && c.loaded == is_loaded(live);
-    });
-    return static_cast<std::size_t>(found - classes.begin());
-}
-
-traffic::PlaceIndex place_at(const FleetState& fleet, const LiveVehicle& live, const Pose2& pose) {
-    const auto place = fleet.floor.classes[live.floor.of_class].motion.place_at(
-        plant::HallId(hall_of(fleet, live)), pose);
-    return place ? static_cast<traffic::PlaceIndex>(*place) : traffic::kNoPlace;
-}
-
 bool is_away(const Pose2& a, const Pose2& b) {
     return geometry::distance(a.position(), b.position()) > kMoved_m ||
            std::abs(wrap(a.heading_rad - b.heading_rad)) > kMoved_rad;
@@ -172,13 +158,23 @@ bool clears_up_on_leg(const LiveVehicle& live) {
 
 }  // namespace
 
-void find_classes(FleetState& fleet) {
-    for (auto& [id, live] : fleet.vehicles) live.floor.of_class = class_of(fleet, live);
+void find_class(const FleetState& fleet, LiveVehicle& live) {
+    const auto& classes = fleet.floor.classes;
+    const auto found = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
+        return c.type == live.type && c.loaded == is_loaded(live);
+    });
+    live.floor.of_class = static_cast<std::size_t>(found - classes.begin());
+}
+
+traffic::PlaceIndex place_at(const FleetState& fleet, const LiveVehicle& live, const Pose2& pose) {
+    const auto place = fleet.floor.classes[live.floor.of_class].motion.place_at(
+        plant::HallId(hall_of(fleet, live)), pose);
+    return place ? static_cast<traffic::PlaceIndex>(*place) : traffic::kNoPlace;
 }
 
 void rebuild_floor(FleetState& fleet, Time now) {
     Floor& floor = fleet.floor;
-    find_classes(fleet);
+    for (auto& [id, live] : fleet.vehicles) find_class(fleet, live);
     traffic::TrafficRecord record;
     for (auto& [id, live] : fleet.vehicles) {
         live.floor.vehicle = static_cast<traffic::VehicleIndex>(record.vehicles.size());

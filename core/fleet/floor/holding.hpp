@@ -5,8 +5,10 @@
 /// Which floor a vehicle holds that does not drive.
 namespace pulseline::fleet {
 
-/// Says of which class of the plant's tables each vehicle is.
-void find_classes(FleetState& fleet);
+/// Says of which class of the plant's tables a vehicle is, with what it carries.
+void find_class(const FleetState& fleet, LiveVehicle& live);
+/// The place of its class where it stands; kNoPlace: it stands at none.
+traffic::PlaceIndex place_at(const FleetState& fleet, const LiveVehicle& live, const Pose2& pose);
 /// Puts every vehicle on the floor its record says, base included.
 void rebuild_floor(FleetState& fleet, Time now);
 

@@ -45,6 +45,7 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "leg_planned",
     "move_lifts",
     "stop_lifts",
+    "place_load",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

@@ -8,6 +8,7 @@
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/journal/state_fields.hpp"
 #include "core/fleet/restore.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 
 namespace pulseline::fleet {
 namespace journal {
@@ -19,10 +20,23 @@ constexpr std::size_t kChecksumSize = 8;
 void read_vehicles(Reader& in, FleetState& fleet) {
     if (in.length() != fleet.vehicles.size()) return in.refuse("other vehicles than the plant's");
     for (auto& [id, live] : fleet.vehicles) {
-        const std::size_t of_class = live.floor.of_class;
         in.get(live);
         if (live.awaited_plan) live.awaited_plan->request.type = live.type;
         if (live.record.id != id) return in.refuse("other vehicles than the plant's");
+    }
+}
+
+/// By the loads, which stand behind the vehicles, and by what a vehicle is about to take over.
+void read_classes(Reader& in, FleetState& fleet) {
+    for (const auto& [id, record] : fleet.loads) {
+        if (id != record.id || !plant::find_load(fleet.plant, id)) {
+            return in.refuse("other loads than the plant's");
+        }
+    }
+    find_loads(fleet);
+    for (auto& [id, live] : fleet.vehicles) {
+        const std::size_t of_class = live.floor.of_class;
+        find_class(fleet, live);
         if (live.floor.of_class != of_class) return in.refuse("other classes than the plant's");
     }
 }
@@ -37,11 +51,12 @@ bool same_floor(const std::vector<traffic::TileId>& of_graphs, const traffic::Tr
 
 void read_state(Reader& in, FleetState& fleet) {
     take_vehicles_of_plant(fleet);
-    find_classes(fleet);
     fleet.floor.traffic = fleet.tables->empty_floor;
     const std::vector<traffic::TileId> of_graphs = fleet.floor.traffic.tile_order();
     read_vehicles(in, fleet);
     in.get(fleet);
+    if (!in.ok()) return;
+    read_classes(in, fleet);
     if (!in.ok()) return;
     if (!in.at_end()) return in.refuse("more bytes than a snapshot has");
     if (!same_floor(of_graphs, fleet.floor.traffic)) return in.refuse("another floor");

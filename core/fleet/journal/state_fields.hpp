@@ -75,7 +75,7 @@ PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
 
 PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
 
-// Vehicle and type are the plant's; the areas are only drawn. Areas, plan and swept floor are
+// Vehicle, type and load are the plant's; the areas are only drawn. Areas, plan and swept floor are
 // worked out when asked for and not there, and come out the same.
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, LiveVehicle>
@@ -83,7 +83,8 @@ void fields(V& visit, S& it) {
     auto& [vehicle, type, record, connected, reconciled, connection_refused, link, last_heard,
            state, state_at, newest_header, factsheet, delivery, floor, seen, seen_before, stated,
            claim_told, claim_left, foreign_since, actions, errors_from, errors_told, charge_wait,
-           charge_retry, made_way, lift, areas, leg_markers, awaited_plan, newest_plan, swept] = it;
+           charge_retry, made_way, lift, load, areas, leg_markers, awaited_plan, newest_plan,
+           swept] = it;
     auto& leg = delivery.all();
     visit(record, connected, reconciled, connection_refused, link, last_heard, state, state_at,
           newest_header, factsheet, leg.seen, leg.sent_from, leg.unconfirmed_since, leg.sends,
@@ -105,12 +106,12 @@ void fields(V& visit, S& it) {
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
-    auto& [its_plant, tables, planner, ids, started, vehicles, orders, idempotency, floor, closures,
-           keys_swept, event_seq, order_number, questions, standing, stored_seq, store_fault,
-           clock_difference, out, stored_vehicles, stored_orders, changed_vehicles, plans_wanted] =
-        it;
-    visit(ids, started, orders, idempotency, floor, closures, keys_swept, event_seq, order_number,
-          questions, standing, stored_seq, store_fault, clock_difference);
+    auto& [its_plant, tables, planner, ids, started, vehicles, loads, orders, idempotency, floor,
+           closures, keys_swept, event_seq, order_number, questions, standing, stored_seq,
+           store_fault, clock_difference, out, stored_vehicles, stored_orders, stored_loads,
+           changed_vehicles, changed_stations, plans_wanted] = it;
+    visit(ids, started, loads, orders, idempotency, floor, closures, keys_swept, event_seq,
+          order_number, questions, standing, stored_seq, store_fault, clock_difference);
 }
 
 }  // namespace fleet

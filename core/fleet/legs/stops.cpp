@@ -97,6 +97,7 @@ StopRecord stop_record(FleetState& fleet, const LiveVehicle& live, const plant::
     stop.method = found.method;
     stop.markers = found.markers;
     stop.load_kg = live.state.load_kg;
+    if (live.load) stop.load = live.load->id;
     stop.at = now;
     if (found.arrived) stop.arrival = arrival_of(live, station, *found.arrived);
     return stop;

@@ -41,7 +41,7 @@ void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now) {
                     !has_nothing_left(live.state);
             cancelled = !again;
         }
-        note_lift_ended(live, *found);
+        note_lift_ended(fleet, live, *found, now);
         add_event(
             fleet, now, event::kVehicleAction, {}, {}, live.record.id, {},
             {{"action", pending.action.type},

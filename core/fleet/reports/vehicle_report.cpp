@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/floor/carrying.hpp"
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/reports/action_states.hpp"
@@ -100,6 +101,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     handle_pose(fleet, live, before, now);
     watch_mode(fleet, live, before.operating_mode, now);
     handle_action_states(fleet, live, now);
+    settle_load(fleet, live, now);
     // What it has passed is where it says to be; on that nothing is freed or measured.
     if (live.has_leg() && !is_in_doubt(live)) handle_leg_progress(fleet, live, now);
     watch_foreign_order(fleet, live, now);

@@ -30,6 +30,7 @@ inline constexpr const char* kLegCancelRequested = "leg.cancel_requested";
 inline constexpr const char* kLegEnded = "leg.ended";
 inline constexpr const char* kLegReleased = "leg.released";
 inline constexpr const char* kLegRerouted = "leg.rerouted";
+inline constexpr const char* kLoadMoved = "load.moved";
 inline constexpr const char* kServerStoodStill = "server.stood_still";
 inline constexpr const char* kStepActionDone = "step.action_done";
 inline constexpr const char* kStepActionFailed = "step.action_failed";

@@ -153,7 +153,7 @@ PULSELINE_FIELDS(JobOrder, id, number, client_order_id, wanted_vehicle, wanted_t
 PULSELINE_FIELDS(Arrival, dx_m, dy_m, dheading_rad, expected_m, expected_rad)
 PULSELINE_FIELDS(StopRecord, id, order, leg, step, vehicle, station, station_number, mode,
                  theoretical, measured, dx_m, dy_m, dheading_rad, along_m, left_m, sigma_xy_m,
-                 sigma_heading_rad, tolerance, inside, attempt, method, markers, load_kg, at,
+                 sigma_heading_rad, tolerance, inside, attempt, method, markers, load_kg, load, at,
                  arrival)
 PULSELINE_FIELDS(Event, seq, at, type, order, leg, vehicle, actor, params)
 PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, nodes, edges,
@@ -161,6 +161,8 @@ PULSELINE_FIELDS(Leg, id, order, step, vehicle, station, mode, hall, update_id, 
 PULSELINE_FIELDS(Whereabouts, pose, hall)
 PULSELINE_FIELDS(StatedPose, pose, sigma_xy_m, sigma_heading_rad)
 PULSELINE_FIELDS(Pause, actor, at, with_fleet)
+PULSELINE_FIELDS(LoadRecord, id, vehicle, station, at, actor)
+PULSELINE_FIELDS(LoadPlace, vehicle, station)
 PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,
                  leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
@@ -201,17 +203,19 @@ void fields(V& visit, S& it) {
 PULSELINE_FIELDS(LoadView, force_n, centre, worst, fault)
 PULSELINE_FIELDS(LiftMove, what, action_id, actor, at, state, why)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
-                 claimed_pose, pose_at, hall, at_station, order, leg, paused, stands_paused,
-                 integration, needs_resume, needs_resume_reason, made_way, load, lift, state)
-PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop)
+                 claimed_pose, pose_at, hall, at_station, carries, order, leg, paused,
+                 stands_paused, integration, needs_resume, needs_resume_reason, made_way, load,
+                 lift, state)
+PULSELINE_FIELDS(StationView, id, number, occupied_by, reserved_by, ready, last_stop, holds)
 PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 // The journal's own rows are no part of what it is compared by.
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Records>
 void fields(V& visit, S& it) {
-    auto& [orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates,
-           journal_rows] = it;
-    visit(orders, vehicles, stops, events, idempotency, closures, reopened, schedules, templates);
+    auto& [orders, vehicles, loads, stops, events, idempotency, closures, reopened, schedules,
+           templates, journal_rows] = it;
+    visit(orders, vehicles, loads, stops, events, idempotency, closures, reopened, schedules,
+          templates);
 }
 PULSELINE_FIELDS(VehicleMessage, vehicle, order, instant_actions)
 // Closed floor, who stands where, and tables are those of the state it was asked in.

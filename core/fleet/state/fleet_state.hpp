@@ -93,6 +93,8 @@ struct LiveVehicle {
     /// nowhere.
     std::vector<Time> made_way;
     std::optional<LiftMove> lift;  // the newest; a restart of the server forgets it, as it ends it
+    /// With what it holds floor: what it carries, or is about to take over. Follows from the loads.
+    const plant::Load* load = nullptr;
 
     /// Outlines of the floor of the leg; they cost some milliseconds and change only with the base.
     struct Areas {
@@ -136,6 +138,7 @@ struct FleetState {
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, LiveVehicle> vehicles;
+    std::map<plant::LoadId, LoadRecord> loads;  // all of the plant
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     Floor floor;
@@ -160,7 +163,9 @@ struct FleetState {
     Outputs out;
     std::set<plant::VehicleId> stored_vehicles;  // records to write
     std::set<JobOrderId> stored_orders;
+    std::set<plant::LoadId> stored_loads;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
+    std::set<plant::StationId> changed_stations;  // by what came or went without a vehicle
     std::set<plant::VehicleId> plans_wanted;
 
     LiveVehicle* find(const plant::VehicleId& id) {

@@ -142,7 +142,8 @@ struct StopRecord {
     int attempt = 1;  // approaches of this step so far
     std::string method;
     std::vector<std::string> markers;
-    double load_kg = 0;
+    double load_kg = 0;  // as its brackets say
+    plant::LoadId load;  // that it carried; empty: none
     Time at;
     std::optional<Arrival> arrival;  // none: the vehicle did not tell
 };
@@ -227,6 +228,15 @@ struct PoseBasis {
     std::string actor;         // of the statement
     Time at;
     double driven_m = 0;  // since then, by the vehicle's own reckoning
+};
+
+/// Where a load is, and since when. It survives a restart.
+struct LoadRecord {
+    plant::LoadId id;
+    plant::VehicleId vehicle;  // that carries it
+    plant::StationId station;  // on whose support it is; both empty: it is not in the plant
+    Time at;
+    std::string actor;  // whoever has put it there; empty: the plant has it there at first
 };
 
 /// What survives a restart about a vehicle.

@@ -52,6 +52,7 @@ struct StoredJournal {
 struct Records {
     std::vector<JobOrder> orders;
     std::vector<VehicleRecord> vehicles;
+    std::vector<LoadRecord> loads;  // upserts by id
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
@@ -61,9 +62,9 @@ struct Records {
     std::vector<OrderTemplate> templates;
     std::vector<JournalRow> journal;  // added by the owner of the journal, not by the fleet
     bool empty() const {
-        return journal.empty() && orders.empty() && vehicles.empty() && stops.empty() &&
-               events.empty() && idempotency.empty() && closures.empty() && reopened.empty() &&
-               schedules.empty() && templates.empty();
+        return journal.empty() && orders.empty() && vehicles.empty() && loads.empty() &&
+               stops.empty() && events.empty() && idempotency.empty() && closures.empty() &&
+               reopened.empty() && schedules.empty() && templates.empty();
     }
 };
 
@@ -71,6 +72,7 @@ struct Records {
 struct StoredFleet {
     std::vector<JobOrder> orders;  // not final ones, and the final ones of the last 7 days
     std::vector<VehicleRecord> vehicles;
+    std::vector<LoadRecord> loads;
     std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
     std::vector<Closure> closures;               // oldest first
     std::vector<Schedule> schedules;

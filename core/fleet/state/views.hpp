@@ -89,7 +89,8 @@ struct VehicleView {
     std::optional<Time> pose_at;
     std::string hall;
     plant::StationId at_station;
-    JobOrderId order;  // empty: none
+    plant::LoadId carries;  // empty: nothing
+    JobOrderId order;       // empty: none
     std::optional<LegView> leg;
     std::optional<Pause> paused;
     bool stands_paused =
@@ -110,6 +111,13 @@ struct StationView {
     plant::VehicleId reserved_by;
     bool ready = false;
     StopRecordId last_stop;
+    plant::LoadId holds;  // on its support; empty: nothing
+};
+
+/// Where a person says that a load is; both empty: not in the plant.
+struct LoadPlace {
+    plant::VehicleId vehicle;
+    plant::StationId station;
 };
 
 /// The store takes no writes: commands are refused and vehicles get no further base meanwhile.

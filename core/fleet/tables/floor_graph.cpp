@@ -3,7 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/plant/carrying.hpp"
+
 namespace pulseline::fleet {
+
+std::vector<PlantClass> classes_of(const plant::Plant& plant) {
+    std::vector<PlantClass> classes;
+    const auto note = [&](const plant::VehicleType* type, bool loaded, std::size_t vehicles) {
+        const auto known = std::ranges::find_if(classes, [&](const PlantClass& one) {
+            return one.type == type && one.loaded == loaded;
+        });
+        if (known == classes.end()) return classes.push_back({type, loaded, vehicles});
+        known->vehicles += vehicles;
+    };
+    for (const auto& vehicle : plant.vehicles) {
+        const auto* type = plant::find_vehicle_type(plant, vehicle.type);
+        if (!type) continue;  // validate() refuses such a plant
+        const bool loaded = plant::first_load(plant, vehicle.id) != nullptr;
+        note(type, loaded, 1);
+        const bool may_carry = std::ranges::any_of(plant.loads, [&](const plant::Load& load) {
+            return !plant::cannot_carry(*type, load);
+        });
+        if (loaded || may_carry) note(type, !loaded, 0);
+    }
+    return classes;
+}
 
 std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall) {
     for (std::size_t i = 0; i < plant.halls.size(); ++i) {

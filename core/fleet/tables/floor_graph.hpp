@@ -25,6 +25,15 @@ struct FloorClass {
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> way_between;  // of motion.ways
 };
 
+/// Every class that vehicles of the plant are of, or may come to be of as they take loads over and
+/// set them down; `vehicles`: how many are so at first.
+struct PlantClass {
+    const plant::VehicleType* type = nullptr;
+    bool loaded = false;
+    std::size_t vehicles = 0;
+};
+std::vector<PlantClass> classes_of(const plant::Plant& plant);
+
 /// Number of a hall in the ids of tiles.
 std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall);
 

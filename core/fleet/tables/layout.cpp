@@ -63,18 +63,9 @@ std::vector<Reason> check_layout(const plant::Plant& plant) {
     const planning::LegPlanner planner(plant);
     std::vector<FloorClass> classes;
     std::vector<std::size_t> vehicles;
-    for (const auto& vehicle : plant.vehicles) {
-        const auto* type = plant::find_vehicle_type(plant, vehicle.type);
-        if (!type) continue;  // validate() says so
-        const auto known = std::find_if(classes.begin(), classes.end(), [&](const auto& c) {
-            return c.type == type && c.loaded == is_loaded(vehicle);
-        });
-        if (known != classes.end()) {
-            ++vehicles[static_cast<std::size_t>(known - classes.begin())];
-            continue;
-        }
-        classes.push_back(floor_class(plant, planner, *type, is_loaded(vehicle)));
-        vehicles.push_back(1);
+    for (const auto& [type, loaded, count] : classes_of(plant)) {
+        classes.push_back(floor_class(plant, planner, *type, loaded));
+        vehicles.push_back(count);
     }
     std::vector<traffic::MoveGraph> graphs;
     for (const auto& of_class : classes) graphs.push_back(move_graph(plant, of_class));

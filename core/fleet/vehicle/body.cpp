@@ -10,7 +10,7 @@ double speed_share(const LiveVehicle& live) {
                : 1.0;
 }
 
-bool is_loaded(const LiveVehicle& live) { return plant::is_loaded(*live.vehicle); }
+bool is_loaded(const LiveVehicle& live) { return live.load != nullptr; }
 
 std::vector<geometry::Polygon> outline_at(const LiveVehicle& live, const Pose2& pose) {
     std::vector<geometry::Polygon> outline;

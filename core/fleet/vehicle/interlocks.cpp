@@ -1,10 +1,13 @@
 #include "core/fleet/vehicle/interlocks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "core/base/gravity.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/plant/load_rules.hpp"
 
 namespace pulseline::fleet {
@@ -12,12 +15,39 @@ namespace {
 
 using Kind = Interlock::Kind;
 
+constexpr double kUnlike = 0.1;  // of the mass that is known; load cells are far better
+
 std::vector<plant::BracketForce> forces_on(const LiveVehicle& live) {
     std::vector<plant::BracketForce> forces;
     for (const auto& bracket : live.state.brackets) {
         forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
     }
     return forces;
+}
+
+/// A transfer that was broken off leaves a part of the weight on the brackets, and a load that was
+/// moved without a word is where nobody believes it.
+std::optional<Reason> unlike_known(const FleetState& fleet, const LiveVehicle& live,
+                                   const std::vector<plant::BracketForce>& forces) {
+    if (forces.empty()) return std::nullopt;
+    const auto felt = plant::load_on(*live.type, forces);
+    const double measured_kg = felt ? felt->force_n / kGravity_mps2 : 0;
+    const auto* load = load_on(fleet, live.record.id);
+    if (!load) {
+        if (!felt) return std::nullopt;
+        return Reason{"load_unknown", {{"measured_kg", measured_kg}}};
+    }
+    if (std::abs(measured_kg - load->mass_kg) <= kUnlike * load->mass_kg || load->mass_kg == 0) {
+        return std::nullopt;
+    }
+    return Reason{"load_differs",
+                  {{"load", load->name}, {"load_kg", load->mass_kg}, {"measured_kg", measured_kg}}};
+}
+
+std::optional<Reason> load_fault(const FleetState& fleet, const LiveVehicle& live,
+                                 const std::vector<plant::BracketForce>& forces) {
+    if (auto fault = plant::load_fault(*live.type, forces)) return fault;
+    return unlike_known(fleet, live, forces);
 }
 
 /// A platform that was measured at a coded station leaves it only when both its cameras still see
@@ -39,13 +69,13 @@ std::optional<Interlock> unseen_codes(const FleetState& fleet, const LiveVehicle
 
 }  // namespace
 
-LoadView load_view(const LiveVehicle& live) {
+LoadView load_view(const FleetState& fleet, const LiveVehicle& live) {
     const auto forces = forces_on(live);
     LoadView view;
     for (const auto& one : forces) view.force_n += one.force_n;
     if (const auto load = plant::load_on(*live.type, forces)) view.centre = load->centre;
     view.worst = plant::worst_bracket(*live.type, forces);
-    view.fault = plant::load_fault(*live.type, forces);
+    view.fault = load_fault(fleet, live, forces);
     return view;
 }
 
@@ -57,7 +87,7 @@ std::optional<Interlock> interlock(const FleetState& fleet, const LiveVehicle& l
     if (furthest_m > kFootLowered_m) {
         return Interlock{Kind::kFeetDown, {"parking_feet_down", {{"furthest_m", furthest_m}}}};
     }
-    if (auto fault = plant::load_fault(*live.type, forces_on(live))) {
+    if (auto fault = load_fault(fleet, live, forces_on(live))) {
         return Interlock{Kind::kLoad, std::move(*fault)};
     }
     for (const auto& wheel : live.state.wheels) {

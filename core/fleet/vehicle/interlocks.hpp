@@ -10,12 +10,13 @@ namespace pulseline::fleet {
 
 constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
 
-LoadView load_view(const LiveVehicle& live);
+LoadView load_view(const FleetState& fleet, const LiveVehicle& live);
 
 struct Interlock {
     enum class Kind {
         kFeetDown,    // parking_feet_down {furthest_m}
-        kLoad,        // those of plant::load_fault
+        kLoad,        // those of plant::load_fault; load_unknown {measured_kg}, load_differs {load,
+                      // load_kg, measured_kg} of what its brackets feel and nobody knows of
         kWheelFault,  // wheel_fault {wheel, fault}
         kCodes,       // codes_not_seen {found, cameras}
     };

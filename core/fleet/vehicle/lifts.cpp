@@ -10,6 +10,7 @@
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -93,7 +94,7 @@ Status has_them(const LiveVehicle& live, const StepAction& wanted) {
 
 }  // namespace
 
-Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted) {
+Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted) {
     if (Status has = has_them(live, wanted); !has) return has;
     const std::string& id = live.record.id.str();
     const auto conflict = [&](const char* code, const std::string& what, Params more = {}) {
@@ -122,9 +123,10 @@ Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted) {
                         " has an order or drives. Its brackets and feet move when "
                         "that has ended, or as a part of it.");
     }
+    if (vda5050::is_transfer(wanted.type)) return may_transfer(fleet, live, wanted);
     const bool all =
         wanted.type != vda5050::kSetBracketHeight || text_of(wanted, "bracket") == kAll;
-    if (auto fault = load_view(live).fault; fault && all) {
+    if (auto fault = load_view(fleet, live).fault; fault && all) {
         return conflict(fault->code.c_str(),
                         " carries a load that breaks a rule of its type. Put "
                         "that right with single brackets first.",
@@ -133,11 +135,14 @@ Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted) {
     return {};
 }
 
-void note_lift_ended(LiveVehicle& live, const vda5050::ActionState& answer) {
+void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::ActionState& answer,
+                     Time now) {
     if (!is_under_way(live) || live.lift->action_id != answer.id) return;
     const bool done = answer.status == vda5050::ActionStatus::kFinished;
     live.lift->state = done ? LiftMove::State::kDone : LiftMove::State::kFailed;
     live.lift->why = answer.result_description;
+    if (!done || !vda5050::is_transfer(live.lift->what.type)) return;
+    note_transferred(fleet, live, live.lift->what, live.lift->actor, now);
 }
 
 void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now) {

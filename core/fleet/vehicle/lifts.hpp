@@ -12,10 +12,13 @@ namespace pulseline::fleet {
 /// Whether a person may have them moved so now. Errors, each with its remedy: unknown_lift,
 /// unknown_bracket and out_of_stroke of what the vehicle does not have; needs_person,
 /// vehicle_paused, vehicle_busy and lifts_moving; and what is wrong with a load that all brackets
-/// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right.
-Status may_move_lifts(const LiveVehicle& live, const StepAction& wanted);
-/// The vehicle has answered what was asked for.
-void note_lift_ended(LiveVehicle& live, const vda5050::ActionState& answer);
+/// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right. Of
+/// a load to be taken over or set down: those of may_transfer (loads.hpp).
+Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
+/// The vehicle has answered what was asked for: a load that it has taken over or set down is where
+/// that has put it.
+void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::ActionState& answer,
+                     Time now);
 /// The line is cut: what has not ended is not asked for again, since nobody looks at it any more.
 void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now);
 

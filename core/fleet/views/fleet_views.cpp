@@ -23,6 +23,17 @@ std::vector<VehicleView> Fleet::vehicles(Time now) const {
     return views;
 }
 
+std::vector<LoadRecord> Fleet::loads() const {
+    std::vector<LoadRecord> records;
+    for (const auto& [id, record] : state_->loads) records.push_back(record);
+    return records;
+}
+
+std::optional<LoadRecord> Fleet::load(const plant::LoadId& id) const {
+    const auto found = state_->loads.find(id);
+    return found == state_->loads.end() ? std::nullopt : std::optional(found->second);
+}
+
 std::vector<StationView> Fleet::stations() const { return station_views(*state_); }
 
 std::optional<StationView> Fleet::station(int number) const {

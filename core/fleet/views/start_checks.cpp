@@ -40,9 +40,9 @@ Check pose_check(const FleetState& fleet, const LiveVehicle& live) {
     return check("pose", Check::Result::kPass, std::move(params));
 }
 
-std::optional<Check> load_check(const LiveVehicle& live) {
+std::optional<Check> load_check(const FleetState& fleet, const LiveVehicle& live) {
     if (live.state.brackets.empty()) return std::nullopt;
-    const LoadView load = load_view(live);
+    const LoadView load = load_view(fleet, live);
     Params params{{"total_n", load.force_n}};
     if (load.fault) {
         params.push_back({"reason", load.fault->code});
@@ -169,7 +169,7 @@ std::vector<Check> start_checks(const FleetState& fleet, const LiveVehicle& live
         found->age_s = age_s;
         checks.push_back(std::move(*found));
     };
-    add(load_check(live));
+    add(load_check(fleet, live));
     add(feet_check(live));
     add(codes_check(live));
     if (target) checks.push_back(station_check(fleet, live, *target));

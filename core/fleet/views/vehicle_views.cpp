@@ -13,6 +13,7 @@
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
 #include "core/fleet/vehicle/leg_markers.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/kinematics/motion.hpp"
@@ -197,7 +198,8 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
         view.order = order->id;
     }
     if (with_leg && live.has_leg()) view.leg = leg_view(fleet, live, now);
-    view.load = load_view(live);
+    if (const auto* load = load_on(fleet, live.record.id)) view.carries = load->id;
+    view.load = load_view(fleet, live);
     view.lift = live.lift;
     view.paused = live.record.paused;
     view.stands_paused = stands_paused(live);
@@ -210,7 +212,8 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
 }
 
 StationView station_view(const FleetState& fleet, const plant::Station& station) {
-    StationView view{station.id, station.number, {}, {}, false, {}};
+    StationView view{station.id, station.number, {}, {}, false, {}, {}};
+    if (const auto* load = load_at(fleet, station.id)) view.holds = load->id;
     for (const auto& [id, live] : fleet.vehicles) {
         if (!live.record.at_station.empty() && live.record.at_station == station.id) {
             show_standing(view, live);
@@ -225,7 +228,11 @@ std::vector<StationView> station_views(const FleetState& fleet) {
     std::unordered_map<std::string_view, std::size_t> index;
     for (const auto& station : fleet.plant.stations) {
         index.emplace(station.id.str(), views.size());
-        views.push_back({station.id, station.number, {}, {}, false, {}});
+        views.push_back({station.id, station.number, {}, {}, false, {}, {}});
+    }
+    for (const auto& [id, record] : fleet.loads) {
+        const auto at = index.find(record.station.str());
+        if (at != index.end()) views[at->second].holds = id;
     }
     for (const auto& [id, live] : fleet.vehicles) {
         const auto at = index.find(live.record.at_station.str());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <utility>
 #include <variant>
 
@@ -21,6 +20,7 @@ constexpr double kContact_rad = 2 * kPi / 180.0;
 // At most.
 constexpr double kLoadAcross_m = 0.025;
 constexpr double kLoadAlong_m = 0.5;
+constexpr double kGives_m = 0.02;  // a hoist, from all of the weight to none of it
 
 bool meets(const Pose2& charger, const Pose2& vehicle) {
     return geometry::distance(charger.position(), vehicle.position()) <= kContact_m &&
@@ -62,19 +62,6 @@ std::optional<double> number(const ParamValue* value) {
     return std::nullopt;
 }
 
-/// "bracket_force_out_of_range: bracket front left, force_n 81234, limit_n 80000"
-std::string sentence(const Reason& reason) {
-    std::ostringstream text;
-    text << reason.code;
-    const char* between = ": ";
-    for (const Param& param : reason.params) {
-        text << std::exchange(between, ", ") << param.name << ' ';
-        if (const auto* name = std::get_if<std::string>(&param.value)) text << *name;
-        if (const auto* real = std::get_if<double>(&param.value)) text << *real;
-    }
-    return text.str();
-}
-
 }  // namespace
 
 VehicleEquipment::VehicleEquipment(const plant::VehicleType& type, const Pose2& true_pose,
@@ -88,12 +75,15 @@ VehicleEquipment::VehicleEquipment(const plant::VehicleType& type, const Pose2& 
       battery_percent_(battery_percent),
       load_kg_(load_kg) {
     std::mt19937_64 random(seed);
-    geometry::Point2 centre;
     if (!type.brackets.empty()) {
         action_types_.emplace_back(vda5050::kSetBracketHeight);
-        centre = load_centre(type, random);
+        load_centre_ = load_centre(type, random);
         brackets_.emplace(bracket_lifts(type, random));
-        brackets_->set_load(load_kg, centre);
+        brackets_->set_load(load_kg, load_centre_);
+        for (const auto& bracket : type.brackets) {
+            middle_ =
+                middle_ + (1.0 / static_cast<double>(type.brackets.size())) * bracket.position;
+        }
     }
     if (!type.parking) return;
     action_types_.insert(action_types_.end(), {vda5050::kRaiseParking, vda5050::kLowerParking});
@@ -103,7 +93,47 @@ VehicleEquipment::VehicleEquipment(const plant::VehicleType& type, const Pose2& 
             return height(pose * body);
         },
         random());
-    feet_->set_load(load_kg, centre);
+    feet_->set_load(load_kg, load_centre_);
+}
+
+void VehicleEquipment::work_below(std::shared_ptr<Supports> supports, plant::HallId hall,
+                                  std::optional<TrueLoad> carried) {
+    supports_ = std::move(supports);
+    hall_ = std::move(hall);
+    carried_ = std::move(carried);
+}
+
+/// Brackets that move below a load that hangs there take it over, and those that carry one set it
+/// down on what is free, as they go through its height.
+void VehicleEquipment::meet_support() {
+    support_ = supports_ ? supports_->above(hall_, true_pose_) : nullptr;
+    if (support_ == nullptr || !brackets_) return;
+    const bool sets_down = carried_ && !support_->load && bracket_height_m() >= support_->height_m;
+    if (sets_down) support_->load = carried_;
+    const bool takes_over = support_->load && (!carried_ || carried_->id == support_->load->id);
+    if (!takes_over) support_ = nullptr;
+}
+
+/// A hoist gives as its load becomes lighter, and stands spring back.
+void VehicleEquipment::share_with_support() {
+    if (support_ == nullptr) return;
+    const TrueLoad& load = *support_->load;
+    const double share = std::clamp((bracket_height_m() - support_->height_m) / kGives_m, 0.0, 1.0);
+    load_kg_ = share * load.mass_kg;
+    if (!carried_) load_centre_ = middle_ + load.centre;
+    carried_.reset();
+    if (share > 0) carried_ = load;
+    brackets_->set_load(load_kg_, load_centre_);
+    if (feet_) feet_->set_load(load_kg_, load_centre_);
+    if (brackets_->moving()) return;
+    if (share == 1) support_->load.reset();
+    support_ = nullptr;
+}
+
+double VehicleEquipment::bracket_height_m() const {
+    double sum_m = 0;
+    for (std::size_t i = 0; i < brackets_->places().size(); ++i) sum_m += brackets_->height_m(i);
+    return sum_m / static_cast<double>(brackets_->places().size());
 }
 
 std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action) {
@@ -136,8 +166,8 @@ std::optional<std::string> VehicleEquipment::begin_feet(const vda5050::Action& a
     }
     const bool lower = action.type == vda5050::kLowerParking;
     if (!lower && foot && feet_->carries(*foot)) {
-        return sentence(Reason{"foot_carries",
-                               {{"foot", feet_->name(*foot)}, {"force_n", feet_->force_n(*foot)}}});
+        return onboard::sentence_of(Reason{
+            "foot_carries", {{"foot", feet_->name(*foot)}, {"force_n", feet_->force_n(*foot)}}});
     }
     lower ? feet_->lower(foot) : feet_->raise(foot);
     return std::nullopt;
@@ -159,8 +189,9 @@ std::optional<std::string> VehicleEquipment::begin_bracket(const vda5050::Action
         if (!lift) return "unknown_bracket: there is no bracket " + *name;
     }
     if (const auto why_not = brackets_->begin(lift, *height_m, speed_mps)) {
-        return sentence(*why_not);
+        return onboard::sentence_of(*why_not);
     }
+    meet_support();
     return std::nullopt;
 }
 
@@ -171,7 +202,7 @@ bool VehicleEquipment::busy() const {
 std::optional<std::string> VehicleEquipment::failure() const {
     const std::optional<Reason> none;
     const auto& cause = lifting_ ? brackets_->stop_cause() : parking_ ? feet_->stop_cause() : none;
-    return cause ? std::optional(sentence(*cause)) : std::nullopt;
+    return cause ? std::optional(onboard::sentence_of(*cause)) : std::nullopt;
 }
 
 void VehicleEquipment::abort() {
@@ -185,6 +216,7 @@ void VehicleEquipment::step(double dt_s, double way_m) {
         std::clamp(battery_percent_ + charged - kBatteryPerMetre * std::abs(way_m), 0.0, 100.0);
     if (feet_) feet_->step(dt_s * time_factor_);
     if (brackets_) brackets_->step(dt_s * time_factor_);
+    share_with_support();
 }
 
 bool VehicleEquipment::holds_vehicle() const {
@@ -202,15 +234,20 @@ void VehicleEquipment::write_state(vda5050::StateMessage& state) {
     state.charging = charging_;
     state.load_kg = load_kg_;
     state.parking_feet.clear();
-    state.brackets.clear();
     for (std::size_t i = 0; feet_ && i < feet_->count(); ++i) {
         state.parking_feet.push_back({feet_->name(i), feet_->extension_m(i), feet_->force_n(i)});
     }
+    state.brackets = brackets();
+}
+
+std::vector<vda5050::BracketStatus> VehicleEquipment::brackets() {
+    std::vector<vda5050::BracketStatus> told;
     for (std::size_t i = 0; brackets_ && i < brackets_->places().size(); ++i) {
         const auto forces = brackets_->forces(i);
-        state.brackets.push_back(
+        told.push_back(
             {brackets_->places()[i].name, forces.a_n, forces.b_n, brackets_->height_m(i)});
     }
+    return told;
 }
 
 }  // namespace pulseline::simulation

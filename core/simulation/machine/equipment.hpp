@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "core/simulation/machine/lifting_drive.hpp"
 #include "core/simulation/machine/parking_gear.hpp"
 #include "core/simulation/world/floor_height.hpp"
+#include "core/simulation/world/supports.hpp"
 #include "core/vda5050/messages.hpp"
 
 namespace pulseline::simulation {
@@ -37,6 +39,14 @@ public:
     std::optional<std::string> failure() const override;
     void abort() override;
     bool holds_vehicle() const override;
+    std::vector<vda5050::BracketStatus> brackets() override;
+
+    /// What hangs or stands in its hall, to be taken over and set down; `carried`: of what lies on
+    /// its brackets now. Without it nothing comes or goes.
+    void work_below(std::shared_ptr<Supports> supports, plant::HallId hall,
+                    std::optional<TrueLoad> carried);
+    /// That its wheels carry now.
+    double load_kg() const { return load_kg_; }
 
     /// `way_m`: driven meanwhile.
     void step(double dt_s, double way_m);
@@ -47,6 +57,9 @@ public:
 private:
     std::optional<std::string> begin_bracket(const vda5050::Action& action);
     std::optional<std::string> begin_feet(const vda5050::Action& action);
+    void meet_support();
+    void share_with_support();
+    double bracket_height_m() const;
 
     const Pose2& true_pose_;
     std::vector<std::string> action_types_;
@@ -57,6 +70,12 @@ private:
     bool lifting_ = false;  // what was begun last moves brackets
     bool parking_ = false;  // what was begun last moves feet
     double load_kg_;
+    geometry::Point2 load_centre_;  // body frame
+    geometry::Point2 middle_;       // of the brackets
+    std::shared_ptr<Supports> supports_;
+    plant::HallId hall_;
+    std::optional<TrueLoad> carried_;     // a part of it, too
+    Supports::Place* support_ = nullptr;  // that a movement of the brackets shares the load with
     std::optional<ParkingGear> feet_;
     std::optional<LiftingDrive> brackets_;
 };

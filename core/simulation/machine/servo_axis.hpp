@@ -47,6 +47,8 @@ public:
 
     /// Inertia of what moves with it, in F s^2/u (kilograms for a wheel).
     void set_load(double inertia);
+    /// Coulomb friction, of the weight that it bears.
+    void set_friction(double force) { parameters_.coulomb_friction = force; }
     /// From outside: gravity on a slope, the weight on a lift. Positive along positive motion.
     void set_external_force(double force) { external_force_ = force; }
     void set_dead_encoder(bool dead) { dead_encoder_ = dead; }

@@ -49,6 +49,7 @@ public:
 
     const Pose2& true_pose() const override { return wheels_.true_pose(); }
     void carry(const Pose2& by) override { wheels_.carry(by); }
+    void set_load(double load_kg) override { wheels_.set_load(load_kg); }
     const Pose2& believed_pose() const override { return drive_.believed_pose(); }
     void set_believed(const Pose2& pose) override { drive_.set_believed(pose); }
     const plant::VehicleType& type() const override { return drive_.type(); }

@@ -15,6 +15,8 @@ public:
     /// It was carried off, its wheels in the air, so that odometry knows nothing of it. `by`: where
     /// it is now, seen from where it was.
     virtual void carry(const geometry::Pose2& by) = 0;
+    /// What it carries from now on weighs so much; a drive without wheels does not feel it.
+    virtual void set_load(double) {}
 };
 
 }  // namespace pulseline::simulation

@@ -40,13 +40,17 @@ WheelContact::WheelContact(const plant::VehicleType& type, double load_kg,
       slip_(type.wheels.size()),
       driven_kg_(type.wheels.size()),
       contact_(type.wheels.size()) {
-    const auto driven = static_cast<double>(std::count_if(type.wheels.begin(), type.wheels.end(),
-                                                          [](const auto& w) { return w.driven; }));
-    for (std::size_t i = 0; i < driven_kg_.size(); ++i) {
-        if (type.wheels[i].driven) driven_kg_[i] = (type.mass_kg + load_kg) / driven;
-    }
+    set_load(load_kg);
     grade_ = {errors_.grade * normal_(random), errors_.grade * normal_(random)};
     if (on_rollers(type_)) roller_loss_ = errors_.roller_slip * normal_(random);
+}
+
+void WheelContact::set_load(double load_kg) {
+    const auto driven =
+        static_cast<double>(std::ranges::count_if(type_.wheels, &plant::Wheel::driven));
+    for (std::size_t i = 0; i < driven_kg_.size(); ++i) {
+        if (type_.wheels[i].driven) driven_kg_[i] = (type_.mass_kg + load_kg) / driven;
+    }
 }
 
 bool WheelContact::set_slip(const std::string& wheel, double share) {

@@ -20,6 +20,7 @@ public:
     WheelContact(const plant::VehicleType& type, double load_kg,
                  const localisation::DriveErrors& errors, std::mt19937_64& random);
 
+    void set_load(double load_kg);
     /// Twist of the body over a cycle of `h_s` at `true_pose`. `accel_mps2`: of each wheel's rim.
     kinematics::Twist body_twist(std::span<const kinematics::WheelMotion> rolled,
                                  std::span<const double> accel_mps2, const Pose2& true_pose,

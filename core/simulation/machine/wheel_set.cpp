@@ -62,15 +62,19 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg) {
     return p;
 }
 
+double driven_wheels(const plant::VehicleType& type) {
+    return static_cast<double>(std::ranges::count_if(type.wheels, &plant::Wheel::driven));
+}
+
 }  // namespace
 
 WheelSet::WheelSet(const plant::VehicleType& type, double load_kg,
                    const localisation::DriveErrors& errors, std::mt19937_64& random)
     : errors_(errors),
+      type_(type),
       max_accel_mps2_(type.max_accel_mps2),
       steering_rate_radps_(type.max_steering_rate_radps) {
-    const auto driven = static_cast<double>(std::count_if(
-        type.wheels.begin(), type.wheels.end(), [](const auto& wheel) { return wheel.driven; }));
+    const double driven = driven_wheels(type);
     assert(driven > 0);
     std::normal_distribution<double> normal;
     const double diameter = errors.diameter_common * normal(random);
@@ -94,6 +98,17 @@ WheelSet::WheelSet(const plant::VehicleType& type, double load_kg,
     measured_.resize(wheels_.size());
     rolled_.resize(wheels_.size());
     brake();
+}
+
+void WheelSet::set_load(double load_kg) {
+    const double driven = driven_wheels(type_);
+    for (Wheel& wheel : wheels_) {
+        if (wheel.roll) {
+            wheel.roll->set_load((std::max(kLightest_kg, type_.mass_kg) + load_kg) / driven);
+            wheel.roll->set_friction(rolling(type_, wheel.plan, load_kg, driven).coulomb_friction);
+        }
+        if (wheel.steer) wheel.steer->set_friction(steering(type_, load_kg).coulomb_friction);
+    }
 }
 
 void WheelSet::cycle(std::span<const WheelMotion> wanted, bool standing,

@@ -31,6 +31,8 @@ public:
     /// `grade_force_n`: slope, on each wheel along its rolling direction.
     void cycle(std::span<const kinematics::WheelMotion> wanted, bool standing,
                std::span<const double> grade_force_n);
+    /// The vehicle carries so much from now on. REQUIRES: it stands.
+    void set_load(double load_kg);
     /// Brakes on: nothing moves and the loops forget.
     void brake();
 
@@ -85,6 +87,7 @@ private:
     std::vector<kinematics::WheelMotion> present_;
     std::vector<kinematics::WheelMotion> measured_;
     std::vector<kinematics::WheelMotion> rolled_;
+    plant::VehicleType type_;
     double max_accel_mps2_;
     double steering_rate_radps_;
 };

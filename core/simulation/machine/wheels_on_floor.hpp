@@ -47,6 +47,12 @@ public:
     const Pose2& true_pose() const { return true_; }
     void carry(const Pose2& by) { true_ = true_ * by; }
 
+    /// What the vehicle carries from now on. REQUIRES: it stands.
+    void set_load(double load_kg) {
+        wheels_.set_load(load_kg);
+        contact_.set_load(load_kg);
+    }
+
     // Faults and floor, from outside. False: there is no such wheel.
     bool break_wheel(const std::string& name) { return wheels_.break_wheel(name); }
     bool kill_encoder(const std::string& name) { return wheels_.kill_encoder(name); }

@@ -78,6 +78,7 @@ World make_world(plant::Plant plant, std::uint64_t seed, const localisation::Err
         world.reflectors.push_back(std::move(standing));
     }
     for (const auto& hall : plant.halls) add_shining_things(plant, hall, seed, errors, world);
+    world.supports = std::make_shared<Supports>(plant, seed);
     world.plant = std::move(plant);
     return world;
 }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/base/result.hpp"
 #include "core/localisation/error_budget.hpp"
 #include "core/plant/plant.hpp"
+#include "core/simulation/world/supports.hpp"
 
 namespace pulseline::simulation {
 
@@ -38,7 +40,8 @@ struct World {
     std::vector<plant::Transmitter> transmitters;  // as they truly stand
     std::vector<plant::Reflector> reflectors;      // so do they
     std::vector<ShiningThing> shining_things;
-    localisation::ErrorBudget errors;  // of which its machines are drawn, too
+    std::shared_ptr<Supports> supports;  // what is on them changes as vehicles work
+    localisation::ErrorBudget errors;    // of which its machines are drawn, too
 };
 
 /// The codes lie where the survey says + an error of its sigma, and are printed with the budget's

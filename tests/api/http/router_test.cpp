@@ -79,7 +79,7 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "closeFloor",       "reopenFloor",
                                              "localize",         "measureByLight",
                                              "previewMotions",   "moveLifts",
-                                             "stopLifts"};
+                                             "stopLifts",        "placeLoad"};
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {
     struct Caller {

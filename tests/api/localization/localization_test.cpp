@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/simulation/world/floor_camera.hpp"
+#include "tests/core/plant/loads.hpp"
 
 namespace pulseline::api::localization {
 
@@ -125,7 +126,7 @@ TEST_F(Localize, ALoadedVehicleIsPlacedByItsCamerasUnderLoad) {
         camera.height_m += 0.002;
     }
     const auto unloaded = localize(plant, asked);
-    plant.vehicles[0].load_kg = 22'000;
+    plant::builders::put_on(plant, 0, "A-101", 22'000);
     const auto loaded = localize(plant, asked);
 
     ASSERT_TRUE(unloaded && unloaded->fix && loaded && loaded->fix);

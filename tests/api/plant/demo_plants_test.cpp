@@ -73,7 +73,8 @@ std::vector<planning::StandingBody> others_at_home(const Plant& plant, const Veh
         planning::StandingBody body{vehicle.id, {}};
         const Pose2 home = find_station(plant, vehicle.home)->pose;
         const auto& type = *find_vehicle_type(plant, vehicle.type);
-        for (const Polygon& piece : outline_with_load(type, !vehicle.load_name.empty())) {
+        for (const Polygon& piece :
+             outline_with_load(type, first_load(plant, vehicle.id) != nullptr)) {
             body.outline.push_back(geometry::transformed(home, piece));
         }
         bodies.push_back(std::move(body));
@@ -85,7 +86,7 @@ planning::LegRequest leg(const Plant& plant, const Vehicle& vehicle, const Stati
                          const Station& to, MotionMode mode) {
     planning::LegRequest request;
     request.type = find_vehicle_type(plant, vehicle.type);
-    request.loaded = !vehicle.load_name.empty();
+    request.loaded = first_load(plant, vehicle.id) != nullptr;
     request.hall = from.hall;
     request.start = from.pose;
     request.from_station = from.id;
@@ -159,7 +160,7 @@ TEST_P(DemoPlant, NoVehicleLosesItselfBetweenStations) {
     ChainFigures figures;
     for (const Vehicle& vehicle : plant.vehicles) {
         const planning::CodeReach reach(*find_vehicle_type(plant, vehicle.type),
-                                        is_loaded(vehicle));
+                                        first_load(plant, vehicle.id) != nullptr);
         for (const Station& from : plant.stations) {
             for (const Station& to : plant.stations) {
                 if (from.id == to.id || !serves(from, vehicle) || !serves(to, vehicle)) continue;
@@ -242,7 +243,7 @@ TEST_P(Tour, LoadedPlatformDrivesTangsStationsClearOfEverybody) {
     const Plant plant = demo(GetParam());
     const planning::LegPlanner planner(plant);
     const Vehicle& platform = *find_vehicle(plant, VehicleId("TP-01"));
-    ASSERT_FALSE(platform.load_name.empty());
+    ASSERT_NE(first_load(plant, platform.id), nullptr);
     const MotionMode modes[] = {MotionMode::kLinear,
                                 MotionMode::kLinear,
                                 MotionMode::kFixedAxisRotation,

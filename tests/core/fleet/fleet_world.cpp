@@ -89,6 +89,7 @@ plant::Plant small_plant() {
 void MemoryStore::commit(const Records& records) {
     for (const auto& order : records.orders) orders[order.id] = order;
     for (const auto& vehicle : records.vehicles) vehicles[vehicle.id] = vehicle;
+    for (const auto& load : records.loads) loads[load.id] = load;
     stops.insert(stops.end(), records.stops.begin(), records.stops.end());
     events.insert(events.end(), records.events.begin(), records.events.end());
     idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());
@@ -119,6 +120,7 @@ StoredFleet MemoryStore::load() const {
         stored.last_order_number = std::max(stored.last_order_number, order.number);
     }
     for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
+    for (const auto& [id, load] : loads) stored.loads.push_back(load);
     stored.idempotency = idempotency;
     stored.closures = closures;
     for (const auto& [id, schedule] : schedules) stored.schedules.push_back(schedule);

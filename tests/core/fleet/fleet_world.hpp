@@ -25,6 +25,7 @@ public:
 
     std::map<JobOrderId, JobOrder> orders;
     std::map<plant::VehicleId, VehicleRecord> vehicles;
+    std::map<plant::LoadId, LoadRecord> loads;
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;

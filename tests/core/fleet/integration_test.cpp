@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/fleet/fleet_world.hpp"
+#include "tests/core/plant/loads.hpp"
 
 namespace pulseline::fleet::testing {
 namespace {
@@ -11,7 +12,7 @@ const plant::VehicleId kV2("V2");
 plant::Plant resting_plant(bool loaded = false) {
     plant::Plant plant = small_plant();
     for (auto& station : plant.stations) station.resting_place = true;
-    if (loaded) plant.vehicles[0].load_name = "A-101";
+    if (loaded) plant::builders::put_on(plant, 0, "A-101");
     return plant;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/fleet/vehicle/interlocks.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
+#include "tests/core/plant/loads.hpp"
 
 // What has to be true of a platform and its load before it may leave where it stands (Tang 2020,
 // section 2). Each interlock keeps an order from starting, says why, and lets it go when it is
@@ -27,6 +28,7 @@ plant::Plant with_brackets() {
             type.wheels.push_back({name, {1.2 * x_m, 1.2 * y_m}, false, false, 0.2});
         }
     }
+    plant::builders::put_on(plant, 0, "J-1");
     return plant;
 }
 

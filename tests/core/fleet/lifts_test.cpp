@@ -6,6 +6,7 @@
 
 #include "core/fleet/vehicle/readiness.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
+#include "tests/core/plant/loads.hpp"
 
 // Brackets and parking feet that a person moves outside an order (Tang 2020, section 2).
 namespace pulseline::fleet::testing {
@@ -26,6 +27,7 @@ plant::Plant with_brackets() {
                      {"back left", {-1, 0.4}},
                      {"back right", {-1, -0.4}}};
     type.parking = plant::usual_parking(type.footprint);
+    plant::builders::put_on(plant, 0, "J-1");
     return plant;
 }
 

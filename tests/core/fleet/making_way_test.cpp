@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "tests/core/fleet/traffic_halls.hpp"
+#include "tests/core/plant/loads.hpp"
 
 // Idle vehicles leave the way of others.
 namespace pulseline::fleet::testing {
@@ -73,7 +74,7 @@ plant::Plant two_that_bar() {
 TEST(MakingWay, ALoadedVehicleLeavesWhenNobodyElseCan) {
     plant::Plant plant = plant_of({{"west", 10, 40, 1}, {"middle", 40, 40, 2}, {"east", 70, 40, 3}},
                                   {{"west", "middle"}, {"middle", "east"}}, 2);
-    plant.vehicles[1].load_name = "A-101";
+    plant::builders::put_on(plant, 1, "A-101");
     World world(plant);
     confirm_poses(world);
 
@@ -88,7 +89,7 @@ TEST(MakingWay, ALoadedVehicleLeavesWhenNobodyElseCan) {
 TEST(MakingWay, OneWithALoadStaysWhereAnotherCanLeave) {
     for (const std::size_t loaded : {1, 2}) {
         plant::Plant plant = two_that_bar();
-        plant.vehicles[loaded].load_name = "A-101";
+        plant::builders::put_on(plant, loaded, "A-101");
         World world(plant);
         confirm_poses(world);
 
@@ -142,7 +143,9 @@ TEST(MakingWay, TwoSentToWhereALoadedOneStandsDoNotSendEachOtherToAndFro) {
                                    {"way", "hole"},
                                    {"way", "east"}},
                                   3);
-    for (auto& vehicle : plant.vehicles) vehicle.load_name = "A-10";
+    for (std::size_t i = 0; i < plant.vehicles.size(); ++i) {
+        plant::builders::put_on(plant, i, "A-10" + std::to_string(i));
+    }
     World world(plant);
     confirm_poses(world);
 
@@ -175,7 +178,7 @@ plant::Plant line_of_work(int vehicles) {
 
 TEST(MakingWay, ALoadStaysWhereItIsWorkedOnUntilAnotherHasToPass) {
     plant::Plant plant = line_of_work(2);
-    plant.vehicles[1].load_name = "A-101";
+    plant::builders::put_on(plant, 1, "A-101");
     World world(plant);
     confirm_poses(world);
     ASSERT_TRUE(world.order("V2", {3}));
@@ -316,7 +319,7 @@ TEST(MakingWay, AnIdleOneThatKeepsAnotherFromLeavingGoesToRestThoughNobodyNamesI
                                    {"west", "south"}},
                                   4);
     plant.stations[4].resting_place = false;
-    plant.vehicles[1].load_name = "A-101";  // stays in the lay-by
+    plant::builders::put_on(plant, 1, "A-101");  // stays in the lay-by
     World world(plant);
     // Of V3's two ways to the free places V4 stands on one, V2 on the other: only V2 is named.
     world.vehicle("V3").state.pose = {65, 40, 0};
@@ -340,7 +343,7 @@ TEST(MakingWay, AnIdleOneOnTheRoadLeavesItForOneAtRestThatCannotMakeWay) {
                       {"right", 50, 70, 4},
                       {"fork", 30, 70}},
                      {{"east", "west"}, {"west", "fork"}, {"fork", "left"}, {"fork", "right"}}, 3);
-        plant.vehicles[2].load_name = load;
+        if (*load != 0) plant::builders::put_on(plant, 2, load);
         World world(plant);
         world.vehicle("V3").state.pose = {30, 55, kPi / 2};  // as a cancelled leg leaves it
         confirm_poses(world);

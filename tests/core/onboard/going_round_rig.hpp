@@ -143,11 +143,10 @@ public:
     plant::VehicleType type;
     std::optional<plant::Corridor> corridor;
     simulation::World world = world_of(type);
-    plant::Vehicle vehicle;
     simulation::ServoDrive drive{type, kBegin, 7};
     simulation::SimulatedScanners scanners{world, plant::HallId("hall"), type, drive.true_pose(),
                                            3};
-    LookOut look_out{scanners, vehicle, drive};
+    LookOut look_out{scanners, false, drive};
     NoSensing sensing;
     Executor executor{drive, sensing, "hall"};
     GoingRound going_round{type, false, drive, look_out, executor};

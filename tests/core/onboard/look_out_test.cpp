@@ -13,12 +13,10 @@ using pulseline::testing::differential;
 TEST(LookOut, StopsBeforeAnotherVehicleAndGoesOnWhenThatHasLeft) {
     const auto type = differential();
     const auto world = testing::world_of(type);
-    plant::Vehicle vehicle;
-    vehicle.type = type.id;
     simulation::ServoDrive drive(type, {20, 30, 0}, 3);
     simulation::SimulatedScanners scanners(world, plant::HallId("hall"), type, drive.true_pose(),
                                            5);
-    LookOut look_out(scanners, vehicle, drive);
+    LookOut look_out(scanners, false, drive);
     bool stands_there = true;
     const geometry::Polygon other = geometry::transformed({30, 30, 0}, type.footprint);
     int asked = 0;
@@ -55,12 +53,10 @@ TEST(LookOut, StopsBeforeAnotherVehicleAndGoesOnWhenThatHasLeft) {
 TEST(LookOut, WithAWindowCoveredItStaysUntilThatIsClean) {
     const auto type = differential();
     const auto world = testing::world_of(type);
-    plant::Vehicle vehicle;
-    vehicle.type = type.id;
     simulation::ServoDrive drive(type, {20, 30, 0}, 3);
     simulation::SimulatedScanners scanners(world, plant::HallId("hall"), type, drive.true_pose(),
                                            5);
-    LookOut look_out(scanners, vehicle, drive);
+    LookOut look_out(scanners, false, drive);
     const auto run = [&](double seconds) {
         for (double t = 0; t < seconds; t += testing::kStep_s) {
             look_out.step(testing::kStep_s);

@@ -1,4 +1,5 @@
 #include "core/plant/validate.hpp"
+#include "tests/core/plant/loads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -233,8 +234,53 @@ const Case kCases[] = {
      "/vehicle_types/0/wheels/0/diameter_m", "not_positive"},
     {"MarkerWithoutSize", [](Plant& p) { p.markers[0].size_m = 0; }, "/markers/0/size_m",
      "not_positive"},
-    {"Overloaded", [](Plant& p) { p.vehicles[0].load_kg = 101; }, "/vehicles/0/load_kg",
+    {"Overloaded", [](Plant& p) { builders::put_on(p, 0, "A-101", 101); }, "/loads/0/mass_kg",
      "overloaded"},
+    {"LoadAtTwoPlaces",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         p.loads[0].station = p.stations[0].id;
+     },
+     "/loads/0/station", "two_places"},
+    {"LoadWhereNothingHoldsIt",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         p.loads[0].vehicle = {};
+         p.loads[0].station = p.stations[0].id;
+     },
+     "/loads/0/station", "without_support"},
+    {"LoadOnNobody",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         p.loads[0].vehicle = VehicleId("none");
+     },
+     "/loads/0/vehicle", "unknown_vehicle"},
+    {"TwoLoadsOnOne",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         builders::put_on(p, 0, "A-102");
+     },
+     "/loads/1/vehicle", "place_taken"},
+    {"LoadWithItsNameTwice",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         builders::put_on(p, 1, "A-101");
+     },
+     "/loads/1/id", "duplicate_id"},
+    {"LoadForNobody",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         p.loads[0].vehicle_types = {VehicleTypeId("none")};
+     },
+     "/loads/0/vehicle_types/0", "unknown_vehicle_type"},
+    {"LoadLargerThanItsTypeIsPlannedWith",
+     [](Plant& p) {
+         builders::put_on(p, 0, "A-101");
+         p.loads[0].outline = geometry::rectangle(50, 50);
+     },
+     "/loads/0/vehicle", "load_too_large"},
+    {"SupportBelowTheFloor", [](Plant& p) { p.stations[0].support = Support{-0.1}; },
+     "/stations/0/support/height_m", "negative"},
     {"TurnsCheaper", [](Plant& p) { p.routing.k_diff = 1; }, "/routing/k_diff", "turns_cheaper"},
     {"AccuracyBelowNothing", [](Plant& p) { p.routing.accuracy_k = -1; }, "/routing/accuracy_k",
      "negative"},
@@ -326,7 +372,7 @@ const Case kCases[] = {
      "/vehicles/0/home", "home_not_for_type"},
     {"LoadTooWideForHome",
      [](Plant& p) {
-         p.vehicles[0].load_name = "A-101";
+         builders::put_on(p, 0, "A-101");
          p.areas[1].outline = {{5, 12}, {7, 12}, {7, 14}, {5, 14}};
      },
      "/vehicles/0/home", "home_too_small"},

@@ -13,6 +13,7 @@
 #include "server/agent/hand_held.hpp"
 #include "server/agent/simulated_vehicle.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
+#include "tests/core/plant/loads.hpp"
 #include "tests/db/temp_folder.hpp"
 #include "tests/server/agent/small_hall.hpp"
 
@@ -217,7 +218,7 @@ protected:
         type.max_load_kg = wheels.max_load_kg;
         type.slip_sensor = wheels.slip_sensor;
         type.scanners = plant::usual_scanners(type.footprint);
-        world.plant.vehicles[0].load_kg = 18000;
+        plant::builders::put_on(world.plant, 0, "A-101", 18000);
     }
     void start(std::vector<Fault> faults, std::vector<vda5050::Action> actions = {}) {
         servo.emplace(world, world.plant.vehicles[0], geometry::Pose2{20, 10, 0},

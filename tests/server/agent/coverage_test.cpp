@@ -66,7 +66,7 @@ protected:
             const auto world = simulation::make_world(plant_, seed, errors);
             const simulation::VehicleMotion standing(type_, truth, seed);
             CameraSensing eyes(world, station_.hall, standing, rendered, seed,
-                               plant::is_loaded(vehicle_));
+                               plant::first_load(plant_, vehicle_.id) != nullptr);
             const auto measured = eyes.measure(target_at(plant_, station_));
             const auto fix = eyes.take_fix();
             if (!measured || !fix) continue;

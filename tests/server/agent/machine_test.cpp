@@ -10,6 +10,7 @@
 #include "server/agent/simulated_controller.hpp"
 #include "server/agent/tcp_machine.hpp"
 #include "tests/core/control/demo_vehicles.hpp"
+#include "tests/core/plant/loads.hpp"
 #include "tests/server/agent/small_hall.hpp"
 
 // The controller of a machine and its protocol: frames in, frames out, and over a real socket.
@@ -31,7 +32,7 @@ plant::Plant hall() {
     type.parking = whole.parking;
     type.mass_kg = whole.mass_kg;
     type.max_load_kg = whole.max_load_kg;
-    plant.vehicles[0].load_kg = kLoad_kg;
+    plant::builders::put_on(plant, 0, "A-101", kLoad_kg);
     return plant;
 }
 

@@ -72,6 +72,8 @@ std::string every_call(Recorder& recorder) {
     const StepAction up{"setBracketHeight", {{"bracket", "all"}, {"height_m", 0.1}}};
     static_cast<void>(fleet.move_lifts(v1, up, "me", kNow));
     static_cast<void>(fleet.stop_lifts(v1, "me", kNow));
+    const LoadPlace there{v1, plant::StationId("s1")};
+    static_cast<void>(fleet.place_load(plant::LoadId("A-101"), there, "me", kNow));
     planning::LegPlan plan;
     plan.segments.resize(2);
     plan.route = {plant::NodeId("n1")};

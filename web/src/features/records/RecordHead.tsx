@@ -13,7 +13,7 @@ export function RecordHead({ stop }: { stop: StopRecord }) {
   const words = useWords();
   const now = useServerNow(60_000);
   const plant = usePlant().data;
-  const load = plant?.vehicles.find((v) => v.id === stop.vehicle)?.load_name ?? "";
+  const load = plant?.loads?.find((one) => one.id === stop.load)?.name ?? stop.load ?? "";
   const said = {
     vehicle: words.vehicle(stop.vehicle),
     number: stop.number,

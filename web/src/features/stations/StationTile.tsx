@@ -1,6 +1,6 @@
 import { useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
-import { useMayCommand, useServerNow, useVehicle, type LiveStation } from "@/shared/live";
+import { useMayCommand, usePlant, useServerNow, useVehicle, type LiveStation } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime } from "@/shared/words/format";
@@ -54,6 +54,11 @@ function useWho(station: LiveStation): string {
   const by = station.state?.occupied_by || undefined;
   const load = useVehicle(by)?.load_name;
   const coming = comingTo(station.state);
+  const held = station.state?.load;
+  const loads = usePlant().data?.loads;
+  if (held !== undefined && !by) {
+    return t("holds", { load: loads?.find((one) => one.id === held)?.name ?? held });
+  }
   if (by) {
     const name = words.vehicle(by);
     const here = load ? t("carries", { vehicle: name, load }) : name;

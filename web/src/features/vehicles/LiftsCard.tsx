@@ -1,16 +1,17 @@
-import { useCallback, useEffect, useMemo, useState } from "react";
+import { useCallback, useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { LiftCommand, Vehicle, VehicleType } from "@/shared/api/types";
 import { CommandFailed } from "@/shared/commands";
 import { feetDown } from "@/shared/live/feet";
 import { CommandButton } from "@/shared/ui";
-import type { CommandProgress } from "@/shared/ui/command";
-import { useCommand, useProgress, type Command } from "@/shared/ui/useCommand";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { bracketKey, footCorner } from "./drawing/faceplate";
 import { heights, kAll, liftBar, readHeight, readSpeed, reasonOf } from "./lifts";
+import { LoadTransfer } from "./LoadTransfer";
+import { useLift, type Lift } from "./useLift";
 import "./IntegrationCard.css";
 import "./LiftsCard.css";
 
@@ -48,6 +49,7 @@ export function LiftsCard({ vehicle, type, refused }: Props) {
         <b>{t(hasBrackets ? (hasFeet ? "lifts.title" : "lifts.title_brackets") : "lifts.title_feet")}</b>
         <span className="lab">{now.join(t("join"))}</span>
       </summary>
+      {hasBrackets && <LoadTransfer vehicle={vehicle} refused={refused} />}
       {hasBrackets && <BracketLift vehicle={vehicle} type={type} refused={refused} />}
       {hasFeet && <FootLift vehicle={vehicle} type={type} refused={refused} />}
       {lift?.state === "failed" && (
@@ -219,34 +221,4 @@ function FootLift({ vehicle, refused }: Props) {
 function useFeet(vehicle: Vehicle, type: "lowerParking" | "raiseParking", foot: string | undefined): Lift {
   const body = useMemo<LiftCommand>(() => ({ type, ...(foot !== undefined && { foot }) }), [type, foot]);
   return useLift(vehicle, type, body);
-}
-
-interface Lift {
-  command: Command;
-  progress: CommandProgress;
-}
-
-/** A movement as it is asked for here, and how far it is, whoever asked. */
-function useLift(vehicle: Vehicle, type: LiftCommand["type"], body: LiftCommand | undefined): Lift {
-  const { t } = useTranslation("vehicles");
-  const words = useWords();
-  const [asked, setAsked] = useState<string>();
-  const command = useCommand(
-    useCallback(async () => {
-      if (body === undefined) return;
-      const path = { id: vehicle.id };
-      const taken = await call(api.POST("/api/v1/vehicles/{id}/lifts", { params: { path }, body }));
-      setAsked(taken.lift?.action_id);
-    }, [vehicle.id, body]),
-  );
-  const { lift } = vehicle;
-  const ended = lift !== undefined && lift.action_id === asked ? lift.state : undefined;
-  const own = useProgress(command, ended === "done", vehicle.name);
-  const { reset } = command;
-  useEffect(() => {
-    if (ended === "failed") reset(); // why stands below
-  }, [ended, reset]);
-  if (lift?.state !== "under_way" || lift.type !== type) return { command, progress: own };
-  const small = t("lifts.for", { actor: words.actor(lift.by) });
-  return { command, progress: { kind: "under_way", title: t("lifts.moves"), small } };
 }

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "api/http/wire/contexts.hpp"
+
+namespace pulseline::api {
+
+FleetAnswer list_loads(FleetContext& context, const Request& request);
+FleetAnswer get_load(FleetContext& context, const Request& request);
+FleetAnswer place_load(FleetContext& context, const Request& request);
+
+}  // namespace pulseline::api

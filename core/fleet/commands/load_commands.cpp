@@ -1,0 +1,98 @@
+#include <utility>
+
+#include "core/fleet/commands/reachable.hpp"
+#include "core/fleet/dispatch/dispatch.hpp"
+#include "core/fleet/fleet.hpp"
+#include "core/fleet/floor/carrying.hpp"
+#include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/loads.hpp"
+#include "core/fleet/vehicle/readiness.hpp"
+#include "core/plant/carrying.hpp"
+
+// What people say of loads.
+namespace pulseline::fleet {
+namespace {
+
+/// Its plans and its floor are made with what it carries.
+Status may_change(const FleetState& fleet, const LiveVehicle& live, const std::string& field) {
+    const std::string& id = live.record.id.str();
+    const bool busy = live.has_leg() || live.state.driving || lifts_move(live) ||
+                      fleet.orders.of(live.record.id) != nullptr;
+    if (!busy) return {};
+    return fail(Errc::kConflict, "vehicle_busy",
+                "Vehicle " + id +
+                    " has an order, drives or moves its brackets. Say what it carries when that "
+                    "has ended.",
+                field, {{"vehicle", id}});
+}
+
+Status may_be_on(const FleetState& fleet, const plant::Load& load, const plant::VehicleId& id) {
+    const LiveVehicle* live = fleet.find(id);
+    if (!live) {
+        return fail(Errc::kUnreachable, "unknown_vehicle", "There is no vehicle " + id.str() + ".",
+                    "/vehicle", {{"vehicle", id.str()}});
+    }
+    if (const auto* on = load_on(fleet, id); on && on != &load) {
+        return fail(
+            Errc::kConflict, "vehicle_loaded",
+            "Vehicle " + id.str() + " carries " + on->name + ". Say first where that has gone.",
+            "/vehicle", {{"vehicle", id.str()}, {"load", on->name}});
+    }
+    if (auto why_not = plant::cannot_carry(*live->type, load)) {
+        return fail(Errc::kConflict, why_not->code.c_str(),
+                    "Vehicles like " + id.str() + " may not carry " + load.name + ".", "/vehicle",
+                    std::move(why_not->params));
+    }
+    return may_change(fleet, *live, "/vehicle");
+}
+
+Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::StationId& id) {
+    const auto* station = plant::find_station(fleet.plant, id);
+    if (!station) {
+        return fail(Errc::kUnreachable, "unknown_station", "There is no station " + id.str() + ".",
+                    "/station", {{"station", id.str()}});
+    }
+    if (!station->support) {
+        return fail(Errc::kConflict, "no_support",
+                    "Nothing holds a load at station " + std::to_string(station->number) + ".",
+                    "/station", {{"station", std::int64_t{station->number}}});
+    }
+    if (const auto* there = load_at(fleet, id); there && there != &load) {
+        return fail(Errc::kConflict, "support_taken",
+                    there->name + " is there already. Say first where that has gone.", "/station",
+                    {{"load", there->name}});
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<LoadRecord> Fleet::place_load(const plant::LoadId& id, const LoadPlace& where,
+                                     const std::string& actor, Time now) {
+    FleetState& fleet = input<&Fleet::place_load>(now, id, where, actor);
+    const auto* load = plant::find_load(fleet.plant, id);
+    if (!load) {
+        return fail(Errc::kNotFound, "unknown_load", "There is no load " + id.str() + ".", {},
+                    {{"load", id.str()}});
+    }
+    const LoadRecord before = fleet.loads.at(id);
+    if (before.vehicle == where.vehicle && before.station == where.station) return before;
+    LiveVehicle* from = fleet.find(before.vehicle);
+    Status may;
+    if (from) may = may_change(fleet, *from, {});
+    if (may && !where.vehicle.empty()) may = may_be_on(fleet, *load, where.vehicle);
+    if (may && !where.station.empty()) may = may_be_at(fleet, *load, where.station);
+    if (!may) return fail(std::move(may).error());
+    if (LiveVehicle* to = fleet.find(where.vehicle)) {
+        if (Status held = hold_floor_with(fleet, *to, load, now); !held) {
+            return fail(std::move(held).error());
+        }
+    }
+    move_load(fleet, id, where, actor, now);
+    if (from) settle_load(fleet, *from, now);
+    dispatch(fleet, now);
+    return fleet.loads.at(id);
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,191 @@
+#include "core/fleet/vehicle/loads.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "core/fleet/state/event_types.hpp"
+#include "core/fleet/state/events.hpp"
+#include "core/plant/carrying.hpp"
+#include "core/vda5050/actions.hpp"
+
+namespace pulseline::fleet {
+namespace {
+
+std::string load_named(const StepAction& wanted) {
+    for (const Param& param : wanted.params) {
+        const auto* text = std::get_if<std::string>(&param.value);
+        if (param.name == "load" && text != nullptr) return *text;
+    }
+    return {};
+}
+
+/// "vehicle TP-01", "station 1", "nowhere"
+std::string place_of(const FleetState& fleet, const LoadRecord& record) {
+    if (!record.vehicle.empty()) return "vehicle " + record.vehicle.str();
+    const auto* station = plant::find_station(fleet.plant, record.station);
+    return station ? "station " + std::to_string(station->number) : "nowhere";
+}
+
+Status may_pick(const FleetState& fleet, const LiveVehicle& live, const plant::Station& station,
+                const StepAction& wanted) {
+    const std::string& id = live.record.id.str();
+    const plant::LoadId named(load_named(wanted));
+    const auto* load = plant::find_load(fleet.plant, named);
+    if (!load) {
+        return fail(Errc::kUnreachable, "unknown_load", "There is no load \"" + named.str() + "\".",
+                    "/load", {{"load", named.str()}});
+    }
+    if (const auto* on = load_on(fleet, live.record.id)) {
+        return fail(Errc::kConflict, "vehicle_loaded",
+                    "Vehicle " + id + " carries " + on->name + ". Set that down first.", {},
+                    {{"vehicle", id}, {"load", on->name}});
+    }
+    if (load_at(fleet, station.id) != load) {
+        const std::string where = place_of(fleet, fleet.loads.at(named));
+        return fail(
+            Errc::kConflict, "load_elsewhere",
+            load->name + " is not here but at: " + where + ". Drive there, or say where it is.",
+            "/load", {{"load", load->name}, {"where", where}});
+    }
+    if (auto why_not = plant::cannot_carry(*live.type, *load)) {
+        return fail(Errc::kConflict, why_not->code.c_str(),
+                    "Vehicles like " + id + " may not carry " + load->name + ".", "/load",
+                    std::move(why_not->params));
+    }
+    return {};
+}
+
+Status may_drop(const FleetState& fleet, const LiveVehicle& live, const plant::Station& station) {
+    const std::string& id = live.record.id.str();
+    if (!load_on(fleet, live.record.id)) {
+        return fail(Errc::kConflict, "vehicle_empty", "Vehicle " + id + " carries nothing.", {},
+                    {{"vehicle", id}});
+    }
+    if (const auto* there = load_at(fleet, station.id)) {
+        return fail(Errc::kConflict, "support_taken",
+                    there->name + " is on the support of this station already.", {},
+                    {{"load", there->name}});
+    }
+    for (const auto& bracket : live.state.brackets) {
+        const double height_m = bracket.height_m.value_or(station.support->height_m);
+        if (height_m >= station.support->height_m) continue;
+        return fail(Errc::kConflict, "brackets_too_low",
+                    "The brackets of " + id +
+                        " are lower than what the load is set down on. Raise them first.",
+                    {}, {{"height_m", height_m}, {"least_m", station.support->height_m}});
+    }
+    return {};
+}
+
+/// Of the plant, unless the store knows better.
+LoadRecord first_record(const plant::Load& load, Time now) {
+    return {load.id, load.vehicle, load.station, now, {}};
+}
+
+bool is_there(const FleetState& fleet, const LoadRecord& record) {
+    if (!record.vehicle.empty()) return fleet.find(record.vehicle) != nullptr;
+    if (record.station.empty()) return true;
+    const auto* station = plant::find_station(fleet.plant, record.station);
+    return station && station->support;
+}
+
+}  // namespace
+
+void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now) {
+    for (auto& record : stored) {
+        if (!plant::find_load(fleet.plant, record.id) || !is_there(fleet, record)) continue;
+        const auto id = record.id;
+        fleet.loads.emplace(id, std::move(record));
+    }
+    for (const auto& load : fleet.plant.loads) {
+        LoadRecord first = first_record(load, now);
+        // Where the plant has it at first, another one has got to.
+        const bool taken = (!first.vehicle.empty() && load_on(fleet, first.vehicle)) ||
+                           (!first.station.empty() && load_at(fleet, first.station));
+        if (taken) first.vehicle = {}, first.station = {};
+        fleet.loads.emplace(load.id, std::move(first));
+    }
+    find_loads(fleet);
+}
+
+void find_loads(FleetState& fleet) {
+    for (auto& [id, live] : fleet.vehicles) {
+        live.load = load_on(fleet, id);
+        if (live.load || !is_transferring(live)) continue;
+        live.load = plant::find_load(fleet.plant, plant::LoadId(load_named(live.lift->what)));
+    }
+}
+
+const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehicle) {
+    if (vehicle.empty()) return nullptr;
+    for (const auto& [id, record] : fleet.loads) {
+        if (record.vehicle == vehicle) return plant::find_load(fleet.plant, id);
+    }
+    return nullptr;
+}
+
+const plant::Load* load_at(const FleetState& fleet, const plant::StationId& station) {
+    if (station.empty()) return nullptr;
+    for (const auto& [id, record] : fleet.loads) {
+        if (record.station == station) return plant::find_load(fleet.plant, id);
+    }
+    return nullptr;
+}
+
+bool is_transferring(const LiveVehicle& live) {
+    return live.lift && live.lift->state == LiftMove::State::kUnderWay &&
+           vda5050::is_transfer(live.lift->what.type);
+}
+
+Status may_transfer(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted) {
+    const auto* station = plant::find_station(fleet.plant, live.record.at_station);
+    if (!station || !station->support) {
+        return fail(Errc::kConflict, "no_support_here",
+                    "Vehicle " + live.record.id.str() +
+                        " does not stand where a load can hang or stand. Drive to a station with "
+                        "a hoist or stands.",
+                    {}, {{"vehicle", live.record.id.str()}});
+    }
+    if (wanted.type == vda5050::kPick) return may_pick(fleet, live, *station, wanted);
+    return may_drop(fleet, live, *station);
+}
+
+vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live,
+                                const StepAction& wanted) {
+    const bool picks = wanted.type == vda5050::kPick;
+    const auto* load = picks ? plant::find_load(fleet.plant, plant::LoadId(load_named(wanted)))
+                             : load_on(fleet, live.record.id);
+    vda5050::Action action;
+    action.type = wanted.type;
+    action.params = {{"loadId", load->id.str()}, {"weight", load->mass_kg}};
+    return action;
+}
+
+void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
+                      const std::string& actor, Time now) {
+    if (done.type == vda5050::kPick) {
+        move_load(fleet, plant::LoadId(load_named(done)), {live.record.id, {}}, actor, now);
+    } else if (const auto* load = load_on(fleet, live.record.id)) {
+        move_load(fleet, load->id, {{}, live.record.at_station}, actor, now);
+    }
+}
+
+void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to,
+               const std::string& actor, Time now) {
+    LoadRecord& record = fleet.loads.at(id);
+    Params params{{"load", plant::find_load(fleet.plant, id)->name},
+                  {"from", place_of(fleet, record)}};
+    const LoadRecord before =
+        std::exchange(record, LoadRecord{id, to.vehicle, to.station, now, actor});
+    params.push_back({"to", place_of(fleet, record)});
+    add_event(fleet, now, event::kLoadMoved, {}, {},
+              to.vehicle.empty() ? before.vehicle : to.vehicle, actor, std::move(params));
+    fleet.stored_loads.insert(id);
+    for (const auto* at : {&before, &std::as_const(record)}) {
+        if (!at->vehicle.empty()) fleet.changed_vehicles.insert(at->vehicle);
+        if (!at->station.empty()) fleet.changed_stations.insert(at->station);
+    }
+}
+
+}  // namespace pulseline::fleet

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "core/base/result.hpp"
+#include "core/fleet/state/fleet_state.hpp"
+
+/// Where the loads are: aircraft, products, instruments (Tang 2020, section 2: workflow of taking
+/// an aircraft over). Each is in one place, and no place has two.
+namespace pulseline::fleet {
+
+/// Where each load of the plant is: as stored, or where nothing is stored, or its place is gone, as
+/// the plant has it at first.
+void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now);
+/// What each vehicle holds floor with follows from the loads (LiveVehicle::load).
+void find_loads(FleetState& fleet);
+
+/// nullptr: nothing.
+const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehicle);
+const plant::Load* load_at(const FleetState& fleet, const plant::StationId& station);
+/// A pick or a drop has been sent, and the vehicle has not ended it.
+bool is_transferring(const LiveVehicle& live);
+
+/// Whether a person may have the vehicle take a load over (`wanted`: pick {load}) or set it down
+/// (drop) where it stands. Errors: unknown_load; no_support_here, vehicle_loaded {load},
+/// load_elsewhere {load, where}, those of plant::cannot_carry; vehicle_empty, support_taken {load},
+/// brackets_too_low {height_m, least_m}.
+Status may_transfer(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
+/// The action that the vehicle hears of it. REQUIRES: may_transfer.
+vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live,
+                                const StepAction& wanted);
+/// The vehicle has done what it was asked for: the load has another place.
+void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
+                      const std::string& actor, Time now);
+/// The load is there from now on.
+void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to,
+               const std::string& actor, Time now);
+
+}  // namespace pulseline::fleet

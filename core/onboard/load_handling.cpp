@@ -1,0 +1,194 @@
+#include "core/onboard/load_handling.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "core/base/gravity.hpp"
+#include "core/plant/load_rules.hpp"
+#include "core/vda5050/actions.hpp"
+
+namespace pulseline::onboard {
+namespace {
+
+constexpr double kStep_m = 0.004;
+constexpr double kClear_m = 0.010;   // between the load and what held it, in the end
+constexpr double kFeel_mps = 0.002;  // nobody knows yet where the load is
+constexpr double kTransfer_mps = 0.004;
+constexpr double kTouch = 0.01;   // of the largest load: brackets feel something
+constexpr double kNoMore = 0.01;  // of the weight so far: a step has brought nothing
+constexpr double kUnlike = 0.05;  // of the mass that it was told
+
+double number_of(const vda5050::Action& action, const char* name) {
+    const auto found = std::ranges::find(action.params, name, &Param::name);
+    if (found == action.params.end()) return 0;
+    if (const auto* whole = std::get_if<std::int64_t>(&found->value))
+        return static_cast<double>(*whole);
+    const auto* real = std::get_if<double>(&found->value);
+    return real == nullptr ? 0 : *real;
+}
+
+}  // namespace
+
+LoadHandling::LoadHandling(Equipment& machine, const plant::VehicleType& type)
+    : machine_(machine), type_(type), action_types_(machine.action_types()) {
+    if (type.brackets.empty()) return;
+    action_types_.emplace_back(vda5050::kPick);
+    action_types_.emplace_back(vda5050::kDrop);
+}
+
+LoadHandling::Cells LoadHandling::read_cells() {
+    Cells cells;
+    std::vector<plant::BracketForce> forces;
+    cells.lowest_m = type_.bracket_lift.stroke_m;
+    for (const auto& bracket : machine_.brackets()) {
+        forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
+        cells.force_n += forces.back().force_n;
+        cells.lowest_m = std::min(cells.lowest_m, bracket.height_m.value_or(0));
+    }
+    cells.fault = plant::load_fault(type_, forces);
+    return cells;
+}
+
+bool LoadHandling::carries() {
+    std::vector<plant::BracketForce> forces;
+    for (const auto& bracket : machine_.brackets()) {
+        forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
+    }
+    return plant::load_on(type_, forces).has_value();
+}
+
+std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
+    transfers_ = vda5050::is_transfer(action.type);
+    if (!transfers_) return machine_.begin(action);
+    failure_.reset();
+    if (busy()) return "lifts_moving";
+    const Cells cells = read_cells();
+    told_kg_ = number_of(action, "weight");
+    began_m_ = cells.lowest_m;
+    before_n_ = cells.force_n;
+    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
+    if (action.type == vda5050::kDrop) {
+        if (cells.force_n < touch_n) return "load_not_felt";
+        phase_ = Phase::kSetsDown;
+        return std::nullopt;
+    }
+    // Of one that was broken off a part is on the brackets already.
+    if (cells.force_n >= touch_n) {
+        phase_ = Phase::kTakes;
+        before_n_ = 0;
+        return std::nullopt;
+    }
+    if (!move_to(type_.bracket_lift.stroke_m, kFeel_mps)) return failure_;
+    phase_ = Phase::kFeels;
+    return std::nullopt;
+}
+
+std::optional<std::string> LoadHandling::failure() const {
+    return transfers_ ? failure_ : machine_.failure();
+}
+
+void LoadHandling::abort() {
+    machine_.abort();
+    phase_ = Phase::kRests;
+}
+
+/// False, with the failure: the machine does not.
+bool LoadHandling::move_to(double height_m, double speed_mps) {
+    vda5050::Action action;
+    action.type = vda5050::kSetBracketHeight;
+    const double most_m = type_.bracket_lift.stroke_m;
+    action.params = {{"bracket", "all"},
+                     {"height_m", std::clamp(height_m, 0.0, most_m)},
+                     {"speed_mps", std::min(speed_mps, type_.bracket_lift.speed_mps)}};
+    auto why_not = machine_.begin(action);
+    if (!why_not) return true;
+    failure_ = std::move(why_not);
+    return false;
+}
+
+void LoadHandling::step() {
+    if (phase_ == Phase::kRests) return;
+    const bool moves = machine_.busy();
+    if (moves && phase_ != Phase::kFeels) return;
+    const Cells cells = read_cells();
+    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
+    if (moves) {
+        if (cells.force_n < touch_n) return;
+        machine_.abort();
+        held_ = true;
+        phase_ = Phase::kTakes;
+        before_n_ = 0;
+        return;
+    }
+    const bool held = std::exchange(held_, false);
+    if (const auto broken = machine_.failure(); broken && !held) {
+        if (!failure_) failure_ = broken;
+        return end();
+    }
+    switch (phase_) {
+        case Phase::kRests:
+            return;
+        case Phase::kFeels:
+            if (cells.force_n >= touch_n) return take(cells);
+            return give_up({"load_not_felt", {{"height_m", cells.lowest_m}}}, Phase::kGivesBack);
+        case Phase::kTakes:
+            return take(cells);
+        case Phase::kSetsDown:
+            return set_down(cells);
+        case Phase::kClears: {
+            const double measured_kg = cells.force_n / kGravity_mps2;
+            if (told_kg_ > 0 && std::abs(measured_kg - told_kg_) > kUnlike * told_kg_) {
+                return give_up(
+                    {"load_differs", {{"load_kg", told_kg_}, {"measured_kg", measured_kg}}},
+                    Phase::kGivesBack);
+            }
+            return end();
+        }
+        case Phase::kLeaves:
+        case Phase::kGivesBack:
+        case Phase::kTakesBack:
+            return end();
+    }
+}
+
+void LoadHandling::take(const Cells& cells) {
+    phase_ = Phase::kTakes;
+    if (cells.fault) return give_up(*cells.fault, Phase::kGivesBack);
+    const bool all = before_n_ > 0 && cells.force_n - before_n_ < kNoMore * cells.force_n;
+    before_n_ = cells.force_n;
+    if (all) {
+        phase_ = Phase::kClears;
+        if (!move_to(cells.lowest_m + kClear_m, kTransfer_mps)) end();
+        return;
+    }
+    if (cells.lowest_m >= type_.bracket_lift.stroke_m - kStep_m / 2) {
+        return give_up({"load_not_lifted", {{"height_m", cells.lowest_m}}}, Phase::kGivesBack);
+    }
+    if (!move_to(cells.lowest_m + kStep_m, kTransfer_mps)) end();
+}
+
+void LoadHandling::set_down(const Cells& cells) {
+    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
+    if (cells.force_n < touch_n) {
+        phase_ = Phase::kLeaves;
+        if (!move_to(cells.lowest_m - kClear_m, kTransfer_mps)) end();
+        return;
+    }
+    if (cells.fault) return give_up(*cells.fault, Phase::kTakesBack);
+    if (cells.lowest_m <= kStep_m / 2) {
+        return give_up({"load_not_taken", {{"height_m", cells.lowest_m}}}, Phase::kTakesBack);
+    }
+    if (!move_to(cells.lowest_m - kStep_m, kTransfer_mps)) end();
+}
+
+void LoadHandling::give_up(Reason why, Phase back) {
+    failure_ = sentence_of(why);
+    phase_ = back;
+    if (!move_to(began_m_, kTransfer_mps)) end();
+}
+
+void LoadHandling::end() { phase_ = Phase::kRests; }
+
+}  // namespace pulseline::onboard

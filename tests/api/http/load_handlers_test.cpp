@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include "core/base/gravity.hpp"
+#include "tests/api/http/api_world.hpp"
+#include "tests/core/plant/loads.hpp"
+
+// Loads over REST: where they are, where a person says that they are, and vehicles that take them
+// over.
+namespace pulseline::api::testing {
+namespace {
+
+const std::string kLoads = "/api/v1/loads";
+const std::string kLifts = "/api/v1/vehicles/V1/lifts";
+constexpr double kMass_kg = 400;
+
+/// V1 stands below J-1, which hangs at station 1.
+plant::Plant with_load() {
+    plant::Plant plant = fleet::testing::small_plant();
+    plant.vehicle_types.front().brackets = {{"left", {0, 0.4}}, {"right", {0, -0.4}}};
+    plant.stations[0].support = plant.stations[2].support = plant::Support{0.1};
+    plant::builders::put_on(plant, 0, "J-1", kMass_kg);
+    plant.loads[0].vehicle = {};
+    plant.loads[0].station = plant.stations[0].id;
+    return plant;
+}
+
+class Loads : public ::testing::Test {
+protected:
+    Loads() : api(with_load()) {
+        api.world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+        api.world.vehicle("V1").lifts_end = false;
+        api.world.run(1);
+    }
+    ApiWorld api;
+};
+
+TEST_F(Loads, AreListedWithTheirPlaces) {
+    const Json items = api.get(kLoads).json()["items"];
+    ASSERT_EQ(items.size(), 1u);
+    EXPECT_EQ(items[0]["id"], "J-1");
+    EXPECT_EQ(items[0]["station"], 1);
+    EXPECT_FALSE(items[0].contains("by")) << "the plant has it there";
+    const Answer one = api.get(kLoads + "/J-1");
+    EXPECT_EQ(one.status, 200);
+    EXPECT_FALSE(one.header("ETag").empty());
+    EXPECT_EQ(api.get("/api/v1/stations/1").json()["load"], "J-1");
+    EXPECT_EQ(api.get(kLoads + "/none").code(), "unknown_load");
+}
+
+TEST_F(Loads, APersonSaysWhereOneIs) {
+    const Answer put = api.call("PUT", kLoads + "/J-1/place", R"({"vehicle":"V2"})");
+    EXPECT_EQ(put.status, 202);
+    EXPECT_EQ(put.json()["vehicle"], "V2");
+    EXPECT_EQ(put.json()["by"], "token:test");
+    EXPECT_EQ(api.get("/api/v1/vehicles/V2").json()["load"], "J-1");
+    EXPECT_EQ(api.get("/api/v1/vehicles/V2").json()["load_name"], "J-1");
+    EXPECT_EQ(api.call("PUT", kLoads + "/J-1/place", R"({"station":3})").json()["station"], 3);
+    const Json nowhere = api.call("PUT", kLoads + "/J-1/place", "{}").json();
+    EXPECT_FALSE(nowhere.contains("station") || nowhere.contains("vehicle"));
+}
+
+TEST_F(Loads, WhatIsNoPlaceIsNamed) {
+    const auto put = [&](const std::string& body) {
+        return api.call("PUT", kLoads + "/J-1/place", body);
+    };
+    EXPECT_EQ(put(R"({"station":2})").code(), "no_support");
+    EXPECT_EQ(put(R"({"station":99})").code(), "unknown_station");
+    EXPECT_EQ(put(R"({"station":99})").status, 422);
+    EXPECT_EQ(put(R"({"station":-1})").status, 400);
+    EXPECT_EQ(put(R"({"station":1,"vehicle":"V1"})").code(), "two_places");
+    EXPECT_EQ(put(R"({"vehicle":""})").status, 400);
+    EXPECT_EQ(put(R"({"where":"here"})").status, 400);
+    EXPECT_EQ(put("[").status, 400);
+    EXPECT_EQ(api.call("PUT", kLoads + "/none/place", "{}").status, 404);
+}
+
+TEST_F(Loads, AVehicleTakesOneOverByTheSameWayAsItMovesItsBrackets) {
+    EXPECT_EQ(api.post(kLifts, R"({"type":"pick"})").status, 400);
+    EXPECT_EQ(api.post(kLifts, R"({"type":"pick","load":"none"})").code(), "unknown_load");
+    const Answer taken = api.post(kLifts, R"({"type":"pick","load":"J-1"})");
+    ASSERT_EQ(taken.status, 202);
+    EXPECT_EQ(taken.json()["lift"]["type"], "pick");
+    EXPECT_EQ(taken.json()["lift"]["load"], "J-1");
+    auto& vehicle = api.world.vehicle("V1");
+    for (const char* name : {"left", "right"}) {
+        vehicle.state.brackets.push_back(
+            {name, kMass_kg * kGravity_mps2 / 4, kMass_kg * kGravity_mps2 / 4, 0.15});
+    }
+    vehicle.end_lifts();
+    api.world.run(1);
+    EXPECT_EQ(api.get(kLoads + "/J-1").json()["vehicle"], "V1");
+    EXPECT_EQ(api.post(kLifts, R"({"type":"drop"})").status, 202);
+}
+
+}  // namespace
+}  // namespace pulseline::api::testing

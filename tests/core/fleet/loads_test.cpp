@@ -1,0 +1,242 @@
+#include "core/fleet/vehicle/loads.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/base/gravity.hpp"
+#include "core/fleet/journal/snapshot.hpp"
+#include "tests/core/fleet/fleet_world.hpp"
+#include "tests/core/plant/loads.hpp"
+
+// Aircraft and products: each in one place, taken over and set down by vehicles or said by people.
+namespace pulseline::fleet::testing {
+namespace {
+
+const plant::VehicleId kV1("V1");
+const plant::VehicleId kV2("V2");
+const plant::LoadId kJig("J-1");
+const plant::StationId kS1("s1");
+const StepAction kPick{"pick", {{"load", std::string("J-1")}}};
+const StepAction kDrop{"drop", {}};
+constexpr double kMass_kg = 400;
+
+/// V1 stands empty below J-1, which hangs at station 1; its outline with a load is wider.
+plant::Plant with_load() {
+    plant::Plant plant = small_plant();
+    auto& type = plant.vehicle_types.front();
+    type.brackets = {{"front left", {1, 0.4}},
+                     {"front right", {1, -0.4}},
+                     {"back left", {-1, 0.4}},
+                     {"back right", {-1, -0.4}}};
+    type.wheels = {};
+    type.load_footprint = geometry::rectangle(3.4, 3);
+    for (auto& station : plant.stations) {
+        if (station.number == 1 || station.number == 3) station.support = plant::Support{};
+    }
+    plant::builders::put_on(plant, 0, "J-1", kMass_kg);
+    plant.loads[0].vehicle = {};
+    plant.loads[0].station = kS1;
+    plant.loads[0].outline = geometry::rectangle(3, 2.5);
+    plant.loads[0].vehicle_types.clear();
+    return plant;
+}
+
+class Loads : public ::testing::Test {
+protected:
+    Loads() : world(with_load()) {
+        world.connect_all();
+        world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+        weigh("V1", 0, 0);
+        weigh("V2", 0, 0);
+        v1().lifts_end = false;
+        world.run(1);
+    }
+
+    FakeVehicle& v1() { return world.vehicle("V1"); }
+    void weigh(const std::string& id, double mass_kg, double height_m) {
+        auto& brackets = world.vehicle(id).state.brackets;
+        brackets.clear();
+        for (const auto& bracket : world.plant.vehicle_types.front().brackets) {
+            const double force_n = mass_kg * kGravity_mps2 / 4;
+            brackets.push_back({bracket.name, force_n / 2, force_n / 2, height_m});
+        }
+    }
+    Result<VehicleView> move(const StepAction& wanted, const plant::VehicleId& id = kV1) {
+        auto moved = world.fleet->move_lifts(id, wanted, "op", world.now);
+        world.settle();
+        return moved;
+    }
+    std::string refusal(const StepAction& wanted, const plant::VehicleId& id = kV1) {
+        const auto moved = move(wanted, id);
+        return moved ? "" : moved.error().reason.code;
+    }
+    std::string refusal(const LoadPlace& place) {
+        const auto placed = world.fleet->place_load(kJig, place, "op", world.now);
+        world.settle();
+        return placed ? "" : placed.error().reason.code;
+    }
+    void take_over() {
+        ASSERT_EQ(refusal(kPick), "");
+        weigh("V1", kMass_kg, 0.15);
+        v1().end_lifts();
+        world.run(1);
+    }
+    VehicleView view(const plant::VehicleId& id = kV1) const {
+        return *world.fleet->vehicle(id, world.now);
+    }
+    LoadRecord jig() const { return *world.fleet->load(kJig); }
+
+    World world;
+};
+
+TEST_F(Loads, AVehicleTakesOneOverWhereItHangsAndTheServerKeepsWhoHasIt) {
+    EXPECT_EQ(jig().station, kS1);
+    EXPECT_TRUE(view().carries.empty());
+    ASSERT_EQ(refusal(kPick), "");
+    EXPECT_EQ(jig().station, kS1) << "not before the vehicle says so";
+    EXPECT_EQ(refusal(kPick), "lifts_moving");
+    weigh("V1", kMass_kg, 0.15);
+    v1().end_lifts();
+    world.run(1);
+
+    EXPECT_EQ(jig().vehicle, kV1);
+    EXPECT_TRUE(jig().station.empty());
+    EXPECT_EQ(jig().actor, "op");
+    EXPECT_EQ(view().carries, kJig);
+    EXPECT_EQ(world.count_events("load.moved"), 1);
+    EXPECT_EQ(refusal(kPick), "vehicle_loaded");
+
+    world.crash_server();
+    world.run(1);
+    EXPECT_EQ(jig().vehicle, kV1) << "never lost by a restart";
+    EXPECT_EQ(view().carries, kJig);
+}
+
+TEST_F(Loads, ItDrivesWithItToWhereItSetsItDownAndLeavesItThere) {
+    take_over();
+    v1().lifts_end = true;
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(60);
+    ASSERT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+    EXPECT_EQ(world.store.stops.back().load, kJig);
+
+    weigh("V1", kMass_kg, 0.02);
+    world.run(1);
+    EXPECT_EQ(refusal(kDrop), "brackets_too_low");
+    weigh("V1", kMass_kg, 0.15);
+    world.run(1);
+    v1().lifts_end = false;
+    ASSERT_EQ(refusal(kDrop), "");
+    weigh("V1", 0, 0.1);
+    v1().end_lifts();
+    world.run(1);
+    EXPECT_EQ(jig().station, plant::StationId("s3"));
+    EXPECT_TRUE(view().carries.empty());
+    EXPECT_EQ(refusal(kDrop), "vehicle_empty");
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(60);
+    EXPECT_EQ(world.store.orders.rbegin()->second.state, JobState::kEnded);
+    EXPECT_TRUE(world.store.stops.back().load.empty());
+}
+
+TEST_F(Loads, WhatWasBrokenOffIsWhereItWasAndNothingDrivesWithAPartOfIt) {
+    ASSERT_EQ(refusal(kPick), "");
+    weigh("V1", kMass_kg / 2, 0.13);
+    v1().end_lifts("load_unbalanced: bracket front left");
+    world.run(1);
+    EXPECT_EQ(jig().station, kS1);
+    ASSERT_TRUE(view().load.fault);
+    EXPECT_EQ(view().load.fault->code, "load_unknown");
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(10);
+    EXPECT_NE(world.only_order().state, JobState::kRunning);
+
+    weigh("V1", 0, 0);
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << "given back, it drives";
+    EXPECT_TRUE(world.store.stops.back().load.empty());
+}
+
+TEST_F(Loads, ACutLineLeavesTheLoadWhereItWas) {
+    ASSERT_EQ(refusal(kPick), "");
+    world.fleet->vehicle_disconnected(kV1, world.now);
+    world.settle();
+    EXPECT_EQ(view().lift->why, "link_lost");
+    world.connected[kV1] = false;
+    world.run(1);
+    world.connect_all();
+    world.run(1);
+    EXPECT_EQ(jig().station, kS1);
+    EXPECT_TRUE(view().carries.empty());
+}
+
+TEST_F(Loads, AWeightThatIsNotThatOfTheLoadBarsTheDrive) {
+    take_over();
+    weigh("V1", 0.8 * kMass_kg, 0.15);
+    world.run(1);
+    ASSERT_TRUE(view().load.fault);
+    EXPECT_EQ(view().load.fault->code, "load_differs");
+}
+
+TEST_F(Loads, NobodyTakesOverWhatIsElsewhereUnknownOrNotForIt) {
+    EXPECT_EQ(refusal({"pick", {{"load", std::string("none")}}}), "unknown_load");
+    EXPECT_EQ(refusal(kPick, kV2), "no_support_here");
+    EXPECT_EQ(refusal(kDrop), "vehicle_empty");
+    EXPECT_EQ(refusal(LoadPlace{{}, plant::StationId("s3")}), "");
+    EXPECT_EQ(refusal(kPick), "load_elsewhere");
+}
+
+TEST_F(Loads, APersonSaysWhereOneIsAndIsToldWhatForbidsIt) {
+    EXPECT_EQ(refusal(LoadPlace{{}, plant::StationId("s2")}), "no_support");
+    EXPECT_EQ(refusal(LoadPlace{{}, plant::StationId("none")}), "unknown_station");
+    EXPECT_EQ(refusal(LoadPlace{plant::VehicleId("none"), {}}), "unknown_vehicle");
+    EXPECT_EQ(
+        world.fleet->place_load(plant::LoadId("none"), {}, "op", world.now).error().reason.code,
+        "unknown_load");
+    ASSERT_EQ(refusal(LoadPlace{kV2, {}}), "");
+    EXPECT_EQ(view(kV2).carries, kJig);
+    EXPECT_EQ(refusal(LoadPlace{kV2, {}}), "") << "said twice";
+    EXPECT_EQ(world.count_events("load.moved"), 1);
+    weigh("V2", kMass_kg, 0);
+    world.run(1);
+    ASSERT_TRUE(world.order("V2", {2}));
+    world.run(0.5);
+    EXPECT_EQ(refusal(LoadPlace{}), "vehicle_busy");
+    world.run(60);
+    ASSERT_EQ(refusal(LoadPlace{}), "");
+    EXPECT_TRUE(jig().vehicle.empty());
+    EXPECT_TRUE(jig().station.empty());
+}
+
+/// The load is wider than the vehicle: it is not taken over onto floor that another one holds.
+TEST(LoadsAndFloor, OneIsNotTakenOverAboveFloorOfAnother) {
+    plant::Plant plant = with_load();
+    plant.stations[1].pose.x_m = plant.stations[0].pose.x_m;
+    plant.stations[1].pose.y_m = plant.stations[0].pose.y_m + 2.2;
+    for (auto& node : plant.nodes) {
+        if (node.id == plant.stations[1].node) node.position = plant.stations[1].pose.position();
+    }
+    plant.vehicles[1].home = plant.stations[1].id;
+    World world(plant);
+    world.connect_all();
+    world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+    world.vehicle("V2").state.pose = plant.stations[1].pose;
+    world.run(1);
+    const auto held = world.fleet->move_lifts(kV1, kPick, "op", world.now);
+    ASSERT_FALSE(held);
+    EXPECT_EQ(held.error().reason.code, "floor_held");
+    EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->carries.empty());
+}
+
+TEST_F(Loads, ASnapshotInTheMiddleOfATransferComesBackTheSame) {
+    ASSERT_EQ(refusal(kPick), "");
+    static_cast<void>(world.fleet->take_outputs(world.now));
+    const std::string bytes = world.fleet->snapshot();
+    const auto again = Fleet::from_snapshot(world.plant, bytes);
+    ASSERT_TRUE(again) << again.error().what;
+    EXPECT_EQ((*again)->snapshot(), bytes);
+}
+
+}  // namespace
+}  // namespace pulseline::fleet::testing

@@ -1,0 +1,40 @@
+import { useMemo } from "react";
+import { useTranslation } from "react-i18next";
+import type { LiftCommand, Vehicle } from "@/shared/api/types";
+import { CommandFailed } from "@/shared/commands";
+import { usePlant, useStations } from "@/shared/live";
+import { CommandButton } from "@/shared/ui";
+import { liftBar } from "./lifts";
+import { useLift } from "./useLift";
+
+/** Taking over what hangs or stands where the vehicle stands, or setting down there what it carries. */
+export function LoadTransfer({ vehicle, refused }: { vehicle: Vehicle; refused: string | undefined }) {
+  const { t } = useTranslation("vehicles");
+  const loads = usePlant().data?.loads ?? [];
+  const here = useStations().find((station) => station.id === vehicle.at_station);
+  const wanted = vehicle.load ?? here?.state?.load;
+  const type = vehicle.load === undefined ? "pick" : "drop";
+  const body = useMemo<LiftCommand | undefined>(
+    () => (wanted === undefined ? undefined : type === "pick" ? { type, load: wanted } : { type }),
+    [type, wanted],
+  );
+  const { command, progress } = useLift(vehicle, type, body);
+  if (here?.support === undefined || wanted === undefined) return null;
+  const name = loads.find((load) => load.id === wanted)?.name ?? wanted;
+  const bar = liftBar(vehicle, type);
+  return (
+    <>
+      <div className="feet">
+        <CommandButton
+          label={t(type === "pick" ? "lifts.take_over" : "lifts.set_down", { load: name })}
+          primary={false}
+          direction="go"
+          progress={progress}
+          disabledReason={refused ?? (bar === undefined ? undefined : t(`lifts.${bar}`))}
+          onRun={command.run}
+        />
+      </div>
+      <CommandFailed command={command} />
+    </>
+  );
+}
