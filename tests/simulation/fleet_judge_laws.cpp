@@ -73,6 +73,7 @@ void World::check_movement() {
         }
         if (!vehicle.moved()) continue;
         if (vehicle.on_feet()) violate(id.str() + " drives on its feet");
+        check_load(id, vehicle);
         if (watch_[id].restarted_on_leg) {
             violate(id.str() + " moves after its restart without a person's act");
         }
@@ -89,6 +90,21 @@ void World::check_movement() {
                     std::to_string(executor.base_end_sequence_id()) + ", the store one up to " +
                     std::to_string(released));
         }
+    }
+}
+
+/// Nothing drives with a load that the store does not have on it, without one that it has, or with
+/// a part of it.
+void World::check_load(const plant::VehicleId& id, const Vehicle& vehicle) {
+    const auto& load = plant_.loads.front();
+    const auto stored = store_.loads.find(load.id);
+    const bool has = stored != store_.loads.end() && stored->second.vehicle == id;
+    const double kg = vehicle.load_kg();
+    if (has != (kg > 0)) {
+        violate(id.str() + " drives with " + std::to_string(kg) + " kg, the store has " +
+                (has ? "the load on it" : "none on it"));
+    } else if (has && kg < 0.9 * load.mass_kg) {
+        violate(id.str() + " drives with a part of its load");
     }
 }
 
@@ -318,6 +334,11 @@ bool World::all_over() const {
 }
 
 void World::check_end() {
+    for (const auto& record : fleet_->loads()) {
+        if (record.vehicle.empty() == record.station.empty()) violate("a load is in no one place");
+        const bool on = vehicles_.at(plant_.vehicles.back().id).load_kg() > 0;
+        if (on == record.vehicle.empty()) violate("a load is elsewhere than the server has it");
+    }
     for (const auto& asked : asked_) {
         if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");
     }

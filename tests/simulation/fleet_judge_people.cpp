@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kAskAgain_s = 5;     // without an answer
 constexpr double kPersonEvery_s = 2;  // looks at the dashboard
+constexpr double kLifted_m = 0.2;     // brackets above whatever holds a load
 
 }  // namespace
 
@@ -99,17 +100,49 @@ void World::let_person_act() {
     if (!unstored_ && now_s_ >= stalled_until_s_) work_platform();
 }
 
-/// Parks the platform on its feet where it stands, now and then, and lets it down again.
+/// What is to be done about a load that the platform does not carry as the server has it: what was
+/// broken off is done again, what has been done meanwhile is said.
+std::optional<fleet::StepAction> World::mend_load(const plant::VehicleId& id,
+                                                  const fleet::VehicleView& view) {
+    const Vehicle& vehicle = vehicles_.at(id);
+    const auto& load = plant_.loads.front();
+    if (!view.load.fault) return std::nullopt;
+    const fleet::StepAction pick{vda5050::kPick, {{"load", load.id.str()}}};
+    const fleet::StepAction raise{vda5050::kSetBracketHeight,
+                                  {{"bracket", std::string("all")}, {"height_m", kLifted_m}}};
+    if (view.carries.empty()) return pick;
+    if (vehicle.load_kg() > 0) return raise;  // a part of it is on the support yet
+    const auto said = fleet_->place_load(load.id, {{}, view.at_station}, "fitter", now());
+    if (said) ++outcome_.faults["person: says where the load is"];
+    settle();
+    return std::nullopt;
+}
+
+/// Works the platform where it stands: on its feet and down again, its load taken over and set
+/// down.
 void World::work_platform() {
     const auto& id = plant_.vehicles.back().id;
     const bool stands_on_them = vehicles_.at(id).on_feet();
-    if (now_s_ < next_feet_s_ || (!stands_on_them && !disturbed_)) return;
-    const char* action = stands_on_them ? vda5050::kRaiseParking : vda5050::kLowerParking;
-    const bool taken = fleet_->move_lifts(id, {action, {}}, "fitter", now()).has_value();
+    if (now_s_ < next_feet_s_) return;
+    const auto view = fleet_->vehicle(id, now(), false);
+    std::optional<fleet::StepAction> wanted = mend_load(id, *view);
+    if (unstored_) return;
+    if (!wanted && stands_on_them) wanted = {vda5050::kRaiseParking, {}};
+    if (!wanted && disturbed_) {
+        const bool parks = fleet_judge::pick(foot_random_, 0, 1) == 0;
+        wanted = {vda5050::kLowerParking, {}};
+        if (!parks && view->carries.empty()) {
+            wanted = {vda5050::kPick, {{"load", plant_.loads.front().id.str()}}};
+        } else if (!parks) {
+            wanted = {vda5050::kDrop, {}};
+        }
+    }
+    if (!wanted) return;
+    const bool taken = fleet_->move_lifts(id, *wanted, "fitter", now()).has_value();
     lifts_asked_ += taken ? 1 : 0;
-    if (taken) ++outcome_.faults[std::string("person: ") + action];
+    if (taken) ++outcome_.faults["person: " + wanted->type];
     const int wait_s = taken ? fleet_judge::pick(foot_random_, 10, 60) : 5;
-    next_feet_s_ = now_s_ + (taken && stands_on_them ? 10 * wait_s : wait_s);
+    next_feet_s_ = now_s_ + (taken && !stands_on_them ? wait_s : 2 * wait_s);
     settle();
 }
 

@@ -58,6 +58,14 @@ public:
                                 type_of("platform", 10.5, 2.5, 0.8)};
         auto& platform = plant_.vehicle_types.back();
         platform.mass_kg = 10200;
+        platform.max_load_kg = 22000;
+        platform.load_footprint = geometry::rectangle(10.5, 2.9);
+        for (const double x_m : {2.7, -2.7}) {
+            for (const double y_m : {0.7, -0.7}) {
+                platform.brackets.push_back(
+                    {"b" + std::to_string(platform.brackets.size()), {x_m, y_m}});
+            }
+        }
         platform.parking.emplace();
         for (const auto& corner : geometry::rectangle(10.5, 2.5)) {
             const auto number = std::to_string(platform.parking->feet.size());
@@ -86,6 +94,7 @@ public:
             add_vehicle(i + 1, carrier ? "carrier" : "cart", bays_[static_cast<std::size_t>(i)]);
         }
         add_vehicle(vehicles + 1, "platform", platform_bays_[random_() % 2]);
+        add_load();
         return std::move(plant_);
     }
 
@@ -195,6 +204,21 @@ private:
         vehicle.serial_number = vehicle.id.str();
         vehicle.home = home;
         plant_.vehicles.push_back(vehicle);
+    }
+
+    /// An aircraft that hangs where the platform is at home; all along its row something can hold
+    /// it.
+    void add_load() {
+        const auto home = *plant::find_station(plant_, plant_.vehicles.back().home);
+        for (auto& station : plant_.stations) {
+            if (station.pose.y_m == home.pose.y_m) station.support = plant::Support{0.05};
+        }
+        plant::Load load;
+        load.id = plant::LoadId("A-101");
+        load.name = "A-101";
+        load.mass_kg = 9000;
+        load.station = home.id;
+        plant_.loads.push_back(std::move(load));
     }
 
     static std::string node_name(int row, int column) {

@@ -36,7 +36,10 @@ Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::
     if (type_.parking) {
         equipment_ = std::make_unique<simulation::VehicleEquipment>(
             type_, stands_, std::vector<Pose2>{}, kBattery_percent, 1, 0, seed);
+        equipment_->work_below(std::make_shared<simulation::Supports>(plant, seed),
+                               plant.halls[0].id, {});
     }
+    shows_codes = !type_.brackets.empty();  // it leaves a station only when it sees them
     boot(plant::find_station(plant, vehicle.home)->pose);
 }
 
@@ -44,6 +47,7 @@ Vehicle::~Vehicle() = default;
 
 void Vehicle::boot(const Pose2& pose) {
     executor_.reset();
+    handling_.reset();
     cameras_.reset();
     misread_reports_ = 0;
     simulation::MotionErrors errors;
@@ -54,8 +58,9 @@ void Vehicle::boot(const Pose2& pose) {
     }
     motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
     cameras_ = std::make_unique<Cameras>(*motion_, random_);
+    if (equipment_) handling_ = std::make_unique<onboard::LoadHandling>(*equipment_, type_);
     executor_ = std::make_unique<onboard::Executor>(*motion_, *cameras_, plant_.halls[0].id.str(),
-                                                    equipment_.get());
+                                                    handling_.get());
     stands_ = pose;
     if (equipment_) equipment_->abort();  // its brakes hold without power
 }
@@ -96,7 +101,10 @@ void Vehicle::receive(const fleet::VehicleMessage& message) {
 void Vehicle::step(double dt_s) {
     moved_ = false;
     if (dead) return;
-    if (equipment_) equipment_->step(dt_s, 0);
+    if (equipment_) {
+        equipment_->step(dt_s, 0);
+        handling_->step();
+    }
     if (manual || broken || safety_stopped) return;
     const Pose2 before = motion_->true_pose();
     executor_->step(dt_s);

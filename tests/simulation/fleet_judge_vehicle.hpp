@@ -5,6 +5,7 @@
 
 #include "core/fleet/state/ports.hpp"
 #include "core/onboard/executor.hpp"
+#include "core/onboard/load_handling.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/vehicle_motion.hpp"
 
@@ -46,6 +47,8 @@ public:
     /// Stands on its feet, or moves them.
     bool on_feet() const { return equipment_ && equipment_->holds_vehicle(); }
     int lifts_begun() const { return lifts_begun_; }
+    /// What truly weighs on its brackets.
+    double load_kg() const { return equipment_ ? equipment_->load_kg() : 0; }
 
     bool dead = false;            // without power: silent and standing
     bool manual = false;          // a person has taken it over
@@ -65,6 +68,7 @@ private:
     std::unique_ptr<simulation::VehicleMotion> motion_;
     std::unique_ptr<Cameras> cameras_;
     std::unique_ptr<simulation::VehicleEquipment> equipment_;  // of a type with parking feet
+    std::unique_ptr<onboard::LoadHandling> handling_;          // of one with brackets
     std::unique_ptr<onboard::Executor> executor_;
     Pose2 stands_;  // as its feet know it
     int lifts_begun_ = 0;

@@ -139,12 +139,15 @@ private:
     void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
     void help_orders();
     void work_platform();
+    std::optional<fleet::StepAction> mend_load(const plant::VehicleId& id,
+                                               const fleet::VehicleView& view);
 
     // fleet_judge_laws.cpp
     void check_bodies();
     void note_told(const plant::VehicleId& id, const vda5050::StateMessage& state);
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
+    void check_load(const plant::VehicleId& id, const Vehicle& vehicle);
     void check_records(const fleet::Records& records);
     void check_one_order_each(const fleet::Records& records);
     void check_link(const fleet::Event& event);

@@ -79,6 +79,10 @@ LoadView load_view(const FleetState& fleet, const LiveVehicle& live) {
     return view;
 }
 
+std::optional<Reason> rule_broken(const LiveVehicle& live) {
+    return plant::load_fault(*live.type, forces_on(live));
+}
+
 std::optional<Interlock> interlock(const FleetState& fleet, const LiveVehicle& live) {
     double furthest_m = 0;
     for (const auto& foot : live.state.parking_feet) {

@@ -126,7 +126,7 @@ Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const St
     if (vda5050::is_transfer(wanted.type)) return may_transfer(fleet, live, wanted);
     const bool all =
         wanted.type != vda5050::kSetBracketHeight || text_of(wanted, "bracket") == kAll;
-    if (auto fault = load_view(fleet, live).fault; fault && all) {
+    if (auto fault = rule_broken(live); fault && all) {
         return conflict(fault->code.c_str(),
                         " carries a load that breaks a rule of its type. Put "
                         "that right with single brackets first.",

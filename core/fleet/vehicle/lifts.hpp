@@ -12,8 +12,9 @@ namespace pulseline::fleet {
 /// Whether a person may have them moved so now. Errors, each with its remedy: unknown_lift,
 /// unknown_bracket and out_of_stroke of what the vehicle does not have; needs_person,
 /// vehicle_paused, vehicle_busy and lifts_moving; and what is wrong with a load that all brackets
-/// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right. Of
-/// a load to be taken over or set down: those of may_transfer (loads.hpp).
+/// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right.
+/// What only differs from what is known may be: a load that was half set down is raised again so.
+/// Of a load to be taken over or set down: those of may_transfer (loads.hpp).
 Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
 /// The vehicle has answered what was asked for: a load that it has taken over or set down is where
 /// that has put it.

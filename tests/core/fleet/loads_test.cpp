@@ -179,6 +179,17 @@ TEST_F(Loads, AWeightThatIsNotThatOfTheLoadBarsTheDrive) {
     EXPECT_EQ(view().load.fault->code, "load_differs");
 }
 
+// A part of the weight is on the support: all brackets together take it back, or give it back.
+TEST_F(Loads, WhatIsHalfTransferredMayBeRaisedAndLoweredInStep) {
+    take_over();
+    const StepAction raise{"setBracketHeight",
+                           {{"bracket", std::string("all")}, {"height_m", 0.2}}};
+    weigh("V1", 0.4 * kMass_kg, 0.13);
+    world.run(1);
+    ASSERT_EQ(view().load.fault->code, "load_differs");
+    EXPECT_EQ(refusal(raise), "");
+}
+
 TEST_F(Loads, NobodyTakesOverWhatIsElsewhereUnknownOrNotForIt) {
     EXPECT_EQ(refusal({"pick", {{"load", std::string("none")}}}), "unknown_load");
     EXPECT_EQ(refusal(kPick, kV2), "no_support_here");
