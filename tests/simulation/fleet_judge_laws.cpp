@@ -324,20 +324,24 @@ void World::check_all() {
     if (store_.orders.size() > asked_.size()) violate("a doubled request made two orders");
 }
 
+bool World::load_is_known() const {
+    const bool on = vehicles_.at(plant_.vehicles.back().id).load_kg() > 0;
+    return on != fleet_->load(plant_.loads.front().id)->vehicle.empty();
+}
+
 bool World::all_over() const {
     if (static_cast<int>(asked_.size()) < wanted_orders_) return false;
     const bool taken = std::all_of(asked_.begin(), asked_.end(),
                                    [](const Asked& asked) { return asked.acknowledged; });
-    return taken && std::all_of(store_.orders.begin(), store_.orders.end(), [](const auto& entry) {
-               return fleet::is_final(entry.second.state);
-           });
+    return taken && load_is_known() &&
+           std::all_of(store_.orders.begin(), store_.orders.end(),
+                       [](const auto& entry) { return fleet::is_final(entry.second.state); });
 }
 
 void World::check_end() {
     for (const auto& record : fleet_->loads()) {
         if (record.vehicle.empty() == record.station.empty()) violate("a load is in no one place");
-        const bool on = vehicles_.at(plant_.vehicles.back().id).load_kg() > 0;
-        if (on == record.vehicle.empty()) violate("a load is elsewhere than the server has it");
+        if (!load_is_known()) violate("a load is elsewhere than the server has it");
     }
     for (const auto& asked : asked_) {
         if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");

@@ -156,6 +156,7 @@ private:
     void check_all();
     void check_end();
     bool all_over() const;
+    bool load_is_known() const;
     void violate(const std::string& what);
     void check_way(const fleet::VehicleMessage& message);
     void check_given_floor(const plant::VehicleId& id);

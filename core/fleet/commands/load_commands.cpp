@@ -14,16 +14,14 @@
 namespace pulseline::fleet {
 namespace {
 
-/// Its plans and its floor are made with what it carries.
-Status may_change(const FleetState& fleet, const LiveVehicle& live, const std::string& field) {
+/// A drive under way was planned, and its floor is held, with what it carries.
+Status may_change(const LiveVehicle& live, const std::string& field) {
     const std::string& id = live.record.id.str();
-    const bool busy = live.has_leg() || live.state.driving || lifts_move(live) ||
-                      fleet.orders.of(live.record.id) != nullptr;
-    if (!busy) return {};
+    if (!live.has_leg() && !live.state.driving && !lifts_move(live)) return {};
     return fail(Errc::kConflict, "vehicle_busy",
                 "Vehicle " + id +
-                    " has an order, drives or moves its brackets. Say what it carries when that "
-                    "has ended.",
+                    " is on its way or moves its brackets. Say what it carries when that has "
+                    "ended.",
                 field, {{"vehicle", id}});
 }
 
@@ -44,7 +42,7 @@ Status may_be_on(const FleetState& fleet, const plant::Load& load, const plant::
                     "Vehicles like " + id.str() + " may not carry " + load.name + ".", "/vehicle",
                     std::move(why_not->params));
     }
-    return may_change(fleet, *live, "/vehicle");
+    return may_change(*live, "/vehicle");
 }
 
 Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::StationId& id) {
@@ -80,7 +78,7 @@ Result<LoadRecord> Fleet::place_load(const plant::LoadId& id, const LoadPlace& w
     if (before.vehicle == where.vehicle && before.station == where.station) return before;
     LiveVehicle* from = fleet.find(before.vehicle);
     Status may;
-    if (from) may = may_change(fleet, *from, {});
+    if (from) may = may_change(*from, {});
     if (may && !where.vehicle.empty()) may = may_be_on(fleet, *load, where.vehicle);
     if (may && !where.station.empty()) may = may_be_at(fleet, *load, where.station);
     if (!may) return fail(std::move(may).error());

@@ -77,6 +77,15 @@ void pause_motion(FleetState& fleet, LiveVehicle& live, const char* action_type,
     send_action(fleet, live, std::move(action), now);
 }
 
+namespace {
+
+bool is_shown(const LiveVehicle& live, const vda5050::Action& action) {
+    return std::ranges::find(live.state.action_states, action.id, &vda5050::ActionState::id) !=
+           live.state.action_states.end();
+}
+
+}  // namespace
+
 void resend(FleetState& fleet, Time now) {
     for (auto& [id, live] : fleet.vehicles) {
         if (!live.connected || !live.reconciled) continue;
@@ -92,6 +101,8 @@ void resend(FleetState& fleet, Time now) {
         }
         for (auto& pending : live.actions) {
             if (pending.last_sent && now - *pending.last_sent < kResendEvery) continue;
+            // It is at it, and says so: it takes as long as it takes.
+            if (is_shown(live, pending.action)) continue;
             // Late it would begin when nobody looks any more.
             if (vda5050::is_lift(pending.action.type) && live.link != Link::kLive) continue;
             fleet.out.messages.push_back(
