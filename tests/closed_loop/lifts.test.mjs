@@ -1,5 +1,5 @@
 // Brackets and parking feet outside an order (Tang 2020, section 2, workflow b): the platform stands on its feet with 18.2 t
-// on it, and people adjust the aircraft's height. Real server and agent; the vehicle's own sensors tell heights and forces.
+// on it, and people adjust the aircraft's height. Real server, real program, its machine over TCP; the vehicle's own sensors tell heights and forces.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
@@ -13,7 +13,7 @@ before(async () => {
   system.prepareVehicles([kId]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 3 });
+  await system.startOverTcp(kId, { seed: 22, timeFactor: 3 });
   await client.untilReady(kId);
 });
 after(() => system?.stop());

@@ -1,5 +1,5 @@
 // An aircraft as a thing (Tang 2020, section 2): the platform sets it down on the stands of station 7, drives away empty, comes
-// back and takes it over again. Real server and agent, rendered codes; the load cells and the next stops tell what it carries.
+// back and takes it over again. Real server, real program, its machine and pictures over TCP; the load cells and the next stops tell what it carries.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
@@ -13,7 +13,7 @@ before(async () => {
   system.prepareVehicles([kId]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 8 });
+  await system.startOverTcp(kId, { seed: 22, timeFactor: 6 });
   await client.untilReady(kId);
 });
 after(() => system?.stop());

@@ -13,8 +13,7 @@ before(async () => {
   system.prepareVehicles([kId]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  machine = await system.startMachine(kId, { seed: 7 });
-  system.startAgent(kId, { seed: 7, timeFactor: 5, extra: ["--machine", `tcp://127.0.0.1:${machine.port}`] });
+  machine = await system.startOverTcp(kId, { seed: 7, timeFactor: 5 });
   await client.untilReady(kId);
 });
 after(() => system?.stop());

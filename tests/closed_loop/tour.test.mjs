@@ -1,4 +1,4 @@
-// The main job over REST with real agents: the platform drives Tang's Table 4 tour, and each stop is
+// The main job over REST with a real program that drives its machine over TCP: the platform drives Tang's Table 4 tour, and each stop is
 // measured and true. Truth comes from the simulated world's own log, never over the link.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -14,7 +14,7 @@ before(async () => {
   system.prepareVehicles(["TP-01"]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  system.startAgent("TP-01", { seed: 7 });
+  await system.startOverTcp("TP-01", { seed: 7, timeFactor: 6 });
   await client.untilReady("TP-01");
 });
 after(() => system?.stop());

@@ -134,6 +134,13 @@ export class System {
     return machine;
   }
 
+  /** A vehicle's program that knows no simulated world, driving its machine over TCP. */
+  async startOverTcp(id, { seed = 1, timeFactor = 10 } = {}) {
+    const machine = await this.startMachine(id, { seed });
+    this.startAgent(id, { seed, timeFactor, extra: ["--machine", `tcp://${this.host}:${machine.port}`] });
+    return machine;
+  }
+
   /** All in one program: they stand in one world and see each other, and write one truth log. */
   startAgents(ids, { seed = 1, timeFactor = 10, sensing = "rendered", extra = [] } = {}) {
     const list = join(this.directory, "vehicles");
