@@ -19,6 +19,7 @@ struct PreviewState {
     std::shared_ptr<const PlantTables> tables;
     Time started;
     std::vector<LiveVehicle> vehicles;
+    std::map<plant::LoadId, LoadRecord> loads;
     std::vector<JobOrder> orders;
     std::vector<planning::ClosedFloor> closures;
 };
@@ -40,6 +41,8 @@ LiveVehicle known_of(const LiveVehicle& live) {
     copy.state_at = live.state_at;
     copy.factsheet = live.factsheet;
     copy.delivery = live.delivery;
+    copy.lift = live.lift;
+    copy.load = live.load;
     return copy;
 }
 
@@ -104,8 +107,8 @@ Preview Fleet::preview(const NewOrder& order, Time now) const {
 
 OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now, JobOrderId self) const {
     const FleetState& fleet = *state_;
-    auto known = std::make_shared<PreviewState>(
-        PreviewState{fleet.plant, fleet.tables, fleet.started, {}, {}, closed_floors()});
+    auto known = std::make_shared<PreviewState>(PreviewState{
+        fleet.plant, fleet.tables, fleet.started, {}, fleet.loads, {}, closed_floors()});
     for (const auto& [id, live] : fleet.vehicles) known->vehicles.push_back(known_of(live));
     for (const JobOrderId& id : fleet.orders.open()) {
         if (id == self) continue;
@@ -131,6 +134,7 @@ void OrderPreviewer::know(const PreviewState& known) {
     fleet_->started = known.started;
     fleet_->vehicles.clear();
     for (const auto& live : known.vehicles) fleet_->vehicles.emplace(live.record.id, live);
+    fleet_->loads = known.loads;
     fleet_->orders = {};
     for (const auto& order : known.orders) fleet_->orders.add(order);
     fleet_->planner.set_closures(known.closures);

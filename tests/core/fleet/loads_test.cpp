@@ -6,6 +6,7 @@
 
 #include "core/base/gravity.hpp"
 #include "core/fleet/journal/snapshot.hpp"
+#include "core/fleet/views/order_preview.hpp"
 #include "tests/core/fleet/fleet_world.hpp"
 #include "tests/core/plant/loads.hpp"
 
@@ -238,6 +239,35 @@ TEST(LoadsAndFloor, OneIsNotTakenOverAboveFloorOfAnother) {
     ASSERT_FALSE(held);
     EXPECT_EQ(held.error().reason.code, "floor_held");
     EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->carries.empty());
+}
+
+/// Send asks beside the fleet: there, too, is known what it carries, and that its brackets move.
+TEST_F(Loads, AnOrderIsPreviewedWithThem) {
+    take_over();
+    NewOrder order;
+    order.vehicle = kV1;
+    order.steps = {{2, plant::MotionMode::kLinear, {}, {}}};
+    const auto beside = [&] {
+        OrderPreviewer previewer;
+        return previewer.preview(world.fleet->preview_task(order, world.now));
+    };
+    const auto result_of = [](const Preview& preview, const std::string& code) {
+        const auto found = std::ranges::find(preview.checks, code, &Check::code);
+        return found == preview.checks.end() ? Check::Result::kNote : found->result;
+    };
+    const Preview own = world.fleet->preview(order, world.now);
+    const Preview other = beside();
+    EXPECT_EQ(result_of(own, "load"), Check::Result::kPass);
+    EXPECT_EQ(result_of(other, "load"), Check::Result::kPass);
+    const auto swept = [](const Preview& preview) {
+        return preview.steps.at(0).options.at(0).plan->swept_area_m2;
+    };
+    EXPECT_EQ(swept(own), swept(other));
+    ASSERT_EQ(refusal({"setBracketHeight", {{"bracket", std::string("all")}, {"height_m", 0.2}}}),
+              "");
+    EXPECT_EQ(result_of(beside(), "mode"),
+              result_of(world.fleet->preview(order, world.now), "mode"));
+    EXPECT_NE(result_of(beside(), "mode"), Check::Result::kPass) << "its brackets move";
 }
 
 TEST_F(Loads, ASnapshotInTheMiddleOfATransferComesBackTheSame) {
