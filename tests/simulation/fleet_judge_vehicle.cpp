@@ -34,10 +34,14 @@ Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::
       type_(*plant::find_vehicle_type(plant, vehicle.type)),
       random_(seed) {
     if (type_.parking) {
+        const auto* load = plant::first_load(plant, vehicle.id);
+        std::optional<simulation::TrueLoad> carried;
+        if (load != nullptr) carried = {load->id, load->mass_kg, load->centre};
         equipment_ = std::make_unique<simulation::VehicleEquipment>(
-            type_, stands_, std::vector<Pose2>{}, kBattery_percent, 1, 0, seed);
+            type_, stands_, std::vector<Pose2>{}, kBattery_percent, 1,
+            load == nullptr ? 0 : load->mass_kg, seed);
         equipment_->work_below(std::make_shared<simulation::Supports>(plant, seed),
-                               plant.halls[0].id, {});
+                               plant.halls[0].id, carried);
     }
     shows_codes = !type_.brackets.empty();  // it leaves a station only when it sees them
     boot(plant::find_station(plant, vehicle.home)->pose);
