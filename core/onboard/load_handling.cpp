@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <variant>
 
 #include "core/base/gravity.hpp"
+#include "core/base/params.hpp"
 #include "core/plant/load_rules.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -16,18 +16,8 @@ constexpr double kStep_m = 0.004;
 constexpr double kClear_m = 0.010;   // between the load and what held it, in the end
 constexpr double kFeel_mps = 0.002;  // nobody knows yet where the load is
 constexpr double kTransfer_mps = 0.004;
-constexpr double kTouch = 0.01;   // of the largest load: brackets feel something
 constexpr double kNoMore = 0.01;  // of the weight so far: a step has brought nothing
 constexpr double kUnlike = 0.05;  // of the mass that it was told
-
-double number_of(const vda5050::Action& action, const char* name) {
-    const auto found = std::ranges::find(action.params, name, &Param::name);
-    if (found == action.params.end()) return 0;
-    if (const auto* whole = std::get_if<std::int64_t>(&found->value))
-        return static_cast<double>(*whole);
-    const auto* real = std::get_if<double>(&found->value);
-    return real == nullptr ? 0 : *real;
-}
 
 }  // namespace
 
@@ -47,37 +37,29 @@ LoadHandling::Cells LoadHandling::read_cells() {
         cells.force_n += forces.back().force_n;
         cells.lowest_m = std::min(cells.lowest_m, bracket.height_m.value_or(0));
     }
+    cells.feels = plant::load_on(type_, forces).has_value();
     cells.fault = plant::load_fault(type_, forces);
     return cells;
-}
-
-bool LoadHandling::carries() {
-    std::vector<plant::BracketForce> forces;
-    for (const auto& bracket : machine_.brackets()) {
-        forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
-    }
-    return plant::load_on(type_, forces).has_value();
 }
 
 std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
     transfers_ = vda5050::is_transfer(action.type);
     if (!transfers_) return machine_.begin(action);
     failure_.reset();
+    moved_ = false;
     if (busy()) return "lifts_moving";
     const Cells cells = read_cells();
-    told_kg_ = number_of(action, "weight");
+    told_kg_ = number_param(action.params, "weight").value_or(0);
     began_m_ = cells.lowest_m;
-    before_n_ = cells.force_n;
-    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
+    before_n_ = 0;
     if (action.type == vda5050::kDrop) {
-        if (cells.force_n < touch_n) return "load_not_felt";
+        if (!cells.feels) return "load_not_felt";
         phase_ = Phase::kSetsDown;
         return std::nullopt;
     }
     // Of one that was broken off a part is on the brackets already.
-    if (cells.force_n >= touch_n) {
+    if (cells.feels) {
         phase_ = Phase::kTakes;
-        before_n_ = 0;
         return std::nullopt;
     }
     if (!move_to(type_.bracket_lift.stroke_m, kFeel_mps)) return failure_;
@@ -103,6 +85,7 @@ bool LoadHandling::move_to(double height_m, double speed_mps) {
                      {"height_m", std::clamp(height_m, 0.0, most_m)},
                      {"speed_mps", std::min(speed_mps, type_.bracket_lift.speed_mps)}};
     auto why_not = machine_.begin(action);
+    moved_ = !why_not;
     if (!why_not) return true;
     failure_ = std::move(why_not);
     return false;
@@ -113,17 +96,14 @@ void LoadHandling::step() {
     const bool moves = machine_.busy();
     if (moves && phase_ != Phase::kFeels) return;
     const Cells cells = read_cells();
-    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
     if (moves) {
-        if (cells.force_n < touch_n) return;
+        if (!cells.feels) return;
         machine_.abort();
-        held_ = true;
+        moved_ = false;  // what it was told to break off it has not failed in
         phase_ = Phase::kTakes;
-        before_n_ = 0;
         return;
     }
-    const bool held = std::exchange(held_, false);
-    if (const auto broken = machine_.failure(); broken && !held) {
+    if (const auto broken = machine_.failure(); broken && moved_) {
         if (!failure_) failure_ = broken;
         return end();
     }
@@ -131,7 +111,7 @@ void LoadHandling::step() {
         case Phase::kRests:
             return;
         case Phase::kFeels:
-            if (cells.force_n >= touch_n) return take(cells);
+            if (cells.feels) return take(cells);
             return give_up({"load_not_felt", {{"height_m", cells.lowest_m}}}, Phase::kGivesBack);
         case Phase::kTakes:
             return take(cells);
@@ -170,8 +150,7 @@ void LoadHandling::take(const Cells& cells) {
 }
 
 void LoadHandling::set_down(const Cells& cells) {
-    const double touch_n = kTouch * type_.max_load_kg * kGravity_mps2;
-    if (cells.force_n < touch_n) {
+    if (!cells.feels) {
         phase_ = Phase::kLeaves;
         if (!move_to(cells.lowest_m - kClear_m, kTransfer_mps)) end();
         return;

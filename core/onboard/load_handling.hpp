@@ -35,7 +35,7 @@ public:
     /// Once a step of the machine.
     void step();
     /// What the load cells say; a vehicle without brackets does not know.
-    bool carries();
+    bool carries() { return read_cells().feels; }
 
 private:
     enum class Phase {
@@ -52,6 +52,7 @@ private:
     struct Cells {
         double force_n = 0;
         double lowest_m = 0;
+        bool feels = false;  // something lies on the brackets
         std::optional<Reason> fault;
     };
     Cells read_cells();
@@ -65,7 +66,7 @@ private:
     const plant::VehicleType& type_;
     std::vector<std::string> action_types_;
     Phase phase_ = Phase::kRests;
-    bool held_ = false;       // the machine was stopped by it, which is no failure
+    bool moved_ = false;      // the machine has, or does, for the transfer: its failure is its own
     bool transfers_ = false;  // what was begun last is a transfer
     double told_kg_ = 0;
     double began_m_ = 0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/gravity.hpp"
+#include "core/base/params.hpp"
 #include "core/vda5050/actions.hpp"
 #include "server/agent/body_status.hpp"
 #include "server/base/log.hpp"
@@ -55,19 +56,6 @@ Status is_of_type(const Description& told, const plant::VehicleType& type) {
         return same;
     if (auto same = same_names("feet", told.feet, feet_of(type)); !same) return same;
     return same_names("cameras", told.cameras, names_of(type.cameras));
-}
-
-const ParamValue* param_in(const Params& params, const char* name) {
-    const auto found = std::ranges::find(params, name, &Param::name);
-    return found == params.end() ? nullptr : &found->value;
-}
-
-std::optional<double> number_in(const Params& params, const char* name) {
-    const auto* value = param_in(params, name);
-    if (value == nullptr) return std::nullopt;
-    if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
-    const auto* real = std::get_if<double>(value);
-    return real == nullptr ? std::nullopt : std::optional(*real);
 }
 
 }  // namespace
@@ -348,11 +336,11 @@ private:
     /// Why not.
     std::optional<std::string> describe(const vda5050::Action& action, Lift& lift) const {
         if (action.type == vda5050::kSetBracketHeight) {
-            const auto height_m = number_in(action.params, "height_m");
+            const auto height_m = number_param(action.params, "height_m");
             if (!height_m) return "bad_parameters: setBracketHeight needs bracket and height_m";
             lift.what = Lift::What::kBracketHeight;
             lift.height_m = *height_m;
-            lift.speed_mps = number_in(action.params, "speed_mps");
+            lift.speed_mps = number_param(action.params, "speed_mps");
             return choose(action, "bracket", names_of(type_.brackets), lift);
         }
         if (action.type == vda5050::kLowerParking || action.type == vda5050::kRaiseParking) {
@@ -367,8 +355,7 @@ private:
 
     static std::optional<std::string> choose(const vda5050::Action& action, const char* part,
                                              const std::vector<std::string>& names, Lift& lift) {
-        const auto* value = param_in(action.params, part);
-        const auto* name = value == nullptr ? nullptr : std::get_if<std::string>(value);
+        const auto* name = text_param(action.params, part);
         if (name == nullptr || *name == kAllParts) return std::nullopt;
         const auto found = std::ranges::find(names, *name);
         if (found == names.end()) return std::string("unknown_") + part + ": there is no " + *name;

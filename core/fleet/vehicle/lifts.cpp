@@ -4,8 +4,8 @@
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <variant>
 
+#include "core/base/params.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/reason_codes.hpp"
@@ -19,22 +19,10 @@ namespace {
 
 constexpr std::string_view kAll = "all";  // of them
 
-/// Empty: it says none.
-std::string text_of(const StepAction& lift, const char* name) {
-    for (const Param& param : lift.params) {
-        const auto* text = std::get_if<std::string>(&param.value);
-        if (param.name == name && text != nullptr) return *text;
-    }
-    return {};
-}
-
-/// Nothing: it says none.
-std::optional<double> number_of(const StepAction& lift, const char* name) {
-    for (const Param& param : lift.params) {
-        const auto* number = std::get_if<double>(&param.value);
-        if (param.name == name && number != nullptr) return *number;
-    }
-    return std::nullopt;
+/// Empty: it names none.
+std::string bracket_of(const StepAction& wanted) {
+    const auto* name = text_param(wanted.params, "bracket");
+    return name == nullptr ? std::string() : *name;
 }
 
 template <class Things>
@@ -55,19 +43,19 @@ Status has_one_named(const LiveVehicle& live, const char* code, const char* kind
 Status has_bracket(const LiveVehicle& live, const StepAction& wanted) {
     const auto& lift = live.type->bracket_lift;
     const std::string who = "The brackets of " + live.record.id.str();
-    const double height_m = number_of(wanted, "height_m").value_or(-1);
+    const double height_m = number_param(wanted.params, "height_m").value_or(-1);
     if (!(height_m >= 0 && height_m <= lift.stroke_m)) {
         return fail(Errc::kUnreachable, "out_of_stroke",
                     who + " reach from 0 to " + std::to_string(lift.stroke_m) + " m.", "/height_m",
                     {{"height_m", height_m}, {"stroke_m", lift.stroke_m}});
     }
-    const double speed_mps = number_of(wanted, "speed_mps").value_or(lift.speed_mps);
+    const double speed_mps = number_param(wanted.params, "speed_mps").value_or(lift.speed_mps);
     if (!(speed_mps > 0 && speed_mps <= lift.speed_mps)) {
         return fail(Errc::kUnreachable, "out_of_speed",
                     who + " move with " + std::to_string(lift.speed_mps) + " m/s at most.",
                     "/speed_mps", {{"speed_mps", speed_mps}, {"most_mps", lift.speed_mps}});
     }
-    return has_one_named(live, "unknown_bracket", "bracket", text_of(wanted, "bracket"),
+    return has_one_named(live, "unknown_bracket", "bracket", bracket_of(wanted),
                          live.type->brackets);
 }
 
@@ -87,9 +75,9 @@ Status has_them(const LiveVehicle& live, const StepAction& wanted) {
             "/type", {{"vehicle", id}, {"action", wanted.type}});
     }
     if (wanted.type == vda5050::kSetBracketHeight) return has_bracket(live, wanted);
-    const std::string foot = text_of(wanted, "foot");
-    if (foot.empty() || !live.type->parking) return {};
-    return has_one_named(live, "unknown_foot", "foot", foot, live.type->parking->feet);
+    const auto* foot = text_param(wanted.params, "foot");
+    if (foot == nullptr || !live.type->parking) return {};
+    return has_one_named(live, "unknown_foot", "foot", *foot, live.type->parking->feet);
 }
 
 }  // namespace
@@ -124,8 +112,7 @@ Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const St
                         "that has ended, or as a part of it.");
     }
     if (vda5050::is_transfer(wanted.type)) return may_transfer(fleet, live, wanted);
-    const bool all =
-        wanted.type != vda5050::kSetBracketHeight || text_of(wanted, "bracket") == kAll;
+    const bool all = wanted.type != vda5050::kSetBracketHeight || bracket_of(wanted) == kAll;
     if (auto fault = rule_broken(live); fault && all) {
         return conflict(fault->code.c_str(),
                         " carries a load that breaks a rule of its type. Put "

@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "core/base/angle.hpp"
+#include "core/base/params.hpp"
 #include "core/plant/load_rules.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -46,20 +47,6 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, std::mt19937_64& rand
     parameters.stroke_m = type.bracket_lift.stroke_m;
     parameters.speed_mps = type.bracket_lift.speed_mps;
     return {std::move(places), parameters, random()};
-}
-
-const ParamValue* find(const Params& params, const std::string& name) {
-    for (const Param& param : params) {
-        if (param.name == name) return &param.value;
-    }
-    return nullptr;
-}
-
-std::optional<double> number(const ParamValue* value) {
-    if (value == nullptr) return std::nullopt;
-    if (const auto* whole = std::get_if<std::int64_t>(value)) return static_cast<double>(*whole);
-    if (const auto* real = std::get_if<double>(value)) return *real;
-    return std::nullopt;
 }
 
 }  // namespace
@@ -108,7 +95,7 @@ void VehicleEquipment::work_below(std::shared_ptr<Supports> supports, plant::Hal
 void VehicleEquipment::meet_support() {
     support_ = supports_ ? supports_->above(hall_, true_pose_) : nullptr;
     if (support_ == nullptr || !brackets_) return;
-    const bool sets_down = carried_ && !support_->load && bracket_height_m() >= support_->height_m;
+    const bool sets_down = carried_ && !support_->load && mean_height_m() >= support_->height_m;
     if (sets_down) support_->load = carried_;
     const bool takes_over = support_->load && (!carried_ || carried_->id == support_->load->id);
     if (!takes_over) support_ = nullptr;
@@ -118,7 +105,7 @@ void VehicleEquipment::meet_support() {
 void VehicleEquipment::share_with_support() {
     if (support_ == nullptr) return;
     const TrueLoad& load = *support_->load;
-    const double share = std::clamp((bracket_height_m() - support_->height_m) / kGives_m, 0.0, 1.0);
+    const double share = std::clamp((mean_height_m() - support_->height_m) / kGives_m, 0.0, 1.0);
     load_kg_ = share * load.mass_kg;
     if (!carried_) load_centre_ = middle_ + load.centre;
     carried_.reset();
@@ -130,7 +117,7 @@ void VehicleEquipment::share_with_support() {
     support_ = nullptr;
 }
 
-double VehicleEquipment::bracket_height_m() const {
+double VehicleEquipment::mean_height_m() const {
     double sum_m = 0;
     for (std::size_t i = 0; i < brackets_->places().size(); ++i) sum_m += brackets_->height_m(i);
     return sum_m / static_cast<double>(brackets_->places().size());
@@ -156,7 +143,7 @@ std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action
 
 std::optional<std::string> VehicleEquipment::begin_feet(const vda5050::Action& action) {
     std::optional<std::size_t> foot;
-    if (const auto* named = find(action.params, "foot")) {
+    if (const auto* named = find_param(action.params, "foot")) {
         const auto* name = std::get_if<std::string>(named);
         if (name == nullptr) return "bad_parameters: foot is the name of one, or all";
         if (*name != "all") {
@@ -174,15 +161,15 @@ std::optional<std::string> VehicleEquipment::begin_feet(const vda5050::Action& a
 }
 
 std::optional<std::string> VehicleEquipment::begin_bracket(const vda5050::Action& action) {
-    const auto height_m = number(find(action.params, "height_m"));
-    const auto* named = find(action.params, "bracket");
-    const auto* name = named == nullptr ? nullptr : std::get_if<std::string>(named);
+    const auto height_m = number_param(action.params, "height_m");
+    const auto* name = text_param(action.params, "bracket");
     if (!height_m || name == nullptr) {
         return "bad_parameters: setBracketHeight needs bracket (a name or \"all\") and height_m";
     }
-    const auto* speed = find(action.params, "speed_mps");
-    const auto speed_mps = number(speed);
-    if (speed != nullptr && !speed_mps) return "bad_parameters: speed_mps is a number";
+    const auto speed_mps = number_param(action.params, "speed_mps");
+    if (find_param(action.params, "speed_mps") != nullptr && !speed_mps) {
+        return "bad_parameters: speed_mps is a number";
+    }
     std::optional<std::size_t> lift;
     if (*name != "all") {
         lift = brackets_->find(*name);

@@ -59,7 +59,7 @@ private:
     std::optional<std::string> begin_feet(const vda5050::Action& action);
     void meet_support();
     void share_with_support();
-    double bracket_height_m() const;
+    double mean_height_m() const;
 
     const Pose2& true_pose_;
     std::vector<std::string> action_types_;

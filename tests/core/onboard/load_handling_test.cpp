@@ -32,6 +32,27 @@ vda5050::Action drop() {
     return action;
 }
 
+/// A machine that calls a movement failed which it was told to stop, as a controller of its own
+/// may.
+class FailsWhenStopped : public simulation::VehicleEquipment {
+public:
+    using VehicleEquipment::VehicleEquipment;
+    std::optional<std::string> begin(const vda5050::Action& action) override {
+        stopped_.reset();
+        return VehicleEquipment::begin(action);
+    }
+    std::optional<std::string> failure() const override {
+        return stopped_ ? stopped_ : VehicleEquipment::failure();
+    }
+    void abort() override {
+        if (busy()) stopped_ = "lifts_stopped";
+        VehicleEquipment::abort();
+    }
+
+private:
+    std::optional<std::string> stopped_;
+};
+
 class LoadHandlingTest : public ::testing::Test {
 protected:
     /// `hanging`: at the hoist; nothing: it is empty. `on_board`: carried from the beginning.
@@ -41,8 +62,8 @@ protected:
         plant.stations[0].support = plant::Support{kHoist_m};
         supports = std::make_shared<simulation::Supports>(plant, 1);
         supports->above({}, {})->load = std::move(hanging);
-        machine = std::make_unique<simulation::VehicleEquipment>(type, stands, std::vector<Pose2>{},
-                                                                 90, 1, on_board_kg, 3);
+        machine = std::make_unique<FailsWhenStopped>(type, stands, std::vector<Pose2>{}, 90, 1,
+                                                     on_board_kg, 3);
         std::optional<simulation::TrueLoad> carried;
         if (on_board_kg > 0) carried = {plant::LoadId("A-101"), on_board_kg, {}};
         machine->work_below(supports, {}, carried);
@@ -76,7 +97,7 @@ protected:
     plant::VehicleType type = pulseline::testing::platform();
     Pose2 stands;
     std::shared_ptr<simulation::Supports> supports;
-    std::unique_ptr<simulation::VehicleEquipment> machine;
+    std::unique_ptr<FailsWhenStopped> machine;
     std::unique_ptr<LoadHandling> handling;
     double most_n = 0;
 };
@@ -161,6 +182,24 @@ TEST_F(LoadHandlingTest, RaisesAgainWhatNothingTakes) {
     EXPECT_EQ(handling->failure()->substr(0, 14), "load_not_taken");
     EXPECT_TRUE(handling->carries());
     EXPECT_NEAR(height_m(), 0.15, 0.001);
+}
+
+/// What broke off a movement before is not what becomes of the transfer.
+TEST_F(LoadHandlingTest, SetsDownAlsoAfterAMovementThatFailed) {
+    build({}, kMass_kg);
+    raise_to(0.2);
+    vda5050::Action higher;
+    higher.type = "setBracketHeight";
+    higher.params = {{"bracket", "all"}, {"height_m", 0.25}};
+    ASSERT_FALSE(handling->begin(higher));
+    for (double t_s = 0; t_s < 0.1; t_s += kStep_s) machine->step(kStep_s, 0);
+    handling->abort();
+    run();
+    ASSERT_TRUE(handling->failure()) << "it was broken off";
+    ASSERT_FALSE(handling->begin(drop()));
+    run();
+    EXPECT_FALSE(handling->failure()) << *handling->failure();
+    EXPECT_TRUE(hoist().load);
 }
 
 TEST_F(LoadHandlingTest, HeldInTheMiddleGoesOnFromThere) {
