@@ -62,8 +62,10 @@ test("it sets the aircraft down by small steps and drives away without it", asyn
 test("it takes the aircraft over again, and the server knows it over its own restart", async () => {
   await drive(7);
   const { events } = await pickAndSee();
-  assert.deepEqual(events.map(({ params }) => [params.load, params.from, params.to]),
-    [[kLoad, `vehicle ${kId}`, "station 7"], [kLoad, "station 7", `vehicle ${kId}`]]);
+  assert.deepEqual(events.map(({ params }) => params), [
+    { load: kLoad, from_vehicle: kId, to_station: 7 },
+    { load: kLoad, from_station: 7, to_vehicle: kId },
+  ]);
   await system.kill(system.server);
   await system.startServer();
   await client.untilReady(kId);

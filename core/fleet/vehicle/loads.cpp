@@ -1,9 +1,9 @@
 #include "core/fleet/vehicle/loads.hpp"
 
-#include <algorithm>
+#include <cstdint>
 #include <utility>
-#include <variant>
 
+#include "core/base/params.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/plant/carrying.hpp"
@@ -12,25 +12,24 @@
 namespace pulseline::fleet {
 namespace {
 
-std::string load_named(const StepAction& wanted) {
-    for (const Param& param : wanted.params) {
-        const auto* text = std::get_if<std::string>(&param.value);
-        if (param.name == "load" && text != nullptr) return *text;
-    }
-    return {};
+/// That the action names; empty: none.
+plant::LoadId load_named(const StepAction& wanted) {
+    const auto* name = text_param(wanted.params, "load");
+    return name == nullptr ? plant::LoadId() : plant::LoadId(*name);
 }
 
-/// "vehicle TP-01", "station 1", "nowhere"
-std::string place_of(const FleetState& fleet, const LoadRecord& record) {
-    if (!record.vehicle.empty()) return "vehicle " + record.vehicle.str();
+/// Says `<prefix>vehicle` or `<prefix>station`, its number; neither: it is not in the plant.
+void tell_place(const FleetState& fleet, const LoadRecord& record, const std::string& prefix,
+                Params& params) {
+    if (!record.vehicle.empty()) params.push_back({prefix + "vehicle", record.vehicle.str()});
     const auto* station = plant::find_station(fleet.plant, record.station);
-    return station ? "station " + std::to_string(station->number) : "nowhere";
+    if (station) params.push_back({prefix + "station", std::int64_t{station->number}});
 }
 
 Status may_pick(const FleetState& fleet, const LiveVehicle& live, const plant::Station& station,
                 const StepAction& wanted) {
     const std::string& id = live.record.id.str();
-    const plant::LoadId named(load_named(wanted));
+    const plant::LoadId named = load_named(wanted);
     const auto* load = plant::find_load(fleet.plant, named);
     if (!load) {
         return fail(Errc::kUnreachable, "unknown_load", "There is no load \"" + named.str() + "\".",
@@ -42,11 +41,11 @@ Status may_pick(const FleetState& fleet, const LiveVehicle& live, const plant::S
                     {{"vehicle", id}, {"load", on->name}});
     }
     if (load_at(fleet, station.id) != load) {
-        const std::string where = place_of(fleet, fleet.loads.at(named));
-        return fail(
-            Errc::kConflict, "load_elsewhere",
-            load->name + " is not here but at: " + where + ". Drive there, or say where it is.",
-            "/load", {{"load", load->name}, {"where", where}});
+        Params params{{"load", load->name}};
+        tell_place(fleet, fleet.loads.at(named), {}, params);
+        return fail(Errc::kConflict, "load_elsewhere",
+                    load->name + " is not here. Drive to where it is, or say that it is here.",
+                    "/load", std::move(params));
     }
     if (auto why_not = plant::cannot_carry(*live.type, *load)) {
         return fail(Errc::kConflict, why_not->code.c_str(),
@@ -78,33 +77,48 @@ Status may_drop(const FleetState& fleet, const LiveVehicle& live, const plant::S
     return {};
 }
 
-/// Of the plant, unless the store knows better.
-LoadRecord first_record(const plant::Load& load, Time now) {
-    return {load.id, load.vehicle, load.station, now, {}};
-}
-
-bool is_there(const FleetState& fleet, const LoadRecord& record) {
-    if (!record.vehicle.empty()) return fleet.find(record.vehicle) != nullptr;
+/// The plant may be another one than when that was stored.
+bool may_still_be_there(const FleetState& fleet, const plant::Load& load,
+                        const LoadRecord& record) {
+    if (!record.vehicle.empty()) {
+        const LiveVehicle* live = fleet.find(record.vehicle);
+        return live && !plant::cannot_carry(*live->type, load);
+    }
     if (record.station.empty()) return true;
     const auto* station = plant::find_station(fleet.plant, record.station);
     return station && station->support;
 }
 
+/// Where the plant has it at first, unless another one has got there.
+LoadPlace first_place(const FleetState& fleet, const plant::Load& load) {
+    if (load_on(fleet, load.vehicle) || load_at(fleet, load.station)) return {};
+    return {load.vehicle, load.station};
+}
+
 }  // namespace
 
 void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now) {
+    std::vector<LoadRecord> displaced;
     for (auto& record : stored) {
-        if (!plant::find_load(fleet.plant, record.id) || !is_there(fleet, record)) continue;
+        const auto* load = plant::find_load(fleet.plant, record.id);
+        if (!load) continue;
+        if (!may_still_be_there(fleet, *load, record)) {
+            displaced.push_back(std::move(record));
+            continue;
+        }
         const auto id = record.id;
         fleet.loads.emplace(id, std::move(record));
     }
+    for (auto& record : displaced) {
+        const auto id = record.id;
+        const LoadPlace to = first_place(fleet, *plant::find_load(fleet.plant, id));
+        fleet.loads.emplace(id, std::move(record));
+        move_load(fleet, id, to, {}, now);
+    }
     for (const auto& load : fleet.plant.loads) {
-        LoadRecord first = first_record(load, now);
-        // Where the plant has it at first, another one has got to.
-        const bool taken = (!first.vehicle.empty() && load_on(fleet, first.vehicle)) ||
-                           (!first.station.empty() && load_at(fleet, first.station));
-        if (taken) first.vehicle = {}, first.station = {};
-        fleet.loads.emplace(load.id, std::move(first));
+        if (fleet.loads.contains(load.id)) continue;
+        const LoadPlace at = first_place(fleet, load);
+        fleet.loads.emplace(load.id, LoadRecord{load.id, at.vehicle, at.station, now, {}});
     }
     find_loads(fleet);
 }
@@ -113,7 +127,7 @@ void find_loads(FleetState& fleet) {
     for (auto& [id, live] : fleet.vehicles) {
         live.load = load_on(fleet, id);
         if (live.load || !is_transferring(live)) continue;
-        live.load = plant::find_load(fleet.plant, plant::LoadId(load_named(live.lift->what)));
+        live.load = plant::find_load(fleet.plant, load_named(live.lift->what));
     }
 }
 
@@ -154,8 +168,8 @@ Status may_transfer(const FleetState& fleet, const LiveVehicle& live, const Step
 vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live,
                                 const StepAction& wanted) {
     const bool picks = wanted.type == vda5050::kPick;
-    const auto* load = picks ? plant::find_load(fleet.plant, plant::LoadId(load_named(wanted)))
-                             : load_on(fleet, live.record.id);
+    const auto* load =
+        picks ? plant::find_load(fleet.plant, load_named(wanted)) : load_on(fleet, live.record.id);
     vda5050::Action action;
     action.type = wanted.type;
     action.params = {{"loadId", load->id.str()}, {"weight", load->mass_kg}};
@@ -165,7 +179,7 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
                       const std::string& actor, Time now) {
     if (done.type == vda5050::kPick) {
-        move_load(fleet, plant::LoadId(load_named(done)), {live.record.id, {}}, actor, now);
+        move_load(fleet, load_named(done), {live.record.id, {}}, actor, now);
     } else if (const auto* load = load_on(fleet, live.record.id)) {
         move_load(fleet, load->id, {{}, live.record.at_station}, actor, now);
     }
@@ -174,11 +188,11 @@ void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& do
 void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to,
                const std::string& actor, Time now) {
     LoadRecord& record = fleet.loads.at(id);
-    Params params{{"load", plant::find_load(fleet.plant, id)->name},
-                  {"from", place_of(fleet, record)}};
+    Params params{{"load", plant::find_load(fleet.plant, id)->name}};
+    tell_place(fleet, record, "from_", params);
     const LoadRecord before =
         std::exchange(record, LoadRecord{id, to.vehicle, to.station, now, actor});
-    params.push_back({"to", place_of(fleet, record)});
+    tell_place(fleet, record, "to_", params);
     add_event(fleet, now, event::kLoadMoved, {}, {},
               to.vehicle.empty() ? before.vehicle : to.vehicle, actor, std::move(params));
     fleet.stored_loads.insert(id);

@@ -9,8 +9,8 @@
 /// an aircraft over). Each is in one place, and no place has two.
 namespace pulseline::fleet {
 
-/// Where each load of the plant is: as stored, or where nothing is stored, or its place is gone, as
-/// the plant has it at first.
+/// Where each load of the plant is: as stored, or where nothing is stored, or the plant forbids it
+/// there by now, as the plant has it at first (event load.moved).
 void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now);
 /// What each vehicle holds floor with follows from the loads (LiveVehicle::load).
 void find_loads(FleetState& fleet);
@@ -23,8 +23,8 @@ bool is_transferring(const LiveVehicle& live);
 
 /// Whether a person may have the vehicle take a load over (`wanted`: pick {load}) or set it down
 /// (drop) where it stands. Errors: unknown_load; no_support_here, vehicle_loaded {load},
-/// load_elsewhere {load, where}, those of plant::cannot_carry; vehicle_empty, support_taken {load},
-/// brackets_too_low {height_m, least_m}.
+/// load_elsewhere {load, vehicle or station}, those of plant::cannot_carry; vehicle_empty,
+/// support_taken {load}, brackets_too_low {height_m, least_m}.
 Status may_transfer(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
 /// The action that the vehicle hears of it. REQUIRES: may_transfer.
 vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live,

@@ -114,6 +114,18 @@ TEST_F(Loads, AVehicleTakesOneOverWhereItHangsAndTheServerKeepsWhoHasIt) {
     EXPECT_EQ(view().carries, kJig);
 }
 
+/// The plant was imported anew while it was stopped.
+TEST_F(Loads, WhatTheNewPlantForbidsWhereItIsIsWhereThatPlantHasItAtFirst) {
+    take_over();
+    world.plant.vehicle_types.front().max_load_kg = kMass_kg / 2;
+    world.crash_server();
+    world.run(1);
+    EXPECT_EQ(jig().station, kS1);
+    EXPECT_TRUE(jig().vehicle.empty());
+    EXPECT_TRUE(view().carries.empty());
+    EXPECT_EQ(world.count_events("load.moved"), 2) << "and it is told";
+}
+
 TEST_F(Loads, ItDrivesWithItToWhereItSetsItDownAndLeavesItThere) {
     take_over();
     v1().lifts_end = true;
