@@ -144,8 +144,10 @@ Result<machine::Frame> MachineLink::receive(Duration timeout) {
             impl_->read.erase(0, **size);
             return frame;
         }
-        const auto left = std::chrono::duration_cast<Duration>(until - Steady::now());
-        if (left.count() <= 0 || !ready(impl_->socket.get(), POLLIN, left)) {
+        // What came while this program was not let run has come in time.
+        const auto left =
+            std::max(Duration{}, std::chrono::duration_cast<Duration>(until - Steady::now()));
+        if (!ready(impl_->socket.get(), POLLIN, left)) {
             return fail(Errc::kConflict, "machine_silent", "The machine does not answer.");
         }
         const auto before = impl_->read.size();

@@ -84,8 +84,11 @@ Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& w
     VehicleSettings known;
     known.hall = plant::find_station(world.plant, vehicle.home)->hall;
     known.learned = options.learned;
-    auto opened = TcpVehicle::open(*address, world.plant, vehicle, options.time_factor,
-                                   world.errors, std::move(known));
+    TcpMachine::Settings settings;
+    settings.time_factor = options.time_factor;
+    settings.errors = world.errors;
+    settings.watchdog_s = options.machine_watchdog_s;
+    auto opened = TcpVehicle::open(*address, world.plant, vehicle, settings, std::move(known));
     if (!opened) return fail(opened.error());
     return Unit{std::move(*opened), nullptr, nullptr};
 }

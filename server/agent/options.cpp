@@ -284,6 +284,10 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "tcp://HOST:PORT of the controller of the vehicle's machine, which is not "
                    "simulated here then")
         ->excludes(list);
+    app.add_option("--machine-watchdog-s", options.machine_watchdog_s,
+                   "how long its controller may hear nothing before it brakes, and be silent "
+                   "before it counts as lost")
+        ->check(CLI::Range(0.02, 5.0));
     app.add_option("--maps", options.maps,
                    "folder with maps of the halls (HALL.yaml, as `pulseline-agent map` makes "
                    "them), by which vehicles know from walls and things where they are");

@@ -55,6 +55,7 @@ struct Options {
     std::string learned;    // folder for what the vehicles learn; empty: none
     std::string hand_held;  // socket of a hand-held control; empty: none
     std::string machine;    // tcp://HOST:PORT of its controller; empty: simulated
+    double machine_watchdog_s = 0.1;
     std::uint64_t seed = 1;
     std::string errors = "nominal";  // how well machines and floor are kept: nominal, kind, harsh
     double time_factor = 1;

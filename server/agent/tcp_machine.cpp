@@ -20,7 +20,6 @@ using kinematics::WheelMotion;
 using onboard::Wheels;
 
 constexpr auto kReach = 2s;
-constexpr auto kAnswer = 100ms;    // the watchdog's time
 constexpr auto kPictureTime = 2s;  // exposed and carried over
 constexpr double kAgain_s = 1;     // between two tries to reach it
 constexpr std::string_view kAllParts = "all";
@@ -63,13 +62,14 @@ Status is_of_type(const Description& told, const plant::VehicleType& type) {
 /// The line to the machine with what it has told last, and its coming back.
 class TcpMachine::Controller {
 public:
-    Controller(MachineAddress address, const plant::VehicleType& type)
-        : address_(std::move(address)), type_(type) {}
+    Controller(MachineAddress address, const plant::VehicleType& type, double watchdog_s)
+        : address_(std::move(address)), type_(type), watchdog_s_(watchdog_s) {}
 
     Status reach() {
         auto link = MachineLink::open(address_, kReach);
         if (!link) return fail(link.error());
-        const Hello hello;
+        Hello hello;
+        hello.watchdog_s = watchdog_s_;
         if (auto sent = link->send(hello); !sent) return sent;
         auto answer = link->receive(kReach);
         if (!answer) return fail(answer.error());
@@ -90,7 +90,7 @@ public:
                       : Status{};
     }
 
-    /// One cycle. Without an answer in time the line counts as lost.
+    /// One cycle. Without an answer in the watchdog's time the line counts as lost.
     void exchange(Mode mode, std::span<const WheelMotion> wanted) {
         ++cycles_;
         if (!link_) return;
@@ -100,8 +100,10 @@ public:
         for (const auto& wheel : wanted)
             points.wheels.push_back({wheel.speed_mps, wheel.angle_rad});
         if (!say(points)) return;
+        const auto answer_time = std::chrono::duration_cast<MachineLink::Duration>(
+            std::chrono::duration<double>(watchdog_s_));
         while (link_) {
-            auto frame = hear(kAnswer);
+            auto frame = hear(answer_time);
             if (!frame) return;
             auto* told = std::get_if<Feedback>(&*frame);
             if (told == nullptr) {
@@ -199,6 +201,7 @@ private:
 
     MachineAddress address_;
     const plant::VehicleType& type_;
+    double watchdog_s_;
     std::optional<MachineLink> link_;
     Feedback told_;
     std::vector<LiftEnded> ended_;
@@ -389,7 +392,7 @@ private:
 Result<std::unique_ptr<TcpMachine>> TcpMachine::open(const MachineAddress& address,
                                                      const plant::VehicleType& type,
                                                      const Settings& settings) {
-    auto controller = std::make_unique<Controller>(address, type);
+    auto controller = std::make_unique<Controller>(address, type, settings.watchdog_s);
     if (auto reached = controller->reach(); !reached) return fail(reached.error());
     return std::unique_ptr<TcpMachine>(new TcpMachine(std::move(controller), type, settings));
 }

@@ -22,6 +22,7 @@ public:
         double time_factor = 1;  // of a simulated machine
         bool loaded = false;
         localisation::ErrorBudget errors = localisation::ErrorBudget::nominal();
+        double watchdog_s = machine::Hello{}.watchdog_s;  // silent for longer: the machine brakes
     };
 
     /// `type`: with its cameras as they hang under its load; must outlive it. Errors: those of

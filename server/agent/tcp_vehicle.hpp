@@ -11,10 +11,13 @@ namespace pulseline::agent {
 /// stands.
 class TcpVehicle final : public RunningVehicle {
 public:
-    /// `vehicle` must outlive it. Errors: those of TcpMachine::open; unknown_vehicle.
-    static Result<std::unique_ptr<TcpVehicle>> open(
-        const MachineAddress& address, const plant::Plant& plant, const plant::Vehicle& vehicle,
-        double time_factor, const localisation::ErrorBudget& errors, VehicleSettings known);
+    /// `vehicle` must outlive it; whether it is `loaded` its plant knows. Errors: those of
+    /// TcpMachine::open; unknown_vehicle.
+    static Result<std::unique_ptr<TcpVehicle>> open(const MachineAddress& address,
+                                                    const plant::Plant& plant,
+                                                    const plant::Vehicle& vehicle,
+                                                    TcpMachine::Settings settings,
+                                                    VehicleSettings known);
 
     void step(double dt_s, Vehicle::Steady::time_point now) override { program_->step(dt_s, now); }
     Vehicle& program() override { return *program_; }

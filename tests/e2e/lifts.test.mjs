@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
 import { System, until } from "../harness/processes.mjs";
-import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kPath = `/api/v1/vehicles/${kId}`;
@@ -24,15 +24,6 @@ after(async () => {
   await system?.stop();
 });
 
-/** A command of two steps, by a person who waits between them: the guard is up for three seconds after a stop. */
-async function decide(page, button) {
-  await until("it can be armed", async () => {
-    await button.click();
-    return page.locator(".lifts .cmd[data-state=armed]").waitFor({ timeout: 700 }).then(() => true, () => false);
-  }, { timeout_s: 10, every_ms: 500 });
-  await page.waitForTimeout(450); // a second press that comes sooner is the same tap
-  await page.locator(".lifts .cmd[data-state=armed]").click();
-}
 const untilIt = (condition, what) => client.untilVehicle(kId, condition, what, 60);
 
 test("raised by 30 mm with two presses, held with one by a second operator, who is told whose it is", async () => {

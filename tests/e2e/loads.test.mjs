@@ -6,8 +6,8 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
-import { ROOT, System, until } from "../harness/processes.mjs";
-import { faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { ROOT, System } from "../harness/processes.mjs";
+import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kLoad = "A-101";
@@ -39,17 +39,6 @@ after(async () => {
   await system?.stop();
 });
 
-/** A command of two steps, by a person who waits between them: the guard is up for three seconds after a stop. */
-async function decide(page, name) {
-  const button = page.locator(".lifts .cmd", { hasText: name });
-  await button.scrollIntoViewIfNeeded();
-  await until("it can be armed", async () => {
-    await button.click();
-    return page.locator(".lifts .cmd[data-state=armed]").waitFor({ timeout: 700 }).then(() => true, () => false);
-  }, { timeout_s: 10, every_ms: 500 });
-  await page.waitForTimeout(450); // a second press that comes sooner is the same tap
-  await page.locator(".lifts .cmd[data-state=armed]").click();
-}
 const untilIt = (condition, what) => client.untilVehicle(kId, condition, what, 90);
 
 const kWays = [
@@ -63,7 +52,7 @@ for (const { width, height, lang, theme, take, set } of kWays) {
     const card = page.locator(".lifts");
     await card.waitFor();
     if (!(await card.evaluate((e) => e.open))) await card.locator("summary").click();
-    await decide(page, take);
+    await decide(page, page.locator(".lifts .cmd", { hasText: take }));
     await untilIt((v) => v.lift?.type === "pick" && v.lift.state === "under_way", "takes it over");
     await untilIt((v) => v.lift.state !== "under_way" && v.load === kLoad, "carries it");
     await page.locator(".lifts .cmd", { hasText: set }).waitFor();
@@ -72,10 +61,39 @@ for (const { width, height, lang, theme, take, set } of kWays) {
     assert.deepEqual(await reachFaultsOf(page), []);
     assert.deepEqual(await overlapsOf(page), []);
     if (width === 1920) assert.deepEqual(await faultsOf(page), []);
-    await decide(page, set);
+    await decide(page, page.locator(".lifts .cmd", { hasText: set }));
     await untilIt((v) => v.lift.type === "drop" && v.lift.state === "done" && v.load === undefined, "has set it down");
     await page.locator(".lifts .cmd", { hasText: take }).waitFor();
     assert.deepEqual(page.errors, []);
     await page.context().close();
   });
 }
+
+test("where an aircraft is after a transfer that nobody saw the end of, a person says with two presses", async () => {
+  const say = async (body) => {
+    const answer = await client.request("PUT", `/api/v1/loads/${kLoad}/place`, { body });
+    assert.equal(answer.status, 202, JSON.stringify(answer.body));
+  };
+  const page = await signedIn(browser, system, "operator", { path: `/vehicles/${kId}`, width: 1024, height: 768, lang: "en", bypassCSP: true });
+  const button = (name) => page.locator(".lifts .cmd", { hasText: name });
+  await page.locator(".lifts").waitFor();
+  assert.equal(await button("is on the support here").count(), 0, "nobody is asked while all is as known");
+
+  await say({ vehicle: kId }); // it still hangs
+  await page.locator(".lifts .failed", { hasText: "Say where it is" }).waitFor();
+  await picture(page, "loads-said-1024-en");
+  assert.deepEqual(await reachFaultsOf(page), []);
+  assert.deepEqual(await overlapsOf(page), []);
+  await decide(page, button("A-101 is on the support here"));
+  await untilIt((v) => v.load === undefined && v.load_fault === undefined, "is empty as the brackets feel");
+  assert.equal((await client.get(`/api/v1/loads/${kLoad}`)).station, 1);
+
+  await decide(page, button("Take over A-101"));
+  await untilIt((v) => v.lift.state !== "under_way" && v.load === kLoad, "carries it");
+  await say({}); // it is still on the brackets
+  await decide(page, button("A-101 is on the vehicle"));
+  await untilIt((v) => v.load === kLoad && v.load_fault === undefined, "carries what it feels");
+  await button("Set down A-101").waitFor();
+  assert.deepEqual(page.errors, []);
+  await page.context().close();
+});

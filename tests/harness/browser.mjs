@@ -2,7 +2,7 @@
 import { createRequire } from "node:module";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { BUILD, ROOT } from "./processes.mjs";
+import { BUILD, ROOT, until } from "./processes.mjs";
 
 const require = createRequire(join(ROOT, "web/package.json"));
 export const { chromium } = require("playwright-core");
@@ -62,4 +62,16 @@ export async function faultsOf(page) {
   });
   const byRule = Map.groupBy?.(violations, ([id]) => id) ?? violations.reduce((all, one) => all.set(one[0], [...(all.get(one[0]) ?? []), one]), new Map());
   return [...byRule].map(([id, nodes]) => `${id}: ${nodes.map(([, target]) => target).slice(0, 3).join("; ")}`);
+}
+
+/** A command of two steps, by a person who waits between them: the guard is up for three seconds after a stop. */
+export async function decide(page, button) {
+  const armed = page.locator(".cmd[data-state=armed]");
+  await button.scrollIntoViewIfNeeded();
+  await until("it can be armed", async () => {
+    await button.click();
+    return armed.waitFor({ timeout: 700 }).then(() => true, () => false);
+  }, { timeout_s: 10, every_ms: 500 });
+  await page.waitForTimeout(450); // a second press that comes sooner is the same tap
+  await armed.click();
 }

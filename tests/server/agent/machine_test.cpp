@@ -3,6 +3,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <chrono>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -168,6 +170,7 @@ public:
         thread_.join();
         ::close(std::exchange(listener_, -1));
     }
+    void fall_silent() { silent_ = true; }
     MachineAddress address() const { return {"127.0.0.1", std::to_string(port_)}; }
     geometry::Pose2 true_pose() {
         const std::lock_guard lock(mutex_);
@@ -200,6 +203,7 @@ private:
                 const auto frame = decode(std::string_view(read).substr(0, **size));
                 read.erase(0, **size);
                 if (!frame) return;
+                if (silent_) continue;
                 std::string answers;
                 {
                     const std::lock_guard lock(mutex_);
@@ -218,6 +222,7 @@ private:
     SimulatedController& controller_;
     std::mutex mutex_;
     std::thread thread_;
+    std::atomic<bool> silent_ = false;
     int listener_ = -1;
     int program_ = -1;
     std::uint16_t port_ = 0;
@@ -226,7 +231,10 @@ private:
 class TcpMachineTest : public ControllerTest {
 protected:
     TcpMachineTest() {
-        auto opened = TcpMachine::open(host.address(), type, {1, true, world.errors});
+        open(3);  // a test's host lets nobody run every 10 ms
+    }
+    void open(double watchdog_s) {
+        auto opened = TcpMachine::open(host.address(), type, {1, true, world.errors, watchdog_s});
         if (!opened) throw std::runtime_error(opened.error().what);
         machine = std::move(*opened);
     }
@@ -286,6 +294,21 @@ TEST_F(TcpMachineTest, ItsPicturesAreReadAndTellWhereItStands) {
     ASSERT_TRUE(measured) << measured.error().what;
     EXPECT_LT(distance(measured->pose.position(), host.true_pose().position()), 2e-3);
     EXPECT_EQ(machine->cameras().pictures().size(), 2u);
+}
+
+TEST_F(TcpMachineTest, AControllerThatHearsAndSaysNothingIsLostAfterTheWatchdogsTime) {
+    machine.reset();  // it talks with one program
+    open(0.3);
+    machine->drive().set_believed({20, 10, 0});
+    machine->drive().append(straight({20, 10, 0}, 4));
+    run(1);
+    ASSERT_FALSE(machine->drive().stop_cause());
+    host.fall_silent();
+    const auto began = std::chrono::steady_clock::now();
+    run(0.02);
+    EXPECT_GE(std::chrono::steady_clock::now() - began, std::chrono::milliseconds(300));
+    ASSERT_TRUE(machine->drive().stop_cause());
+    EXPECT_EQ(machine->drive().stop_cause()->code, onboard::stop_causes::kMachineSilent);
 }
 
 TEST_F(TcpMachineTest, AControllerThatIsGoneStopsTheDriveUntilAPersonHasLooked) {

@@ -11,6 +11,7 @@ import { useWords } from "@/shared/words/useWords";
 import { bracketKey, footCorner } from "./drawing/faceplate";
 import { heights, kAll, liftBar, readHeight, readSpeed, reasonOf } from "./lifts";
 import { LoadTransfer } from "./LoadTransfer";
+import { PlaceLoad } from "./PlaceLoad";
 import { useLift, type Lift } from "./useLift";
 import "./IntegrationCard.css";
 import "./LiftsCard.css";
@@ -31,6 +32,9 @@ export function LiftsCard({ vehicle, type, refused }: Props) {
     useCallback(() => call(api.POST("/api/v1/vehicles/{id}/lifts/stop", { params: { path: { id } } })), [id]),
   );
   const holding = useProgress(hold, lift?.state !== "under_way", vehicle.name);
+  const [opened, setOpened] = useState(false);
+  const asks = lift !== undefined || vehicle.load_fault !== undefined;
+  if (asks && !opened) setOpened(true); // and stays so when that is over
   const hasBrackets = (type?.brackets.length ?? 0) > 0;
   const hasFeet = vehicle.parking_feet.length > 0;
   if (!hasBrackets && !hasFeet) return null;
@@ -44,11 +48,12 @@ export function LiftsCard({ vehicle, type, refused }: Props) {
   }
   if (hasFeet) now.push(t(feetDown(vehicle.parking_feet) ? "loads.feet_lowered" : "loads.feet_raised"));
   return (
-    <details className="card integ lifts" open={lift !== undefined}>
+    <details className="card integ lifts" open={opened}>
       <summary>
         <b>{t(hasBrackets ? (hasFeet ? "lifts.title" : "lifts.title_brackets") : "lifts.title_feet")}</b>
         <span className="lab">{now.join(t("join"))}</span>
       </summary>
+      {hasBrackets && <PlaceLoad vehicle={vehicle} refused={refused} />}
       {hasBrackets && <LoadTransfer vehicle={vehicle} refused={refused} />}
       {hasBrackets && <BracketLift vehicle={vehicle} type={type} refused={refused} />}
       {hasFeet && <FootLift vehicle={vehicle} type={type} refused={refused} />}

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import type { Vehicle } from "@/shared/api/types";
-import { heights, liftBar, readHeight, readSpeed, reasonOf } from "./lifts";
+import type { Load, Vehicle } from "@/shared/api/types";
+import { heights, liftBar, placesToSay, readHeight, readSpeed, reasonOf } from "./lifts";
 
 describe("height of a bracket", () => {
   it("is typed in millimetres", () => {
@@ -68,5 +68,41 @@ describe("why a vehicle did not get there", () => {
       params: {},
     });
     expect(reasonOf("")).toEqual({ code: "", params: {} });
+  });
+});
+
+describe("where a person may say that a load is", () => {
+  const aircraft: Load = { id: "A-101", name: "A-101", kind: "airframe", mass_kg: 22000 };
+  const jig: Load = { id: "J-1", name: "J-1", kind: "instrument", mass_kg: 500 };
+  const hoist = { number: 1, support: { height_m: 0.02 }, load: undefined };
+  const differs = { load: "A-101", load_fault: { code: "load_differs", params: { measured_kg: 0 } } };
+  const unknown = (measured_kg: number) => ({
+    load_fault: { code: "load_unknown", params: { measured_kg } },
+  });
+  it("is nothing while all is as known, or something moves", () => {
+    expect(placesToSay({ load: "A-101" }, hoist, [])).toEqual([]);
+    const lift: Vehicle["lift"] = {
+      action_id: "1",
+      type: "drop",
+      state: "under_way",
+      by: "operator",
+      at: "2026-11-29T20:00:00Z",
+    };
+    expect(placesToSay({ ...differs, lift }, hoist, [])).toEqual([]);
+  });
+  it("is the support here, unless that has another, or nowhere where there is none", () => {
+    expect(placesToSay(differs, hoist, [])).toEqual([{ load: "A-101", is: "on_support", station: 1 }]);
+    expect(placesToSay(differs, { ...hoist, load: jig }, [])).toEqual([]);
+    expect(placesToSay(differs, { number: 2, load: undefined }, [])).toEqual([
+      { load: "A-101", is: "not_in_plant" },
+    ]);
+  });
+  it("is the vehicle, of those that weigh what it feels", () => {
+    expect(placesToSay(unknown(21500), { ...hoist, load: aircraft }, [jig])).toEqual([
+      { load: "A-101", is: "on_vehicle" },
+    ]);
+    expect(placesToSay(unknown(9000), hoist, [aircraft, jig])).toEqual([]);
+    const unweighed = { ...jig, mass_kg: 0 };
+    expect(placesToSay(unknown(300), undefined, [unweighed])).toEqual([{ load: "J-1", is: "on_vehicle" }]);
   });
 });

@@ -1,4 +1,4 @@
-import type { LiftCommand, Reason, Vehicle } from "@/shared/api/types";
+import type { LiftCommand, Load, Reason, Vehicle } from "@/shared/api/types";
 import { parseNumber } from "./initPosition";
 
 export const kAll = "all";
@@ -36,6 +36,34 @@ export function liftBar(
   if (other) return "moving";
   if (vehicle.paused || vehicle.pause_confirmed === true) return "paused";
   return vehicle.leg !== undefined ? "busy" : undefined;
+}
+
+/** Where a person may say that a load is, seen from a vehicle that stands at `station`. */
+export interface SaidPlace {
+  load: string;
+  is: "on_vehicle" | "on_support" | "not_in_plant";
+  station?: number;
+}
+
+const kUnlike = 0.1; // of its mass, where somebody has weighed it: the server bars a drive with what is further off
+
+/** What may be so while the brackets contradict what is known. `nowhere`: loads that have no place now. */
+export function placesToSay(
+  vehicle: Pick<Vehicle, "load" | "lift" | "load_fault">,
+  here: { number: number; support?: unknown; load: Load | undefined } | undefined,
+  nowhere: readonly Load[],
+): SaidPlace[] {
+  const { load, load_fault } = vehicle;
+  if (vehicle.lift?.state === "under_way") return [];
+  if (load_fault?.code === "load_differs" && load !== undefined) {
+    if (here?.support === undefined) return [{ load, is: "not_in_plant" }];
+    return here.load === undefined ? [{ load, is: "on_support", station: here.number }] : [];
+  }
+  if (load_fault?.code !== "load_unknown") return [];
+  const felt_kg = Number(load_fault.params["measured_kg"]);
+  return [...(here?.load === undefined ? [] : [here.load]), ...nowhere]
+    .filter(({ mass_kg }) => mass_kg === 0 || Math.abs(mass_kg - felt_kg) <= kUnlike * mass_kg)
+    .map(({ id }) => ({ load: id, is: "on_vehicle" }));
 }
 
 /** A vehicle's "code: bracket front left, force_n 81234" as a reason; what does not read so is left out. */

@@ -1,0 +1,78 @@
+import { useCallback } from "react";
+import { useTranslation } from "react-i18next";
+import { api, call } from "@/shared/api";
+import type { LoadPlace, Vehicle } from "@/shared/api/types";
+import { CommandFailed } from "@/shared/commands";
+import { usePlant, useStations, useVehicles } from "@/shared/live";
+import { CommandButton } from "@/shared/ui";
+import { useCommand, useProgress } from "@/shared/ui/useCommand";
+import { useWords } from "@/shared/words/useWords";
+import { liftBar, placesToSay, type SaidPlace } from "./lifts";
+
+interface Props {
+  vehicle: Vehicle;
+  /** Why commands are off. */
+  refused: string | undefined;
+}
+
+/** Nobody saw the end of a transfer: while the brackets contradict what is known, a person says where the load is. */
+export function PlaceLoad({ vehicle, refused }: Props) {
+  const { t } = useTranslation("vehicles");
+  const words = useWords();
+  const loads = usePlant().data?.loads ?? [];
+  const stations = useStations();
+  const vehicles = useVehicles();
+  const here = stations.find((station) => station.id === vehicle.at_station);
+  const known = new Set([...vehicles.map((one) => one.load), ...stations.map((one) => one.state?.load)]);
+  const said = placesToSay(
+    vehicle,
+    here && { ...here, load: loads.find((load) => load.id === here.state?.load) },
+    loads.filter((load) => !known.has(load.id)),
+  );
+  if (said.length === 0 || vehicle.load_fault === undefined) return null;
+  return (
+    <>
+      <p className="failed" role="status">
+        {t("lifts.say", { why: words.reason(vehicle.load_fault) })}
+      </p>
+      {said.map((one) => (
+        <PlaceButton
+          key={one.load}
+          vehicle={vehicle}
+          refused={refused}
+          said={one}
+          name={loads.find((load) => load.id === one.load)?.name ?? one.load}
+        />
+      ))}
+    </>
+  );
+}
+
+function PlaceButton({ vehicle, refused, said, name }: Props & { said: SaidPlace; name: string }) {
+  const { t } = useTranslation("vehicles");
+  const { load, is, station } = said;
+  const command = useCommand(
+    useCallback(() => {
+      const body: LoadPlace =
+        is === "on_vehicle" ? { vehicle: vehicle.id } : station === undefined ? {} : { station };
+      return call(api.PUT("/api/v1/loads/{id}/place", { params: { path: { id: load } }, body }));
+    }, [load, is, station, vehicle.id]),
+  );
+  const progress = useProgress(command, (vehicle.load === load) === (is === "on_vehicle"), vehicle.name);
+  const bar = liftBar(vehicle, "pick");
+  return (
+    <>
+      <div className="feet">
+        <CommandButton
+          label={t(`lifts.${is}`, { load: name })}
+          primary={false}
+          direction="go"
+          progress={progress}
+          disabledReason={refused ?? (bar === undefined ? undefined : t(`lifts.${bar}`))}
+          onRun={command.run}
+        />
+      </div>
+      <CommandFailed command={command} />
+    </>
+  );
+}
