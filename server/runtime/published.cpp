@@ -71,7 +71,8 @@ std::vector<fleet::VehicleMessage> take_stops(std::vector<fleet::VehicleMessage>
 
 bool starts(const fleet::VehicleMessage& message) {
     return message.order || has_action(message, {vda5050::kStopPause, vda5050::kSetBracketHeight,
-                                                 vda5050::kLowerParking, vda5050::kRaiseParking});
+                                                 vda5050::kLowerParking, vda5050::kRaiseParking,
+                                                 vda5050::kPick, vda5050::kDrop});
 }
 
 void append_starts(Acts& to, const std::vector<fleet::Event>& events) {

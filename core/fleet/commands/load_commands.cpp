@@ -87,7 +87,7 @@ Result<LoadRecord> Fleet::place_load(const plant::LoadId& id, const LoadPlace& w
             return fail(std::move(held).error());
         }
     }
-    move_load(fleet, id, where, actor, now);
+    move_load(fleet, id, where, {actor}, now);
     if (from) settle_load(fleet, *from, now);
     dispatch(fleet, now);
     return fleet.loads.at(id);

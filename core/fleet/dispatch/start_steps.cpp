@@ -8,6 +8,7 @@
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/legs/legs.hpp"
+#include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
@@ -136,6 +137,12 @@ void start_step(FleetState& fleet, JobOrder& order, LiveVehicle& live, Time now)
         const Reason gone{"station_gone", {{"station", step.station.str()}}};
         return abort_order(fleet, order, gone, {}, now);
     }
+    const auto waits = prepare_transfer(fleet, order, live, now);
+    if (!waits) {
+        set_order_state(fleet, order, JobState::kInterrupted, waits.error().reason, {}, now);
+        return;
+    }
+    if (*waits) return set_order_reason(fleet, order, **waits, now);
     const LegId id(fleet.ids.next(now));
     auto leg = leg_of_step(fleet, order, live, *station, id, now);
     if (!leg && leg.error().code == Errc::kNeedsPlan) {

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 
+#include "core/fleet/floor/carrying.hpp"
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
@@ -24,6 +27,20 @@ void enter(Step& step, StepPhase phase) {
     step.actions_done = 0;
 }
 
+/// One behind the last action of the leg that begins with `first`.
+std::size_t end_of_leg(const std::vector<StepAction>& actions, std::size_t first) {
+    if (vda5050::is_transfer(actions[first].type)) return first + 1;
+    const auto next =
+        std::find_if(actions.begin() + static_cast<std::ptrdiff_t>(first), actions.end(),
+                     [](const StepAction& action) { return vda5050::is_transfer(action.type); });
+    return static_cast<std::size_t>(next - actions.begin());
+}
+
+bool has_action(const Leg& leg, const std::string& id) {
+    return std::ranges::any_of(leg.nodes.front().actions,
+                               [&](const vda5050::Action& action) { return action.id == id; });
+}
+
 void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now) {
     order.steps[step].state = StepState::kDone;
     order.current_step = step + 1;
@@ -36,6 +53,32 @@ void finish_step(FleetState& fleet, JobOrder& order, std::size_t step, Time now)
 }
 
 }  // namespace
+
+bool acts_next(const JobOrder& order, const LiveVehicle& live) {
+    if (order.current_step >= order.steps.size()) return false;
+    const Step& step = order.steps[order.current_step];
+    // Moved away before its actions were done, it has to arrive again first.
+    if (step.phase == StepPhase::kAfter && live.record.at_station != step.station) return false;
+    return step.phase != StepPhase::kDrive && step.actions_done < actions_of_phase(step).size();
+}
+
+const StepAction* next_transfer(const JobOrder& order, const LiveVehicle& live) {
+    if (!acts_next(order, live)) return nullptr;
+    const Step& step = order.steps[order.current_step];
+    const StepAction& next = actions_of_phase(step)[step.actions_done];
+    return vda5050::is_transfer(next.type) ? &next : nullptr;
+}
+
+Result<std::optional<Reason>> prepare_transfer(FleetState& fleet, const JobOrder& order,
+                                               LiveVehicle& live, Time now) {
+    const StepAction* transfer = next_transfer(order, live);
+    if (!transfer) return std::nullopt;
+    if (Status may = may_transfer(fleet, live, *transfer); !may) return fail(may.error());
+    if (transfer->type != vda5050::kPick) return std::nullopt;
+    const auto* load = load_at(fleet, live.record.at_station);
+    if (Status held = hold_floor_with(fleet, live, load, now); !held) return held.error().reason;
+    return std::nullopt;
+}
 
 std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
                                     const LiveVehicle& live, LegId id) {
@@ -66,12 +109,14 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
     node.allowed_deviation_theta_rad = 0.1;
     node.map_id = leg.hall;
     const auto& wanted = actions_of_phase(step);
-    for (std::size_t i = step.actions_done; i < wanted.size(); ++i) {
+    const std::size_t end = end_of_leg(wanted, step.actions_done);
+    for (std::size_t i = step.actions_done; i < end; ++i) {
         vda5050::Action action;
         action.type = wanted[i].type;
+        action.params = wanted[i].params;
+        if (vda5050::is_transfer(action.type)) action = transfer_action(fleet, live, wanted[i]);
         action.id = action_id(id, i);
         action.blocking = vda5050::BlockingType::kHard;
-        action.params = wanted[i].params;
         node.actions.push_back(std::move(action));
     }
     leg.nodes.push_back(std::move(node));
@@ -106,15 +151,22 @@ void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now) {
             return;
         }
         if (found->status != vda5050::ActionStatus::kFinished) break;
+        if (vda5050::is_transfer(type)) {
+            note_transferred(fleet, live, wanted[step.actions_done],
+                             {order->created_by, order->id, leg.id}, now);
+        }
         ++step.actions_done;
         add_event(fleet, now, event::kStepActionDone, order->id, leg.id, leg.vehicle, {},
                   {{"action", type}, {"phase", to_string(step.phase)}});
     }
     if (step.actions_done != before) fleet.store(*order);
-    if (step.actions_done < wanted.size() || live.state.driving) return;
+    if (has_action(leg, action_id(leg.id, step.actions_done)) || live.state.driving) return;
     end_leg(fleet, live, LegEnd::kDone, now);
+    settle_load(fleet, live, now);  // the next leg begins with what it carries now
     step.leg = {};
-    if (step.phase == StepPhase::kAfter) {
+    if (step.actions_done < wanted.size()) {
+        fleet.store(*order);
+    } else if (step.phase == StepPhase::kAfter) {
         finish_step(fleet, *order, static_cast<std::size_t>(leg.step), now);
     } else {
         enter(step, StepPhase::kDrive);

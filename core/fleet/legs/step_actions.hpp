@@ -7,9 +7,18 @@
 /// The actions before and after a step. They are sent as the node actions of a leg of their own
 /// that does not move: the drive begins only when all before it are finished, and what comes after
 /// begins only when the stop is inside its tolerance. A failed one leaves the order to a person;
-/// what is finished is not sent again.
+/// what is finished is not sent again. A load is taken over or set down in a leg of its own: the
+/// floor below it is held before, and where it is changes with the end.
 namespace pulseline::fleet {
 
+/// The vehicle does something standing next.
+bool acts_next(const JobOrder& order, const LiveVehicle& live);
+/// That the present step asks for next, and that takes a load over or sets it down; nullptr: none.
+const StepAction* next_transfer(const JobOrder& order, const LiveVehicle& live);
+/// Before the leg of a transfer: the floor below the load is held with it. A reason: others have
+/// it. Errors: those of may_transfer, which a person has to put right.
+Result<std::optional<Reason>> prepare_transfer(FleetState& fleet, const JobOrder& order,
+                                               LiveVehicle& live, Time now);
 /// The leg that does what the present step asks for now; nullopt: it is time to drive.
 std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
                                     const LiveVehicle& live, LegId id);

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
@@ -75,7 +76,8 @@ std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOr
     std::map<plant::VehicleTypeId, std::vector<std::pair<double, Candidate>>> by_type;
     for (const auto& [id, live] : fleet.vehicles) {
         if (is_gone(fleet, live, now) || !is_candidate(fleet, order, live)) continue;
-        if (live.record.integration != Integration::kUtilise || !announces_all(order, live))
+        if (live.record.integration != Integration::kUtilise || !announces_all(order, live) ||
+            !may_carry_all(fleet, order, live))
             continue;
         const auto pose = pose_after(fleet, live, last);
         const double away_m =

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/fleet/orders/candidates.hpp"
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/vda5050/actions.hpp"
@@ -196,6 +197,7 @@ Result<CheckedOrder> check_order(const FleetState& fleet, const NewOrder& order,
     if (auto actions = check_actions(fleet, order); !actions) return fail(actions.error());
     auto stations = stations_of(fleet, order);
     if (!stations) return fail(stations.error());
+    if (auto loads = check_transfers(fleet, order, *stations); !loads) return fail(loads.error());
     return CheckedOrder{std::move(*stations), std::move(after)};
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/orders/candidates.hpp"
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
@@ -25,9 +26,10 @@ bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) 
 
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
                             const Stations& stations, const LiveVehicle& live,
-                            std::optional<Pose2> pose, FreeManoeuvres free) {
+                            std::optional<Pose2> pose, JobOrderId self, FreeManoeuvres free) {
     OrderPlan plan;
     plan.vehicle = live.record.id;
+    const auto loaded = drives_loaded(fleet, order, self, live);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const plant::Station* station = stations[i];
         if (!may_stop_at(*station, *live.type)) {
@@ -44,6 +46,7 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
         plan.durations_s.push_back(0);
         if (!from || nearly_there(live, *from, *station)) continue;
         auto request = leg_request(fleet, live, *from, station->id, order.steps[i].mode);
+        request.loaded = loaded[i];
         auto leg = free == FreeManoeuvres::kPlanned ? fleet.planner.plan_leg(request)
                                                     : plan_here(fleet, request);
         if (leg) {
@@ -87,7 +90,8 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order,
                 "/vehicle",
                 {{"vehicle", order.vehicle.str()}, {"level", to_string(live->record.integration)}});
         }
-        return plan_with(fleet, order, stations, *live, future_pose(fleet, *live, self), free);
+        return plan_with(fleet, order, stations, *live, future_pose(fleet, *live, self), self,
+                         free);
     }
     // Any vehicle: the one that gets there soonest; the reason of the nearest miss when none can.
     std::optional<OrderPlan> best;
@@ -95,7 +99,7 @@ Result<OrderPlan> plan_order(const FleetState& fleet, const NewOrder& order,
     std::optional<Error> why_not;
     for (const auto& [live, pose] :
          nearest_of_each_type(fleet, order, stations.front()->pose, self, now)) {
-        auto plan = plan_with(fleet, order, stations, *live, pose, free);
+        auto plan = plan_with(fleet, order, stations, *live, pose, self, free);
         if (!plan) {
             // One that only a plan beside the fleet can judge is not refused for another's reason.
             if (!why_not || plan.error().code == Errc::kNeedsPlan) why_not = plan.error();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
 namespace pulseline::fleet {
@@ -105,7 +106,7 @@ bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const LiveVehi
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
     if (!bound.empty() && bound != id) return false;
     if (!keeper(fleet, order, id).empty()) return false;
-    return unannounced_action(order, live) == nullptr;
+    return unannounced_action(order, live) == nullptr && may_carry_all(fleet, order, live);
 }
 
 void settle_dependencies(FleetState& fleet) {

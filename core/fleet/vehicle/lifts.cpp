@@ -129,7 +129,7 @@ void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::Action
     live.lift->state = done ? LiftMove::State::kDone : LiftMove::State::kFailed;
     live.lift->why = answer.result_description;
     if (!done || !vda5050::is_transfer(live.lift->what.type)) return;
-    note_transferred(fleet, live, live.lift->what, live.lift->actor, now);
+    note_transferred(fleet, live, live.lift->what, {live.lift->actor}, now);
 }
 
 void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now) {

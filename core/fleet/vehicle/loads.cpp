@@ -12,11 +12,7 @@
 namespace pulseline::fleet {
 namespace {
 
-/// That the action names; empty: none.
-plant::LoadId load_named(const StepAction& wanted) {
-    const auto* name = text_param(wanted.params, "load");
-    return name == nullptr ? plant::LoadId() : plant::LoadId(*name);
-}
+constexpr const char* kLoadId = "loadId";  // VDA 5050, pick
 
 /// Says `<prefix>vehicle` or `<prefix>station`, its number; neither: it is not in the plant.
 void tell_place(const FleetState& fleet, const LoadRecord& record, const std::string& prefix,
@@ -89,6 +85,15 @@ bool may_still_be_there(const FleetState& fleet, const plant::Load& load,
     return station && station->support;
 }
 
+/// What it is about to take over, outside an order or in one; empty: nothing.
+plant::LoadId taken_over_by(const LiveVehicle& live) {
+    if (is_transferring(live)) return load_named(live.lift->what);
+    if (!live.has_leg() || !live.leg().actions_only) return {};
+    const vda5050::Action& first = live.leg().nodes.front().actions.front();
+    const auto* id = first.type == vda5050::kPick ? text_param(first.params, kLoadId) : nullptr;
+    return id == nullptr ? plant::LoadId() : plant::LoadId(*id);
+}
+
 /// Where the plant has it at first, unless another one has got there.
 LoadPlace first_place(const FleetState& fleet, const plant::Load& load) {
     if (load_on(fleet, load.vehicle) || load_at(fleet, load.station)) return {};
@@ -126,9 +131,13 @@ void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now) 
 void find_loads(FleetState& fleet) {
     for (auto& [id, live] : fleet.vehicles) {
         live.load = load_on(fleet, id);
-        if (live.load || !is_transferring(live)) continue;
-        live.load = plant::find_load(fleet.plant, load_named(live.lift->what));
+        if (!live.load) live.load = plant::find_load(fleet.plant, taken_over_by(live));
     }
+}
+
+plant::LoadId load_named(const StepAction& wanted) {
+    const auto* name = text_param(wanted.params, "load");
+    return name == nullptr ? plant::LoadId() : plant::LoadId(*name);
 }
 
 const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehicle) {
@@ -172,29 +181,29 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
         picks ? plant::find_load(fleet.plant, load_named(wanted)) : load_on(fleet, live.record.id);
     vda5050::Action action;
     action.type = wanted.type;
-    action.params = {{"loadId", load->id.str()}, {"weight", load->mass_kg}};
+    action.params = {{kLoadId, load->id.str()}, {"weight", load->mass_kg}};
     return action;
 }
 
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
-                      const std::string& actor, Time now) {
+                      const MovedBy& by, Time now) {
     if (done.type == vda5050::kPick) {
-        move_load(fleet, load_named(done), {live.record.id, {}}, actor, now);
+        move_load(fleet, load_named(done), {live.record.id, {}}, by, now);
     } else if (const auto* load = load_on(fleet, live.record.id)) {
-        move_load(fleet, load->id, {{}, live.record.at_station}, actor, now);
+        move_load(fleet, load->id, {{}, live.record.at_station}, by, now);
     }
 }
 
-void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to,
-               const std::string& actor, Time now) {
+void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to, const MovedBy& by,
+               Time now) {
     LoadRecord& record = fleet.loads.at(id);
     Params params{{"load", plant::find_load(fleet.plant, id)->name}};
     tell_place(fleet, record, "from_", params);
     const LoadRecord before =
-        std::exchange(record, LoadRecord{id, to.vehicle, to.station, now, actor});
+        std::exchange(record, LoadRecord{id, to.vehicle, to.station, now, by.actor});
     tell_place(fleet, record, "to_", params);
-    add_event(fleet, now, event::kLoadMoved, {}, {},
-              to.vehicle.empty() ? before.vehicle : to.vehicle, actor, std::move(params));
+    add_event(fleet, now, event::kLoadMoved, by.order, by.leg,
+              to.vehicle.empty() ? before.vehicle : to.vehicle, by.actor, std::move(params));
     fleet.stored_loads.insert(id);
     for (const auto* at : {&before, &std::as_const(record)}) {
         if (!at->vehicle.empty()) fleet.changed_vehicles.insert(at->vehicle);

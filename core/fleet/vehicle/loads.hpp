@@ -15,25 +15,33 @@ void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now);
 /// What each vehicle holds floor with follows from the loads (LiveVehicle::load).
 void find_loads(FleetState& fleet);
 
+/// That the action names; empty: none.
+plant::LoadId load_named(const StepAction& wanted);
 /// nullptr: nothing.
 const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehicle);
 const plant::Load* load_at(const FleetState& fleet, const plant::StationId& station);
 /// A pick or a drop has been sent, and the vehicle has not ended it.
 bool is_transferring(const LiveVehicle& live);
 
-/// Whether a person may have the vehicle take a load over (`wanted`: pick {load}) or set it down
-/// (drop) where it stands. Errors: unknown_load; no_support_here, vehicle_loaded {load},
+/// Whether the vehicle may take a load over (`wanted`: pick {load}) or set it down (drop) where
+/// it stands. Errors: unknown_load; no_support_here, vehicle_loaded {load},
 /// load_elsewhere {load, vehicle or station}, those of plant::cannot_carry; vehicle_empty,
 /// support_taken {load}, brackets_too_low {height_m, least_m}.
 Status may_transfer(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
 /// The action that the vehicle hears of it. REQUIRES: may_transfer.
 vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live,
                                 const StepAction& wanted);
+/// Who has moved a load: a person, or a leg of an order.
+struct MovedBy {
+    std::string actor = {};
+    JobOrderId order = {};
+    LegId leg = {};
+};
 /// The vehicle has done what it was asked for: the load has another place.
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
-                      const std::string& actor, Time now);
+                      const MovedBy& by, Time now);
 /// The load is there from now on.
-void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to,
-               const std::string& actor, Time now);
+void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to, const MovedBy& by,
+               Time now);
 
 }  // namespace pulseline::fleet

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
@@ -27,6 +28,11 @@ bool raises_feet_first(const JobOrder& order) {
     return std::any_of(todo, step.before.end(), [](const StepAction& action) {
         return action.type == vda5050::kRaiseParking;
     });
+}
+
+/// REQUIRES: it has a step left.
+bool is_after_its_stop(const JobOrder& order) {
+    return order.steps[order.current_step].phase == StepPhase::kAfter;
 }
 
 constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
@@ -235,7 +241,14 @@ std::optional<Barred> not_ready(const FleetState& fleet, const LiveVehicle& live
 std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
                                     const LiveVehicle& live, Time now) {
     auto barred = not_ready(fleet, live, now);
-    if (barred && barred->by == Bar::kFeetDown && raises_feet_first(order)) return std::nullopt;
+    if (!barred) return std::nullopt;
+    // What is broken off in a transfer is begun again; what is done after a stop drives nothing.
+    if (barred->by == Bar::kLoad && next_transfer(order, live)) return std::nullopt;
+    const bool stays = acts_next(order, live) && is_after_its_stop(order);
+    const bool bars_drives = barred->by == Bar::kFeetDown || barred->by == Bar::kCodesNotSeen ||
+                             barred->by == Bar::kWheelFault;
+    if (stays && bars_drives) return std::nullopt;
+    if (barred->by == Bar::kFeetDown && raises_feet_first(order)) return std::nullopt;
     return barred;
 }
 

@@ -6,6 +6,7 @@
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor/closures.hpp"
 #include "core/fleet/orders/checks.hpp"
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
@@ -52,6 +53,7 @@ Result<OrderPlan> plan_of(const FleetState& fleet, const NewOrder& order, Time n
     if (auto vehicles = check_vehicle_fields(fleet, order); !vehicles) {
         return fail(vehicles.error());
     }
+    if (auto loads = check_transfers(fleet, order, *stations); !loads) return fail(loads.error());
     return plan_order(fleet, order, *stations, {}, now, FreeManoeuvres::kPlanned);
 }
 
@@ -69,6 +71,7 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
     std::optional<planning::LegPlan> first_plan;
     std::optional<Pose2> pose;
     if (live->record.pose_known) pose = live->record.pose;
+    const auto loaded = drives_loaded(fleet, order, {}, *live);
     const auto standing =
         standing_bodies(fleet, plant::HallId(hall_of(fleet, *live)), live->record.id);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
@@ -78,8 +81,8 @@ Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
         step.station = station->id;
         step.number = station->number;
         step.start = plan ? plan->starts[i] : pose.value_or(Pose2{});
-        const auto request =
-            leg_request(fleet, *live, step.start, station->id, order.steps[i].mode);
+        auto request = leg_request(fleet, *live, step.start, station->id, order.steps[i].mode);
+        request.loaded = loaded[i];
         if (plan || pose) step.options = fleet.planner.assess_modes(request, standing);
         for (const auto& option : step.options) {
             const bool wanted = order.steps[i].mode == plant::MotionMode::kAuto

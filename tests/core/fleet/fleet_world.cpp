@@ -285,6 +285,7 @@ bool FakeVehicle::step() {
         }
         action.status = vda5050::ActionStatus::kFinished;
         actions_done.push_back(action.type);
+        if (on_action) on_action(action.type);
         if (action.type == "startCharging") state.charging = true;
         if (action.type == "measureStop") {
             const Pose2 station = order_->nodes.back().actions.back().stop_target->target;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,8 +55,9 @@ public:
     std::optional<Pose2> arrival_error;  // with it it tells where its drive had ended
     bool pose_follows_stop = true;       // else its own pose stays what it was
     std::optional<std::string> measure_fails;
-    std::string action_fails;               // type of the action that fails
-    std::vector<std::string> actions_done;  // types in the order in which they finished
+    std::string action_fails;                           // type of the action that fails
+    std::vector<std::string> actions_done;              // types in the order in which they finished
+    std::function<void(const std::string&)> on_action;  // of such a type has finished
     bool lifts_end = true;   // what is moved outside an order comes to its end at once
     bool stands = false;     // does not move, whatever it is told
     bool sees_codes = true;  // reports the codes below its cameras while standing on them

@@ -4,44 +4,13 @@
 
 #include <algorithm>
 
-#include "core/base/gravity.hpp"
 #include "core/fleet/journal/snapshot.hpp"
 #include "core/fleet/views/order_preview.hpp"
-#include "tests/core/fleet/fleet_world.hpp"
-#include "tests/core/plant/loads.hpp"
+#include "tests/core/fleet/load_world.hpp"
 
 // Aircraft and products: each in one place, taken over and set down by vehicles or said by people.
 namespace pulseline::fleet::testing {
 namespace {
-
-const plant::VehicleId kV1("V1");
-const plant::VehicleId kV2("V2");
-const plant::LoadId kJig("J-1");
-const plant::StationId kS1("s1");
-const StepAction kPick{"pick", {{"load", std::string("J-1")}}};
-const StepAction kDrop{"drop", {}};
-constexpr double kMass_kg = 400;
-
-/// V1 stands empty below J-1, which hangs at station 1; its outline with a load is wider.
-plant::Plant with_load() {
-    plant::Plant plant = small_plant();
-    auto& type = plant.vehicle_types.front();
-    type.brackets = {{"front left", {1, 0.4}},
-                     {"front right", {1, -0.4}},
-                     {"back left", {-1, 0.4}},
-                     {"back right", {-1, -0.4}}};
-    type.wheels = {};
-    type.load_footprint = geometry::rectangle(3.4, 3);
-    for (auto& station : plant.stations) {
-        if (station.number == 1 || station.number == 3) station.support = plant::Support{};
-    }
-    plant::builders::put_on(plant, 0, "J-1", kMass_kg);
-    plant.loads[0].vehicle = {};
-    plant.loads[0].station = kS1;
-    plant.loads[0].outline = geometry::rectangle(3, 2.5);
-    plant.loads[0].vehicle_types.clear();
-    return plant;
-}
 
 class Loads : public ::testing::Test {
 protected:
@@ -56,12 +25,7 @@ protected:
 
     FakeVehicle& v1() { return world.vehicle("V1"); }
     void weigh(const std::string& id, double mass_kg, double height_m) {
-        auto& brackets = world.vehicle(id).state.brackets;
-        brackets.clear();
-        for (const auto& bracket : world.plant.vehicle_types.front().brackets) {
-            const double force_n = mass_kg * kGravity_mps2 / 4;
-            brackets.push_back({bracket.name, force_n / 2, force_n / 2, height_m});
-        }
+        testing::weigh(world.vehicle(id), world.plant, mass_kg, height_m);
     }
     Result<VehicleView> move(const StepAction& wanted, const plant::VehicleId& id = kV1) {
         auto moved = world.fleet->move_lifts(id, wanted, "op", world.now);

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "core/base/gravity.hpp"
+#include "tests/core/fleet/fleet_world.hpp"
+#include "tests/core/plant/loads.hpp"
+
+/// A hall with one load, two supports, and vehicles with brackets.
+namespace pulseline::fleet::testing {
+
+inline const plant::VehicleId kV1("V1");
+inline const plant::VehicleId kV2("V2");
+inline const plant::LoadId kJig("J-1");
+inline const plant::StationId kS1("s1");
+inline const StepAction kPick{"pick", {{"load", std::string("J-1")}}};
+inline const StepAction kDrop{"drop", {}};
+inline constexpr double kMass_kg = 400;
+
+/// V1 stands empty below J-1, which hangs at station 1; its outline with a load is wider.
+inline plant::Plant with_load() {
+    plant::Plant plant = small_plant();
+    auto& type = plant.vehicle_types.front();
+    type.brackets = {{"front left", {1, 0.4}},
+                     {"front right", {1, -0.4}},
+                     {"back left", {-1, 0.4}},
+                     {"back right", {-1, -0.4}}};
+    type.wheels = {};
+    type.load_footprint = geometry::rectangle(3.4, 3);
+    for (auto& station : plant.stations) {
+        if (station.number == 1 || station.number == 3) station.support = plant::Support{};
+    }
+    plant::builders::put_on(plant, 0, "J-1", kMass_kg);
+    plant.loads[0].vehicle = {};
+    plant.loads[0].station = kS1;
+    plant.loads[0].outline = geometry::rectangle(3, 2.5);
+    plant.loads[0].vehicle_types.clear();
+    return plant;
+}
+
+/// What its load cells feel.
+inline void weigh(FakeVehicle& vehicle, const plant::Plant& plant, double mass_kg,
+                  double height_m) {
+    auto& brackets = vehicle.state.brackets;
+    brackets.clear();
+    for (const auto& bracket : plant.vehicle_types.front().brackets) {
+        const double force_n = mass_kg * kGravity_mps2 / 4;
+        brackets.push_back({bracket.name, force_n / 2, force_n / 2, height_m});
+    }
+}
+
+}  // namespace pulseline::fleet::testing
