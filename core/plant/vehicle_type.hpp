@@ -137,6 +137,10 @@ struct ParkingFoot {
     Point2 position;   // body frame
 };
 
+/// One that is further out than this holds its vehicle: by less its reports tremble, and one that
+/// was stopped just below its upper switch is far off the floor.
+inline constexpr double kFootDown_m = 0.002;
+
 /// Feet on which a vehicle stands while it is worked on (Tang 2020, section 2.1: parking
 /// mechanism).
 struct ParkingGear {

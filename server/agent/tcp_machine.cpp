@@ -309,7 +309,7 @@ public:
     bool holds_vehicle() const override {
         const auto& told = controller_.told();
         return told.charging || told.moving_lifts || busy() ||
-               std::ranges::any_of(told.feet, [](const auto& f) { return f.extension_m > 0; });
+               std::ranges::any_of(told.feet, [](const auto& f) { return f.extension_m > plant::kFootDown_m; });
     }
 
     std::vector<vda5050::BracketStatus> brackets() override {

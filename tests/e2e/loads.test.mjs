@@ -1,32 +1,18 @@
 // Taking an aircraft over and setting it down from the vehicle's page, in Chromium against the real server and a real agent:
 // two presses each, at a desk, on a tablet and on a phone; the page shows what the brackets feel and who has the aircraft.
 import assert from "node:assert/strict";
-import { mkdtempSync, readFileSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
-import { ROOT, System } from "../harness/processes.mjs";
+import { morning } from "../harness/plants.mjs";
+import { System } from "../harness/processes.mjs";
 import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kLoad = "A-101";
 let system, client, browser;
 
-/** The pulse line on the morning of an aircraft: it hangs at station 1, the platform stands empty below it. */
-function morning() {
-  const model = JSON.parse(readFileSync(join(ROOT, "db/plants/pulse-line.json"), "utf8"));
-  for (const hall of model.halls) delete hall.occupancy_yaml;
-  model.stations[0].support = { height_m: 0.02 };
-  delete model.loads[0].vehicle;
-  model.loads[0].station = model.stations[0].id;
-  const file = join(mkdtempSync(join(tmpdir(), "pulseline-plant-")), "morning.json");
-  writeFileSync(file, JSON.stringify(model));
-  return file;
-}
-
 before(async () => {
-  system = await System.create(morning());
+  system = await System.create(morning(1, { height_m: 0.02 })); // the platform stands empty below it
   system.prepareVehicles([kId]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);

@@ -135,10 +135,10 @@ export class System {
   }
 
   /** A vehicle's program that knows no simulated world, driving its machine over TCP. */
-  async startOverTcp(id, { seed = 1, timeFactor = 10 } = {}) {
+  async startOverTcp(id, { seed = 1, timeFactor = 10, extra = [] } = {}) {
     const machine = await this.startMachine(id, { seed });
     // The host of a test lets nobody run every 10 ms; how late a cycle may be is the bench's.
-    this.startAgent(id, { seed, timeFactor, extra: ["--machine", `tcp://${this.host}:${machine.port}`, "--machine-watchdog-s", "3"] });
+    this.startAgent(id, { seed, timeFactor, extra: ["--machine", `tcp://${this.host}:${machine.port}`, "--machine-watchdog-s", "3", ...extra] });
     return machine;
   }
 

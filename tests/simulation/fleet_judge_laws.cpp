@@ -255,6 +255,8 @@ void World::check_records(const fleet::Records& records) {
         if (event.type == "job_order.state") check_transition(event);
         if (event.type == "vehicle.link") check_link(event);
         check_making_way(event);
+        if (event.type == "load.moved" && !event.order.empty())
+            ++outcome_.faults["order: a load moved"];
         if (options_.trace) std::printf("%9.1f %s\n", now_s_, text_of(event).c_str());
     }
     for (const auto& stop : records.stops) {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include "core/vda5050/actions.hpp"
 #include "tests/simulation/fleet_judge_plant.hpp"
@@ -11,6 +13,9 @@ namespace {
 constexpr double kAskAgain_s = 5;     // without an answer
 constexpr double kPersonEvery_s = 2;  // looks at the dashboard
 constexpr double kLifted_m = 0.2;     // brackets above whatever holds a load
+// Why an order cannot take a load over or set it down where it got to.
+const std::set<std::string> kInVain{"vehicle_loaded", "vehicle_empty", "load_elsewhere",
+                                    "support_taken", "brackets_too_low"};
 
 }  // namespace
 
@@ -45,6 +50,7 @@ void World::order_some() {
         const auto mode =
             free_ && !platform && chance(0.1) ? plant::MotionMode::kFree : plant::MotionMode::kAuto;
         if (!twice) order.steps.push_back({number, mode});
+        if (!twice && platform) transfer_at_times(order.steps);
     }
     order.priority = pick(0, 2);
     order.actor = "client";
@@ -53,6 +59,23 @@ void World::order_some() {
     order.body_sha256 = order.idempotency_key;
     asked_.push_back(std::move(asked));
     ask(asked_.back());
+}
+
+/// Sent for the load where it is now, or to set it down; it may be otherwise when it gets there.
+void World::transfer_at_times(std::vector<fleet::NewStep>& steps) {
+    if (fleet_judge::pick(foot_random_, 0, 2) != 0) return;
+    const auto& load = plant_.loads.front();
+    const auto* there = plant::find_station(plant_, fleet_->load(load.id)->station);
+    bool loaded = there == nullptr;
+    for (const auto& step : steps) {
+        if (!step.after.empty()) loaded = step.after.front().type == vda5050::kPick;
+    }
+    if (loaded) {
+        steps.back().after = {{vda5050::kDrop, {}}};
+    } else if (steps.size() == 1 && there != nullptr) {
+        steps = {{there->number}};
+        steps.back().after = {{vda5050::kPick, {{"load", load.id.str()}}}};
+    }
 }
 
 /// An answer counts when it came out of the server, which is after the commit; without one the
@@ -190,7 +213,12 @@ void World::help_orders() {
                              order.state == fleet::JobState::kNotAllowedToStart;
         // Somebody has a reason for a pause; it is over after a while.
         if (!stopped || !chance(0.05)) continue;
-        static_cast<void>(fleet_->resume_order(order.id, std::nullopt, "person", now()));
+        if (kInVain.contains(order.reason.code)) {
+            ++outcome_.faults["person: gives up an order, " + order.reason.code];
+            static_cast<void>(fleet_->cancel_order(order.id, std::nullopt, "person", now()));
+        } else {
+            static_cast<void>(fleet_->resume_order(order.id, std::nullopt, "person", now()));
+        }
         settle();
         if (unstored_ || now_s_ < stalled_until_s_) return;
     }

@@ -152,6 +152,9 @@ void World::carry_messages() {
             if (vehicles_.at(id).type().parking) {
                 vda5050::Factsheet sheet;
                 sheet.node_actions = onboard::stop_action_types();
+                if (!vehicles_.at(id).type().brackets.empty())
+                    sheet.node_actions.insert(sheet.node_actions.end(),
+                                              {vda5050::kPick, vda5050::kDrop});
                 sheet.instant_actions = onboard::instant_action_types(vehicles_.at(id).type());
                 sheet.actions = sheet.instant_actions;
                 fleet_->vehicle_factsheet(id, sheet, now());

@@ -134,6 +134,7 @@ private:
 
     // fleet_judge_people.cpp: the client and the person
     void order_some();
+    void transfer_at_times(std::vector<fleet::NewStep>& steps);
     void ask(Asked& asked);
     void let_person_act();
     void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);

@@ -13,6 +13,8 @@
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
+#include "core/fleet/vehicle/body.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/sending.hpp"
 
@@ -58,6 +60,15 @@ const JobOrder* elder_of(const FleetState& fleet, const JobOrder& order, const L
     return nullptr;
 }
 
+/// That is on the support there, where a vehicle with a load of its own would run into it; nullptr:
+/// none.
+const plant::Load* load_in_the_way(const FleetState& fleet, const JobOrder& order,
+                                   const LiveVehicle& live, const plant::Station& station) {
+    const bool is_there = live.record.at_station == station.id;
+    if (!is_loaded(live) || is_there || acts_next(order, live)) return nullptr;
+    return load_at(fleet, station.id);
+}
+
 /// Gives up a leg that leads no further; the vehicle gets one of its own from where it stands.
 bool leave_dead_end(FleetState& fleet, LiveVehicle& live, Time now) {
     if (live.delivery.cancelling() || !live.delivery.seen() || live.delivery.unconfirmed())
@@ -68,15 +79,18 @@ bool leave_dead_end(FleetState& fleet, LiveVehicle& live, Time now) {
 }
 
 /// Nothing of the leg was sent yet, and its plan was given up so that others can pass. One that
-/// would have left has nobody to leave for any more; beside all places traffic finds no way back,
-/// and the step begins anew. At a place traffic looks for another way; where there is none for long
-/// the vehicle may itself stand in the way of who bars it, and only without a leg it makes way.
+/// would have left has nobody to leave for any more, or works on here until somebody comes; beside
+/// all places traffic finds no way back, and the step begins anew. At a place traffic looks for
+/// another way; where there is none for long the vehicle may itself stand in the way of who bars
+/// it, and only without a leg it makes way.
 bool drop_unsent(FleetState& fleet, LiveVehicle& live, Time now) {
     const Leg& leg = live.leg();
     if (live.delivery.cancelling() || leg.nodes.size() > 1 || !leg.nodes.front().actions.empty())
         return false;
     const auto& plan = fleet.floor.traffic.plan(live.floor.vehicle);
-    if (plan.last() > plan.passed) {
+    const bool works_here = leg.order.empty() && plan.last() > plan.passed &&
+                            plan.at(plan.passed + 1).visit != traffic::kNoVisit;
+    if (plan.last() > plan.passed && !works_here) {
         live.floor.in_vain_since.reset();
         return false;
     }
@@ -143,6 +157,13 @@ void start_step(FleetState& fleet, JobOrder& order, LiveVehicle& live, Time now)
         return;
     }
     if (*waits) return set_order_reason(fleet, order, **waits, now);
+    if (const auto* there = load_in_the_way(fleet, order, live, *station)) {
+        set_order_reason(fleet, order,
+                         {"station_has_load",
+                          {{"station", std::int64_t{station->number}}, {"load", there->name}}},
+                         now);
+        return;
+    }
     const LegId id(fleet.ids.next(now));
     auto leg = leg_of_step(fleet, order, live, *station, id, now);
     if (!leg && leg.error().code == Errc::kNeedsPlan) {

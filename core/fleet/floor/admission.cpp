@@ -190,7 +190,8 @@ bool take_horizon(FleetState& fleet, LiveVehicle& live) {
         rests = leg.nodes.size() > 1 && !fleet.floor.traffic.postponed(live.floor.vehicle);
     }
     const auto* station = plant::find_station(fleet.plant, leg.station);
-    const bool stops = next <= plan.last();
+    // Who works where it stands until somebody needs the floor has nothing to make way for yet.
+    const bool stops = next <= plan.last() && !(leg.order.empty() && leg.nodes.size() == 1);
     if (station && (stops || rests)) {
         leg.nodes.back().node_id = station->id.str();
         leg.nodes.back().actions = leg.order.empty() ? rest_actions(fleet, live, *station, leg)

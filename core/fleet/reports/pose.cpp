@@ -264,7 +264,8 @@ void end_doubt(FleetState& fleet, LiveVehicle& live, Time now) {
     live.stated.reset();
     live.seen.reset();
     live.seen_before.reset();
-    live.floor.pose.reset();  // both floors are left for the one where it stands
+    // Both floors are left for the one where it stands, unless it was sent away from there already.
+    if (!live.floor.leg_planned) live.floor.pose.reset();
     fleet.store(live);
     believe(fleet, live, told_by(fleet, live), now);
     if (!live.state.driving) hold_where_it_stands(fleet, live, now);

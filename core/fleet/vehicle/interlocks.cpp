@@ -88,7 +88,7 @@ std::optional<Interlock> interlock(const FleetState& fleet, const LiveVehicle& l
     for (const auto& foot : live.state.parking_feet) {
         furthest_m = std::max(furthest_m, foot.extension_m);
     }
-    if (furthest_m > kFootLowered_m) {
+    if (furthest_m > plant::kFootDown_m) {
         return Interlock{Kind::kFeetDown, {"parking_feet_down", {{"furthest_m", furthest_m}}}};
     }
     if (auto fault = load_fault(fleet, live, forces_on(live))) {

@@ -8,8 +8,6 @@
 /// the machine and its load before it may leave where it stands.
 namespace pulseline::fleet {
 
-constexpr double kFootLowered_m = 0.002;  // a foot extended further stands on the floor
-
 LoadView load_view(const FleetState& fleet, const LiveVehicle& live);
 /// The rule of its type that what its brackets feel breaks, whatever that is.
 std::optional<Reason> rule_broken(const LiveVehicle& live);

@@ -62,7 +62,7 @@ std::optional<Check> feet_check(const LiveVehicle& live) {
         furthest_m = std::max(furthest_m, foot.extension_m);
     }
     return check("parking_feet",
-                 furthest_m > kFootLowered_m ? Check::Result::kFail : Check::Result::kPass,
+                 furthest_m > plant::kFootDown_m ? Check::Result::kFail : Check::Result::kPass,
                  {{"furthest_m", furthest_m},
                   {"feet", static_cast<std::int64_t>(live.state.parking_feet.size())}});
 }

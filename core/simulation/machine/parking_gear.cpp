@@ -48,7 +48,8 @@ bool ParkingGear::carries(std::size_t foot) const {
 }
 
 bool ParkingGear::extended() const {
-    return std::ranges::any_of(feet_, [](const Foot& foot) { return foot.axis.position() > 0; });
+    return std::ranges::any_of(
+        feet_, [](const Foot& foot) { return foot.axis.position() > plant::kFootDown_m; });
 }
 
 std::optional<std::size_t> ParkingGear::find(const std::string& name) const {

@@ -12,10 +12,20 @@ namespace pulseline::fleet::testing {
 namespace {
 
 const plant::StationId kS3("s3");
+const plant::LoadId kOther("J-2");
+
+plant::Plant with_two_loads() {
+    plant::Plant plant = with_load();
+    plant.loads.push_back(plant.loads.front());
+    plant.loads.back().id = kOther;
+    plant.loads.back().name = "J-2";
+    plant.loads.back().station = {};  // it comes later
+    return plant;
+}
 
 class OrderLoads : public ::testing::Test {
 protected:
-    OrderLoads() : world(with_load()) {
+    OrderLoads() : world(with_two_loads()) {
         world.connect_all();
         world.announce(
             {"setBracketHeight", "raiseParking", "lowerParking", "stopLifts", "pick", "drop"});
@@ -168,6 +178,25 @@ TEST_F(OrderLoads, WhatIsNotThereInterruptsTheOrderAndAPersonGoesOn) {
     world.run(30);
     EXPECT_EQ(world.stored(id).state, JobState::kEnded) << world.stored(id).reason.code;
     EXPECT_EQ(jig().vehicle, kV1);
+}
+
+/// Two aircraft do not fit below one hoist.
+TEST_F(OrderLoads, WithALoadItGoesNowhereWhereAnotherOneHangs) {
+    ordered(brings());
+    world.run(90);
+    ASSERT_EQ(jig().station, kS3);
+    ASSERT_TRUE(world.fleet->place_load(kOther, {kV1, {}}, "op", world.now));
+    weigh(v1(), world.plant, kMass_kg, 0.15);
+    world.run(1);
+    ASSERT_TRUE(world.order("V1", {2}));
+    world.run(60);
+    const auto made = world.order("V1", {3});
+    ASSERT_TRUE(made);
+    world.run(10);
+    EXPECT_EQ(world.stored(made->order.id).reason.code, "station_has_load");
+    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded);
 }
 
 /// A part of the weight is on the brackets, and nobody drives with that; it is taken over again.

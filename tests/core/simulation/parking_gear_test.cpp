@@ -160,6 +160,19 @@ TEST_F(Parking, OneAloneGoesDownUntilItTouchesAndLiftsNothing) {
     EXPECT_FALSE(feet.extended());
 }
 
+/// The server takes it for up, and sends the vehicle away.
+TEST_F(Parking, StoppedJustBelowTheirSwitchesTheyHoldNothing) {
+    ParkingGear feet = gear([](geometry::Point2) { return 0.0; });
+    feet.lower();
+    run(feet);
+    feet.raise();
+    while (feet.extension_m(0) > 0.8 * plant::kFootDown_m) feet.step(0.01);
+    feet.stop();
+    EXPECT_GT(feet.extension_m(0), 0);
+    EXPECT_FALSE(feet.extended());
+    EXPECT_LT(sum_n(feet), 1);
+}
+
 TEST_F(Parking, OneAloneWithoutFloorStaysWhereItIsAndSaysSo) {
     ParkingGear feet = gear([](geometry::Point2 body) -> std::optional<double> {
         if (body.x_m > 5.1 && body.y_m > 1) return std::nullopt;
