@@ -60,6 +60,9 @@ Json parameters_of(const std::string& action) {
         return Json::array({parameter("bracket", "STRING"), parameter("height_m", "NUMBER"),
                             parameter("speed_mps", "NUMBER", true)});
     }
+    if (action == kPick) {
+        return Json::array({parameter("loadId", "STRING"), parameter("weight", "NUMBER", true)});
+    }
     if (action == kLowerParking || action == kRaiseParking) {
         return Json::array({parameter("foot", "STRING", true)});
     }

@@ -215,7 +215,7 @@ void Vehicle::send_factsheet() {
     source.has_map = contours_.has_value();
     source.time_factor = drive_.time_factor();
     source.node_actions = onboard::stop_action_types();
-    const auto& acts = machine_.equipment().action_types();
+    const auto& acts = handling_.action_types();
     source.node_actions.insert(source.node_actions.end(), acts.begin(), acts.end());
     source.edge_actions = onboard::edge_action_types();
     source.instant_actions = onboard::instant_action_types(type_);

@@ -72,7 +72,7 @@ test("an empty platform is driven by hand below the aircraft that hangs at stati
 
 test("by one order it takes 18.2 t over, works at stations 1 to 6 on its feet, and sets it down at 7", async () => {
   const up = { type: "raiseParking" }, down = { type: "lowerParking" };
-  const raised = { type: "setBracketHeight", parameters: { bracket: "all", height_m: 0.19 } };
+  const raised = { type: "setBracketHeight", parameters: { bracket: "all", height_m: 0.21 } };
   const pick = { type: "pick", parameters: { load: kLoad } };
   const order = await client.post("/api/v1/job-orders", {
     vehicle: kId,
@@ -90,7 +90,7 @@ test("by one order it takes 18.2 t over, works at stations 1 to 6 on its feet, a
   const force_N = (vehicle) => vehicle.brackets.reduce((sum, b) => sum + b.force_a_n + b.force_b_n, 0);
   assert.ok(Math.abs(force_N(carrying) - kWeight_N) < 0.03 * kWeight_N, `${force_N(carrying)} N`);
   const before_m = carrying.brackets[0].height_m;
-  const parked = await client.untilVehicle(kId, (v) => v.at_station === "st03" && v.brackets[0].height_m > 0.1895, "has its height adjusted at station 3", 240);
+  const parked = await client.untilVehicle(kId, (v) => v.at_station === "st03" && v.brackets[0].height_m > 0.2095, "has its height adjusted at station 3", 240);
   assert.ok(parked.parking_feet.every((foot) => foot.force_n > 10_000), "on its feet");
   assert.ok(parked.brackets[0].height_m - before_m >= 50 * MM, `from ${before_m} m`);
 
