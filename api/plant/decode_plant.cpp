@@ -59,6 +59,7 @@ Station decode_station(ObjectReader& in) {
     station.markers = decode_keys<MarkerId>(in, "markers");
     station.node = decode_key_or_none<NodeId>(in, "node");
     station.resting_place = in.boolean_or("resting_place", false);
+    station.parks = in.boolean_or("parks", false);
     station.charger = in.boolean_or("charger", false);
     if (auto support = in.object_if_any("support")) {
         station.support = Support{support->number_or("height_m", Support{}.height_m, kMetres)};

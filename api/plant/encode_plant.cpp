@@ -59,6 +59,7 @@ Json encode(const Station& s) {
                  {"markers", encode(s.markers)},
                  {"resting_place", s.resting_place},
                  {"charger", s.charger},
+                 {"parks", s.parks},
                  {"vehicle_types", encode(s.vehicle_types)}};
     if (!s.node.empty()) json["node"] = s.node.str();
     if (s.support) json["support"] = {{"height_m", s.support->height_m}};

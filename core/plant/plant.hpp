@@ -65,7 +65,8 @@ struct Station {
     NodeId node;                    // its roadmap node
     bool resting_place = false;     // vehicles may be sent there to wait
     bool charger = false;           // a vehicle standing there can charge; also a resting place
-    std::optional<Support> support = {};       // none: loads come and go on vehicles only
+    std::optional<Support> support = {};  // none: loads come and go on vehicles only
+    bool parks = false;  // who has feet stands on them there, where an order says nothing else
     std::vector<VehicleTypeId> vehicle_types;  // who may stop there; empty: everybody
     Names names;
 };

@@ -77,7 +77,9 @@ std::string body_to_json(const fleet::NewOrder& order) {
         steps.push_back({{"station", step.station_number},
                          {"mode", plant::to_string(step.mode)},
                          {"before", encode(step.before)},
-                         {"after", encode(step.after)}});
+                         {"after", encode(step.after)},
+                         {"says_before", step.says_before},
+                         {"says_after", step.says_after}});
     }
     return text_of({{"vehicle", order.vehicle.str()},
                     {"vehicle_type", order.vehicle_type.str()},
@@ -103,6 +105,8 @@ fleet::NewOrder body_from_json(const std::string& text) {
             read(item.at("mode").get<std::string>(), step.mode);
             step.before = decode_actions(item.at("before"));
             step.after = decode_actions(item.at("after"));
+            step.says_before = item.value("says_before", false);  // older ones do not tell
+            step.says_after = item.value("says_after", false);
             order.steps.push_back(std::move(step));
         }
         return order;

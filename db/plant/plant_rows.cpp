@@ -198,6 +198,7 @@ void StationRow::set(const plant::Station& station) {
     node = station.node.str();
     resting_place = station.resting_place;
     charger = station.charger;
+    parks = station.parks;
     vehicle_types = keys_to_json(station.vehicle_types);
     names = names_to_json(station.names);
     has_support = station.support.has_value();
@@ -213,6 +214,7 @@ plant::Station StationRow::get() const {
     station.node = plant::NodeId(node);
     station.resting_place = resting_place != 0;
     station.charger = charger != 0;
+    station.parks = parks != 0;
     station.vehicle_types = keys_from_json<plant::VehicleTypeId>(vehicle_types);
     station.names = names_from_json(names);
     if (has_support != 0) station.support = plant::Support{support_height_m};

@@ -180,10 +180,10 @@ struct StationRow {
     static constexpr const char* kColumns =
         "position, id, number, name, hall, x_m, y_m, heading_rad, tolerance_shape, tolerance_dx_m, "
         "tolerance_dy_m, tolerance_dheading_rad, markers, node, resting_place, vehicle_types, "
-        "charger, names, has_support, support_height_m";
+        "charger, names, has_support, support_height_m, parks";
     std::int64_t position = 0;
     std::string id, hall, tolerance_shape, markers, node, vehicle_types, names;
-    int resting_place = 0, charger = 0, has_support = 0;
+    int resting_place = 0, charger = 0, has_support = 0, parks = 0;
     double support_height_m = 0;
     plant::Station element;
 
@@ -192,7 +192,7 @@ struct StationRow {
         return std::tie(position, id, s.number, s.name, hall, s.pose.x_m, s.pose.y_m,
                         s.pose.heading_rad, tolerance_shape, s.tolerance.dx_m, s.tolerance.dy_m,
                         s.tolerance.dheading_rad, markers, node, resting_place, vehicle_types,
-                        charger, names, has_support, support_height_m);
+                        charger, names, has_support, support_height_m, parks);
     }
     void set(const plant::Station& station);
     plant::Station get() const;

@@ -263,10 +263,11 @@ TEST(PlantStore, KeepsEveryFieldOfLoadsAndWhatHoldsThem) {
     load.names = {{"zh", "飞机"}};
     plant.loads.at(0) = load;
     plant::Load& other = plant.loads.emplace_back();
-    other.id = plant::LoadId("A-102");
-    other.name = "A-102";
+    other.id = plant::LoadId("A-103");
+    other.name = "A-103";
     other.station = plant.stations.back().id;
     plant.stations.back().support = plant::Support{0.25};
+    plant.stations.back().parks = true;
     PlantStore(database).import(plant);
     const auto kept = *PlantStore(database).load();
     plant.revision = kept.revision;
@@ -288,6 +289,7 @@ TEST(PlantStore, WhatVehiclesCarriedBeforeIsALoadOfItsOwn) {
               "ALTER TABLE vehicles ADD COLUMN load_kg REAL NOT NULL DEFAULT 0",
               "ALTER TABLE stations DROP COLUMN has_support",
               "ALTER TABLE stations DROP COLUMN support_height_m",
+              "ALTER TABLE stations DROP COLUMN parks",
               "ALTER TABLE stop_records DROP COLUMN load",
               "UPDATE vehicles SET load_name = 'A 101', load_kg = 18200",
               "PRAGMA user_version = 23"}) {

@@ -26,7 +26,7 @@ protected:
     /// A plant file with two faults.
     std::string broken() {
         plant::Plant plant = api::plant_file::load_plant_file(kPulseLine).value();
-        plant.stations[1].number = 1;
+        plant.stations[1].number = plant.stations[0].number;
         plant.vehicle_types[0].max_speed_mps = 0;
         plant.halls[0].occupancy_yaml.clear();
         const std::string path = folder_.file("broken.json");

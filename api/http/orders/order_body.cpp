@@ -56,8 +56,9 @@ fleet::NewStep read_step(const Json& item, const std::string& pointer, FieldErro
     fleet::NewStep step;
     step.station_number = static_cast<int>(in.integer("station", {0, kMaxStation}));
     step.mode = in.one_of_or("motion_mode", plant::MotionMode::kAuto, plant::kMotionModes);
-    for (const auto& [name, actions] :
-         {std::pair{"before", &step.before}, std::pair{"after", &step.after}}) {
+    for (const auto& [name, actions, says] : {std::tuple{"before", &step.before, &step.says_before},
+                                              std::tuple{"after", &step.after, &step.says_after}}) {
+        *says = in.has(name);
         in.items_if_any(name, {0, kMaxActions},
                         [&, &list = *actions](const Json& action, const std::string& at) {
                             list.push_back(read_action(action, at, errors));
@@ -69,8 +70,10 @@ fleet::NewStep read_step(const Json& item, const std::string& pointer, FieldErro
 
 Json step_body_json(const fleet::NewStep& step) {
     Json json = {{"station", step.station_number}, {"motion_mode", plant::to_string(step.mode)}};
-    if (!step.before.empty()) json["before"] = actions_json(step.before);
-    if (!step.after.empty()) json["after"] = actions_json(step.after);
+    const bool says_before = step.says_before || !step.before.empty();
+    const bool says_after = step.says_after || !step.after.empty();
+    if (says_before) json["before"] = actions_json(step.before);
+    if (says_after) json["after"] = actions_json(step.after);
     return json;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/fleet/dispatch/cost_matching.hpp"
+#include "core/fleet/dispatch/ready_for.hpp"
 #include "core/fleet/dispatch/urgency.hpp"
 #include "core/fleet/legs/leg_plans.hpp"
 #include "core/fleet/orders/planning.hpp"

@@ -4,6 +4,7 @@
 #include "core/fleet/dispatch/charging.hpp"
 #include "core/fleet/dispatch/extend_bases.hpp"
 #include "core/fleet/dispatch/park_idle.hpp"
+#include "core/fleet/dispatch/ready_for.hpp"
 #include "core/fleet/dispatch/release_withdrawn.hpp"
 #include "core/fleet/dispatch/start_steps.hpp"
 #include "core/fleet/floor/grants.hpp"

@@ -1,6 +1,7 @@
 #include "core/fleet/dispatch/start_steps.hpp"
 
 #include "core/fleet/dispatch/charging.hpp"
+#include "core/fleet/dispatch/ready_for.hpp"
 #include "core/fleet/dispatch/step_leg.hpp"
 #include "core/fleet/dispatch/urgency.hpp"
 #include "core/fleet/floor/admission.hpp"
@@ -9,6 +10,7 @@
 #include "core/fleet/legs/ending.hpp"
 #include "core/fleet/legs/legs.hpp"
 #include "core/fleet/legs/step_actions.hpp"
+#include "core/fleet/orders/station_defaults.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
@@ -145,6 +147,7 @@ void start_step(FleetState& fleet, JobOrder& order, LiveVehicle& live, Time now)
         set_order_reason(fleet, order, {"ends_charging", {{"vehicle", live.record.id.str()}}}, now);
         return;
     }
+    raise_parked(fleet, order, live);
     Step& step = order.steps[order.current_step];
     const plant::Station* station = plant::find_station(fleet.plant, step.station);
     if (!station) {  // gone with the plant that it was ordered in

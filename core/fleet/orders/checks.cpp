@@ -4,8 +4,8 @@
 #include <array>
 
 #include "core/fleet/orders/candidates.hpp"
-#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
+#include "core/fleet/orders/transfer_checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/vda5050/actions.hpp"
 

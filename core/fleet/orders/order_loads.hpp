@@ -2,18 +2,11 @@
 
 #include <vector>
 
-#include "core/fleet/orders/checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 
 /// The loads of an order: its steps' own `pick` and `drop` change what the vehicle carries from one
 /// drive to the next.
 namespace pulseline::fleet {
-
-/// Whether a vehicle that may have the order could take over and set down what its steps say. What
-/// is known only when it gets there is asked then (legs/step_actions.hpp). Errors, with the field:
-/// missing_field, unknown_load, no_support {station}, vehicle_loaded, vehicle_empty, those of
-/// plant::cannot_carry.
-Status check_transfers(const FleetState& fleet, const NewOrder& order, const Stations& stations);
 
 /// Its type may carry all that the order has it take over.
 bool may_carry_all(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live);

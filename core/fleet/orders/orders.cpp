@@ -4,6 +4,7 @@
 #include "core/fleet/orders/idempotency.hpp"
 #include "core/fleet/orders/planning.hpp"
 #include "core/fleet/orders/start_conditions.hpp"
+#include "core/fleet/orders/station_defaults.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
@@ -37,11 +38,12 @@ void fill(JobOrder& order, const NewOrder& request, const CheckedOrder& checked,
 
 }  // namespace
 
-Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time now) {
-    const auto earlier = earlier_answer(fleet, request.idempotency_client, request.idempotency_key,
-                                        request.body_sha256);
+Result<Created> create_order(FleetState& fleet, const NewOrder& asked, Time now) {
+    const auto earlier =
+        earlier_answer(fleet, asked.idempotency_client, asked.idempotency_key, asked.body_sha256);
     if (!earlier) return fail(earlier.error());
     if (*earlier) return Created{**earlier, true};
+    const NewOrder request = with_station_defaults(fleet, asked);
     if (!request.client_order_id.empty()) {
         if (const auto known = fleet.orders.with_client_id(request.client_order_id)) {
             return fail(Errc::kConflict, "duplicate_client_order_id",
@@ -90,8 +92,9 @@ Result<Created> create_order(FleetState& fleet, const NewOrder& request, Time no
     return Created{stored, false};
 }
 
-Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& request,
+Status update_order(FleetState& fleet, JobOrder& order, const NewOrder& asked,
                     const std::string& actor, Time now) {
+    const NewOrder request = with_station_defaults(fleet, asked);
     const auto checked = check_order(fleet, request, order.id);
     if (!checked) return fail(checked.error());
     const auto plan = plan_order(fleet, request, checked->stations, order.id, now);

@@ -172,7 +172,7 @@ PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, l
 PULSELINE_FIELDS(LegPlanAnswer, plan, why_not)
 
 // --- new_order.hpp, closure.hpp, standing_orders.hpp
-PULSELINE_FIELDS(NewStep, station_number, mode, before, after)
+PULSELINE_FIELDS(NewStep, station_number, mode, before, after, says_before, says_after)
 PULSELINE_FIELDS(NewOrder, client_order_id, vehicle, vehicle_type, priority, start, earliest_start,
                  due, after, sequence, steps, planned_beside, from_template, from_schedule, actor,
                  idempotency_client, idempotency_key, body_sha256)

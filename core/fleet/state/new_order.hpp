@@ -17,6 +17,8 @@ struct NewStep {
     plant::MotionMode mode = plant::MotionMode::kAuto;
     std::vector<StepAction> before = {};
     std::vector<StepAction> after = {};
+    bool says_before = false;  // be it that nothing is done; else what its stations are for
+    bool says_after = false;
     friend bool operator==(const NewStep&, const NewStep&) = default;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/interlocks.hpp"
@@ -16,23 +15,6 @@ Params battery_params(const LiveVehicle& live, double limit_percent) {
     return {{"vehicle", live.record.id.str()},
             {"percent", live.state.battery_percent},
             {"limit_percent", limit_percent}};
-}
-
-/// The next thing it does, standing, is to raise its feet.
-bool raises_feet_first(const JobOrder& order) {
-    if (order.current_step >= order.steps.size()) return false;
-    const Step& step = order.steps[order.current_step];
-    if (step.phase != StepPhase::kBefore) return false;
-    const auto todo = step.before.begin() +
-                      static_cast<std::ptrdiff_t>(std::min(step.actions_done, step.before.size()));
-    return std::any_of(todo, step.before.end(), [](const StepAction& action) {
-        return action.type == vda5050::kRaiseParking;
-    });
-}
-
-/// REQUIRES: it has a step left.
-bool is_after_its_stop(const JobOrder& order) {
-    return order.steps[order.current_step].phase == StepPhase::kAfter;
 }
 
 constexpr Duration kLongestWay = std::chrono::seconds(10);  // of a message to a vehicle
@@ -236,20 +218,6 @@ std::optional<Barred> not_ready(const FleetState& fleet, const LiveVehicle& live
     const Params& more = lock->reason.params;
     reason.params.insert(reason.params.end(), more.begin(), more.end());
     return Barred{bar_of(lock->kind), std::move(reason)};
-}
-
-std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
-                                    const LiveVehicle& live, Time now) {
-    auto barred = not_ready(fleet, live, now);
-    if (!barred) return std::nullopt;
-    // What is broken off in a transfer is begun again; what is done after a stop drives nothing.
-    if (barred->by == Bar::kLoad && next_transfer(order, live)) return std::nullopt;
-    const bool stays = acts_next(order, live) && is_after_its_stop(order);
-    const bool bars_drives = barred->by == Bar::kFeetDown || barred->by == Bar::kCodesNotSeen ||
-                             barred->by == Bar::kWheelFault;
-    if (stays && bars_drives) return std::nullopt;
-    if (barred->by == Bar::kFeetDown && raises_feet_first(order)) return std::nullopt;
-    return barred;
 }
 
 bool cannot_move(const FleetState& fleet, const LiveVehicle& live) {

@@ -62,9 +62,6 @@ struct Barred {
 };
 /// Why this vehicle may not start a move now; nullopt: it may.
 std::optional<Barred> not_ready(const FleetState& fleet, const LiveVehicle& live, Time now);
-/// The same for an order's next step: feet that are down do not bar what raises them.
-std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& order,
-                                    const LiveVehicle& live, Time now);
 /// It would not obey a release of floor, whatever its order; others are planned around it.
 bool cannot_move(const FleetState& fleet, const LiveVehicle& live);
 /// It gets no longer base now, whatever of its leg it has.

@@ -8,6 +8,8 @@
 #include "core/fleet/orders/checks.hpp"
 #include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/orders/planning.hpp"
+#include "core/fleet/orders/station_defaults.hpp"
+#include "core/fleet/orders/transfer_checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -57,7 +59,8 @@ Result<OrderPlan> plan_of(const FleetState& fleet, const NewOrder& order, Time n
     return plan_order(fleet, order, *stations, {}, now, FreeManoeuvres::kPlanned);
 }
 
-Preview preview_of(const FleetState& fleet, const NewOrder& order, Time now) {
+Preview preview_of(const FleetState& fleet, const NewOrder& asked, Time now) {
+    const NewOrder order = with_station_defaults(fleet, asked);
     Preview preview;
     preview.vehicle = order.vehicle;
     auto plan = plan_of(fleet, order, now);
@@ -150,7 +153,8 @@ Preview OrderPreviewer::preview(const OrderPreviewTask& task) {
 
 Status OrderPreviewer::plan_ahead(const OrderPreviewTask& task) {
     know(*task.state);
-    const auto plan = plan_of(*fleet_, task.order, task.asked);
+    const auto order = with_station_defaults(*fleet_, task.order);
+    const auto plan = plan_of(*fleet_, order, task.asked);
     return plan ? Status() : fail(plan.error());
 }
 

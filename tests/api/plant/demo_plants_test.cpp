@@ -273,13 +273,14 @@ INSTANTIATE_TEST_SUITE_P(Shipped, Tour, testing::Values("pulse-line", "final-ass
 
 TEST(PulseLine, StationsAreTangsTable4) {
     const Plant plant = demo("pulse-line");
-    const double table[7][3] = {{10, 20, 90},  {20, 30, 0}, {30, 20, -90}, {50, 20, 45},
+    const double table[8][3] = {{10, 0, 90},  // of preparation and hoisting (Fig. 4), ours
+                                {10, 20, 90},  {20, 30, 0}, {30, 20, -90}, {50, 20, 45},
                                 {70, 20, -90}, {85, 20, 0}, {95, 20, 90}};
-    ASSERT_EQ(plant.stations.size(), 7u);
+    ASSERT_EQ(plant.stations.size(), 8u);
     ASSERT_EQ(plant.vehicles.size(), 1u);
-    for (int n = 1; n <= 7; ++n) {
+    for (int n = 0; n <= 7; ++n) {
         const Station& station = *find_station(plant, n);
-        const auto& [x, y, degrees_] = table[n - 1];
+        const auto& [x, y, degrees_] = table[n];
         EXPECT_DOUBLE_EQ(station.pose.x_m, x);
         EXPECT_DOUBLE_EQ(station.pose.y_m, y);
         EXPECT_NEAR(station.pose.heading_rad, radians(degrees_), 1e-12);
