@@ -67,13 +67,15 @@ function deviation(stop: StopRecord): string {
 /** The actions around a step, in the order in which they are done. */
 function StepActions({ step }: { step: Step }) {
   const { t } = useTranslation("orders");
-  const names = (actions: Step["before"]) => actions?.map((a) => a.type).join(t("join"));
+  const words = useWords();
+  const line = (key: string, actions: Step["before"] = []) =>
+    actions.length > 0 && (
+      <div className="cap">{t(key, { actions: actions.map(words.action).join(t("join")) })}</div>
+    );
   return (
     <>
-      {step.before && (
-        <div className="cap">{t("detail.actions_before", { actions: names(step.before) })}</div>
-      )}
-      {step.after && <div className="cap">{t("detail.actions_after", { actions: names(step.after) })}</div>}
+      {line("detail.actions_before", step.before)}
+      {line("detail.actions_after", step.after)}
     </>
   );
 }

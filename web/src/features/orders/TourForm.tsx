@@ -41,6 +41,7 @@ export function TourForm({ plant, onClose }: { plant: Plant | undefined; onClose
               place={plant?.stations.find((s) => String(s.number) === step.station)?.name ?? ""}
               fault={tour.wrong.find((f) => f.id === step.id)}
               preview={data?.steps[i]}
+              arrival={tour.arrivals[i]}
               onActive={() => setActive(step.id)}
               dispatch={dispatch}
             />

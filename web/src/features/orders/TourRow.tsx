@@ -3,7 +3,9 @@ import type { MotionMode, StepPreview } from "@/shared/api/types";
 import { Icon } from "@/shared/ui";
 import { duration } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { TourArrival, useArrivalWords } from "./TourArrival";
 import { chosenOf, type TourEvent, type TourFault, type TourStep } from "./tour";
+import type { Arrival } from "./tourActions";
 import "./TourRow.css";
 
 export interface TourRowProps {
@@ -15,15 +17,18 @@ export interface TourRowProps {
   place: string;
   fault: TourFault | undefined;
   preview: StepPreview | undefined;
+  arrival: Arrival | undefined;
   onActive: () => void;
   dispatch: (event: TourEvent) => void;
 }
 
-/** One station of a tour: its number, how and how long, or what is wrong. The active one takes the pad's digits. */
+/** One station of a tour: its number, how, how long and what for, or what is wrong. The active one takes the pad's digits. */
 export function TourRow(props: TourRowProps) {
-  const { step, index, last, only, active, place, fault, preview, onActive, dispatch } = props;
+  const { step, index, last, only, active, place, fault, preview, arrival, onActive, dispatch } = props;
   const { t } = useTranslation("orders");
   const words = useWords();
+  const does = useArrivalWords();
+  const then = arrival && does(arrival);
   const option = preview && chosenOf(preview, step.mode);
   const wrong = fault !== undefined && fault.kind !== "missing";
   const modes: MotionMode[] = [
@@ -71,6 +76,7 @@ export function TourRow(props: TourRowProps) {
       >
         <Icon name="x" />
       </button>
+      {then !== undefined && <span className="then">{then}</span>}
       {active && modes.length > 1 && (
         <div className="modes" role="group" aria-label={t("tour.mode", { index })}>
           {modes.map((mode) => (
@@ -86,6 +92,7 @@ export function TourRow(props: TourRowProps) {
           ))}
         </div>
       )}
+      {active && arrival && <TourArrival id={step.id} index={index} arrival={arrival} dispatch={dispatch} />}
     </li>
   );
 

@@ -12,6 +12,7 @@ import {
   type Tour,
   type TourEvent,
 } from "./tour";
+import type { Scene } from "./tourActions";
 
 const order = (id: string, number: number, state: JobState, over: Partial<JobOrder> = {}): JobOrder =>
   ({
@@ -25,6 +26,7 @@ const order = (id: string, number: number, state: JobState, over: Partial<JobOrd
     ...over,
   }) as unknown as JobOrder;
 const plant = { vehicles: [], stations: [{ number: 1 }, { number: 2 }, { number: 3 }] } as unknown as Plant;
+const nowhere: Scene = { plant: undefined, vehicle: undefined, there: new Map() };
 const run = (state: Tour, ...events: TourEvent[]) => events.reduce(tour, state);
 const numbers = (...n: string[]) =>
   run(
@@ -142,16 +144,16 @@ describe("tour", () => {
     expect(state).toMatchObject({ priority: 100, steps: [{ station: "1234" }] });
   });
   it("leaves the vehicle out when any may drive", () => {
-    const body = toRequest(run(numbers("1", "2"), { kind: "mode", id: 2, mode: "linear" }));
+    const body = toRequest(run(numbers("1", "2"), { kind: "mode", id: 2, mode: "linear" }), nowhere);
 
     expect(body).toEqual({
       priority: 0,
       steps: [
-        { station: 1, motion_mode: "auto" },
-        { station: 2, motion_mode: "linear" },
+        { station: 1, motion_mode: "auto", after: [] },
+        { station: 2, motion_mode: "linear", after: [] },
       ],
     });
-    expect(toRequest({ ...numbers("1"), vehicle: "TP-01" }).vehicle).toBe("TP-01");
+    expect(toRequest({ ...numbers("1"), vehicle: "TP-01" }, nowhere).vehicle).toBe("TP-01");
   });
 });
 

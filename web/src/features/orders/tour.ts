@@ -1,10 +1,13 @@
-import type { DryRun, MotionMode, Plant, StepPreview } from "@/shared/api/types";
+import type { DryRun, MotionMode, NewJobOrder, Plant, StepPreview } from "@/shared/api/types";
+import { stepActions, type Scene, type Transfer } from "./tourActions";
 
 /** A job order being written: stations in the order they will be visited. */
 export interface TourStep {
   id: number;
   station: string; // as typed
   mode: MotionMode;
+  feet?: boolean; // as a person wants it; absent: as the station is for
+  transfer?: Transfer | undefined;
 }
 export interface Tour {
   vehicle: string; // empty: any that can
@@ -21,6 +24,8 @@ export type TourEvent =
   | { kind: "move"; id: number; by: -1 | 1 }
   | { kind: "station"; id: number; station: string }
   | { kind: "mode"; id: number; mode: MotionMode }
+  | { kind: "feet"; id: number; feet: boolean }
+  | { kind: "transfer"; id: number; transfer: Transfer | undefined }
   | { kind: "reset" };
 
 export const kMaxSteps = 100;
@@ -57,20 +62,25 @@ export function tour(state: Tour, event: TourEvent): Tour {
       return { ...state, steps };
     }
     case "station":
-      return {
-        ...state,
-        steps: state.steps.map((s) =>
-          s.id === event.id ? { ...s, station: event.station.replace(/[^0-9]/g, "").slice(0, 4) } : s,
-        ),
-      };
+      // What was to be done at the other station is not meant for this one.
+      return withStep(state, event.id, ({ id, mode }) => ({
+        id,
+        mode,
+        station: event.station.replace(/[^0-9]/g, "").slice(0, 4),
+      }));
     case "mode":
-      return {
-        ...state,
-        steps: state.steps.map((s) => (s.id === event.id ? { ...s, mode: event.mode } : s)),
-      };
+      return withStep(state, event.id, (s) => ({ ...s, mode: event.mode }));
+    case "feet":
+      return withStep(state, event.id, (s) => ({ ...s, feet: event.feet }));
+    case "transfer":
+      return withStep(state, event.id, (s) => ({ ...s, transfer: event.transfer }));
     case "reset":
       return emptyTour();
   }
+}
+
+function withStep(state: Tour, id: number, change: (step: TourStep) => TourStep): Tour {
+  return { ...state, steps: state.steps.map((s) => (s.id === id ? change(s) : s)) };
 }
 
 export type TourFault =
@@ -101,15 +111,12 @@ export function faults(state: Tour, plant: Plant | undefined): TourFault[] {
 }
 
 /** The body of POST /job-orders. REQUIRES: no faults. */
-export function toRequest(state: Tour): {
-  vehicle?: string;
-  priority: number;
-  steps: { station: number; motion_mode: MotionMode }[];
-} {
+export function toRequest(state: Tour, scene: Scene): NewJobOrder {
+  const actions = stepActions(state, scene);
   return {
     ...(state.vehicle ? { vehicle: state.vehicle } : {}),
     priority: state.priority,
-    steps: state.steps.map((s) => ({ station: Number(s.station), motion_mode: s.mode })),
+    steps: state.steps.map((s, i) => ({ station: Number(s.station), motion_mode: s.mode, ...actions[i] })),
   };
 }
 

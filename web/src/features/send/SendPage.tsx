@@ -88,7 +88,7 @@ export function SendPage() {
 }
 
 /** What a start would do, in the words of the command bar. */
-function useSentences({ vehicle, station, option, busy, entry, feet }: Send) {
+function useSentences({ vehicle, station, option, busy, entry, feet, transfer }: Send) {
   const { t } = useTranslation("send");
   const words = useWords();
   if (!vehicle || !station) return { title: t("say.choose"), what: "", waits: undefined };
@@ -102,7 +102,13 @@ function useSentences({ vehicle, station, option, busy, entry, feet }: Send) {
     what:
       moves === undefined
         ? ""
-        : [feet.raise && t("say.raise"), moves, feet.lower && t("say.park"), t("say.people")]
+        : [
+            feet.raise && t("say.raise"),
+            moves,
+            transfer && t(`say.${transfer.type}`, { load: words.load(transfer.load) }),
+            feet.lower && t(transfer ? "say.park_then" : "say.park"),
+            t("say.people"),
+          ]
             .filter(Boolean)
             .join(" "),
     waits:

@@ -10,19 +10,24 @@ export interface Choice {
   chooseVehicle: (id: string) => void;
   chooseStation: (digits: string) => void;
   chooseMode: (mode: MotionMode) => void;
-  /** It lowers its feet on arrival. */
-  park: boolean;
+  /** It lowers its feet on arrival; undefined: as the station is for. */
+  park: boolean | undefined;
   choosePark: (park: boolean) => void;
+  /** Key of the transfer that is wanted at the station, see steps/transfer. */
+  transfer: string | undefined;
+  chooseTransfer: (key: string | undefined) => void;
 }
 
 /** Vehicle, station and mode chosen so far. Vehicle and station are kept in the address (see sendAddress). */
 export function useChoice(): Choice {
   const { query } = useLocation();
   const [mode, chooseMode] = useState<MotionMode>("auto");
-  const [park, choosePark] = useState(false);
+  const [park, choosePark] = useState<boolean>();
+  const [transfer, chooseTransfer] = useState<string>();
   const choose = useCallback((change: { vehicle?: string; station?: string }) => {
     navigate(sendAddress(change), { replace: true });
     chooseMode("auto");
+    chooseTransfer(undefined);
   }, []);
   return {
     vehicle: query.get("vehicle") ?? undefined,
@@ -33,5 +38,7 @@ export function useChoice(): Choice {
     chooseMode,
     park,
     choosePark,
+    transfer,
+    chooseTransfer,
   };
 }

@@ -11,8 +11,9 @@ import {
   useVehicles,
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
-import { feetActions, feetPlan, previewWithFeet } from "./steps/feet";
+import { feetPlan, moveActions, previewWithFeet } from "./steps/feet";
 import { codesCheck, floorCheck } from "./steps/wayChecks";
+import { transferAt } from "./steps/transfer";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
 import { useOnScreen } from "./useOnScreen";
@@ -25,7 +26,7 @@ export type Send = ReturnType<typeof useSend>;
 
 /** What follows from the choice: what is asked of the planner, what it says, what Start would send and why it may not. */
 export function useSend(choice: Choice, /** A move is watched: nothing is previewed. */ watching: boolean) {
-  const { mode, digits, park } = choice;
+  const { mode, digits } = choice;
   const plant = usePlant().data;
   const allVehicles = useVehicles();
   const vehicles = useMemo(() => sortForSending(allVehicles, plant), [allVehicles, plant]);
@@ -41,8 +42,13 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const entry = lookUpStation(digits, plant, states, vehicle);
   const station = stationOf(entry);
   const busy = busyWith(vehicle, orders);
+  const park = choice.park ?? station?.parks ?? false;
   const { raise, lower } = feetPlan(vehicle, busy !== undefined, park);
   const feet = useMemo(() => ({ raise, lower }), [raise, lower]);
+  const offered = transferAt(station, states, vehicle, plant?.loads ?? []);
+  const transfer = offered?.key === choice.transfer ? offered : undefined;
+  const does = JSON.stringify(moveActions(feet, transfer));
+  const actions = useMemo<ReturnType<typeof moveActions>>(() => JSON.parse(does), [does]);
   const asks =
     !watching &&
     onScreen &&
@@ -58,14 +64,14 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
           station: station.number,
           mode,
           pose: vehicle.pose,
-          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}${raise}${lower}`,
+          link: `${vehicle.link}${vehicle.activity}${vehicle.paused}${does}`,
           stationsKey: states.map((s) => `${s.occupied_by}/${s.reserved_by}`).join(","),
           after: busyKey(busy),
         }),
         vehicle: vehicle.id,
         station: station.number,
         mode,
-        actions: feetActions(feet),
+        actions,
       }
     : undefined;
   const asked = usePreview(question);
@@ -98,10 +104,10 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
         ? {
             vehicle: vehicle.id,
             priority: 0,
-            steps: [{ station: station.number, motion_mode: option.mode, ...feetActions(feet) }],
+            steps: [{ station: station.number, motion_mode: option.mode, ...actions }],
           }
         : undefined,
-    [ready.kind, vehicle, station, option, feet],
+    [ready.kind, vehicle, station, option, actions],
   );
   return {
     plant,
@@ -113,7 +119,10 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
     busy,
     preview,
     retry: asked.retry,
+    park,
     feet,
+    offered,
+    transfer,
     step,
     option,
     leadThere,

@@ -7,10 +7,17 @@ export type Translate = (key: string, values?: Record<string, unknown>) => strin
 
 /** Names a person knows for the ids that parameters carry. */
 export type Names = Readonly<
-  Record<"vehicle" | "station" | "actor" | "wheel" | "closure", (id: string) => string | undefined>
+  Record<"vehicle" | "station" | "actor" | "wheel" | "closure" | "load", (id: string) => string | undefined>
 >;
 const none = () => undefined;
-export const noNames: Names = { vehicle: none, station: none, actor: none, wheel: none, closure: none };
+export const noNames: Names = {
+  vehicle: none,
+  station: none,
+  actor: none,
+  wheel: none,
+  closure: none,
+  load: none,
+};
 
 /** Of what a parameter is the id, the likeliest first: "by" is said of vehicles and of people. */
 const kIds: Readonly<Record<string, readonly (keyof Names)[]>> = {
@@ -25,6 +32,7 @@ const kIds: Readonly<Record<string, readonly (keyof Names)[]>> = {
   actor: ["actor"],
   wheel: ["wheel"],
   closure: ["closure"],
+  load: ["load"],
 };
 
 /** Parameters that are codes themselves, and where their words are. */

@@ -3,6 +3,7 @@ import { useTranslation } from "react-i18next";
 import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason } from "@/shared/api/types";
 import { usePlant } from "@/shared/live";
+import { actionText, type StepAction } from "./actions";
 import { actorText } from "./actor";
 import { closureName } from "./closures";
 import { faultText } from "./faults";
@@ -15,6 +16,7 @@ export interface Words {
   /** A problem in words: by its code when that is known, else the server's own sentence. */
   problem: (problem: Pick<ApiProblem, "code" | "params" | "detail">) => string;
   vehicle: (id: string) => string;
+  load: (id: string) => string;
   /** Who did something: a person, or a program with a token. */
   actor: (actor: string) => string;
   fault: (type: string) => string;
@@ -25,6 +27,8 @@ export interface Words {
   stationNumber: (id: string) => string;
   mode: (mode: MotionMode) => string;
   modeShort: (mode: MotionMode) => string;
+  /** What a vehicle does before it leaves or when it has arrived. */
+  action: (action: StepAction) => string;
 }
 
 /** Puts codes, ids and parameters of the server into words of the language shown. */
@@ -35,6 +39,7 @@ export function useWords(): Words {
     const t: Translate = (key, values) => translate(key, values ?? {});
     const vehicles = new Map((plant?.vehicles ?? []).map((v) => [v.id, v.name]));
     const stations = new Map((plant?.stations ?? []).map((s) => [s.id, String(s.number)]));
+    const loads = new Map((plant?.loads ?? []).map((l) => [l.id, l.name]));
     const areas = new Map((plant?.areas ?? []).map((a) => [a.id, a.name]));
     const obstacles: Readonly<Record<string, string>> = {
       wall: t("words:wall"),
@@ -50,12 +55,14 @@ export function useWords(): Words {
       actor: (actors) => each(actors, (one) => actorText(one, t)),
       wheel: (name) => ofWheel("wheel_name", name),
       closure: (names) => each(names, (one) => closureName(one, t)),
+      load: (id) => loads.get(id),
     };
     return {
       names,
       reason: (reason) => reasonText(reason, t, names),
       problem: (problem) => problemText(problem, t, names),
       vehicle: (id) => vehicles.get(id) ?? id,
+      load: (id) => loads.get(id) ?? id,
       actor: (actor) => actorText(actor, t),
       fault: (type) => faultText(type, t),
       wheel: (name) => ofWheel("wheel_name", name),
@@ -63,6 +70,7 @@ export function useWords(): Words {
       stationNumber: (id) => stations.get(id) ?? id,
       mode: (mode) => t(`words:mode.${mode}`),
       modeShort: (mode) => t(`words:mode_short.${mode}`),
+      action: (action) => actionText(action, t, names),
     };
   }, [plant, translate]);
 }

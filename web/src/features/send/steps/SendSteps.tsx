@@ -5,9 +5,9 @@ import { PanelFailed } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { duration } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { ArrivalRow } from "./ArrivalRow";
 import { ChecksStep, ChecksSummary } from "./ChecksStep";
 import { ModeStep } from "./ModeStep";
-import { ParkRow } from "./ParkRow";
 import { StationStep } from "./StationStep";
 import { Step } from "./Step";
 import type { Choice } from "../useChoice";
@@ -32,7 +32,7 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
   const place = usePlace();
   const narrow = useNarrow();
   const [choosing, setChoosing] = useState(false);
-  const { vehicle, station, option, preview, step, checks, instead } = send;
+  const { vehicle, station, option, preview, step, checks, instead, offered } = send;
   return (
     <>
       <div className="c1">
@@ -105,9 +105,18 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
               onOpen(undefined);
             }}
           />
-          {vehicle && vehicle.parking_feet.length > 0 && (
-            <ParkRow park={choice.park} onPark={choice.choosePark} />
-          )}
+          <div className="arrivals">
+            {offered && (
+              <ArrivalRow
+                label={t(`mode.${offered.type}`, { load: words.load(offered.load) })}
+                on={send.transfer !== undefined}
+                onChange={(on) => choice.chooseTransfer(on ? offered.key : undefined)}
+              />
+            )}
+            {vehicle && vehicle.parking_feet.length > 0 && (
+              <ArrivalRow label={t("mode.park")} on={send.park} onChange={choice.choosePark} />
+            )}
+          </div>
         </Step>
         <Step
           number={4}

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { DryRun, Vehicle } from "@/shared/api/types";
-import { feetActions, feetPlan, previewWithFeet } from "./feet";
+import { feetPlan, moveActions, previewWithFeet } from "./feet";
 
 const on = (...extensions_m: number[]) => ({
   parking_feet: extensions_m.map((extension_m, i) => ({ name: String(i), extension_m })),
@@ -14,15 +14,25 @@ describe("feet around a move", () => {
   it("are raised first behind another order, which may leave them down", () =>
     expect(feetPlan(on(0, 0, 0, 0), true, false).raise).toBe(true));
   it("are lowered after it where a person wants it", () => {
-    expect(feetActions(feetPlan(on(0, 0, 0, 0), false, true))).toEqual({ after: [{ type: "lowerParking" }] });
-    expect(feetActions(feetPlan(on(0.1), false, true))).toEqual({
+    expect(moveActions(feetPlan(on(0, 0, 0, 0), false, true), undefined)).toEqual({
+      after: [{ type: "lowerParking" }],
+    });
+    expect(moveActions(feetPlan(on(0.1), false, true), undefined)).toEqual({
       before: [{ type: "raiseParking" }],
       after: [{ type: "lowerParking" }],
     });
   });
+  it("are not lowered where a person does not want it, whatever the station is for", () =>
+    expect(moveActions(feetPlan(on(0), false, false), undefined)).toEqual({ after: [] }));
+  it("are lowered once the load is moved", () =>
+    expect(moveActions(feetPlan(on(0), false, true), { type: "drop", load: "A-101", key: "" }).after).toEqual(
+      [{ type: "drop" }, { type: "lowerParking" }],
+    ));
   it("are nothing to a vehicle without any, or to none", () => {
-    expect(feetActions(feetPlan({ parking_feet: [] }, true, true))).toEqual({});
-    expect(feetActions(feetPlan(undefined as Vehicle | undefined, true, true))).toEqual({});
+    expect(moveActions(feetPlan({ parking_feet: [] }, true, true), undefined)).toEqual({ after: [] });
+    expect(moveActions(feetPlan(undefined as Vehicle | undefined, true, true), undefined)).toEqual({
+      after: [],
+    });
   });
 });
 

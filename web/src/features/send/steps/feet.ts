@@ -1,6 +1,7 @@
 import type { NewJobOrder, Vehicle } from "@/shared/api/types";
 import { feetDown } from "@/shared/live/feet";
 import type { Preview } from "../preview/preview";
+import { transferAction, type Transfer } from "./transfer";
 import type { ShownCheck } from "./wayChecks";
 
 type NewStep = NewJobOrder["steps"][number];
@@ -20,10 +21,15 @@ export function feetPlan(
   return { raise: feet.length > 0 && (behind || feetDown(feet)), lower: feet.length > 0 && park };
 }
 
-export function feetActions({ raise, lower }: FeetPlan): Pick<NewStep, "before" | "after"> {
+/** `after` is always said, be it that nothing is done: what a person has not ticked is not done. */
+export function moveActions(
+  { raise, lower }: FeetPlan,
+  transfer: Transfer | undefined,
+): Pick<NewStep, "before" | "after"> {
   return {
     ...(raise && { before: [{ type: "raiseParking" }] }),
-    ...(lower && { after: [{ type: "lowerParking" }] }),
+    // What is to be set down or taken over needs the vehicle on its wheels.
+    after: [...(transfer ? [transferAction(transfer)] : []), ...(lower ? [{ type: "lowerParking" }] : [])],
   };
 }
 
