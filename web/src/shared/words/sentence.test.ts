@@ -8,11 +8,14 @@ const kCatalogue: Readonly<Record<string, string>> = {
   "x:told": "{{by}}: {{why}}",
   "x:told_b": "{{by}} says no more",
   "x:cause": "Because: {{cause}}",
+  "x:failed": "{{action}} failed",
   "x:set": "{{flag}}, {{mode}}, {{state}}, {{fault}}",
   "reasons:server_restarted": "the server began anew",
   "reasons:with_hole": "holes {{n}}",
   "words:mode.lateral": "Lateral",
   "words:job.given_up": "Given up",
+  "words:action.pick": "Take over {{load}}",
+  "words:action.pick_b": "Take over",
   "faults:wheel_fault": "a broken wheel",
   "words:join": "; ",
 };
@@ -36,6 +39,8 @@ describe("sentence", () => {
     ],
     ["x:told", { by: "s7", why: "brand_new: Prose of a vehicle." }, "7 says no more"],
     ["x:cause", { cause: "with_hole" }, "Because: with_hole"],
+    ["x:failed", { action: "pick" }, "Take over failed"],
+    ["x:failed", { action: "polish" }, "polish failed"],
     [
       "x:set",
       { flag: true, mode: "lateral", state: "Aborted", fault: "wheelFault" },

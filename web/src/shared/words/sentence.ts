@@ -42,6 +42,7 @@ const kCodes: Readonly<Record<string, string>> = {
   motion_mode: "words:mode.",
   state: "words:job.",
   level: "words:integration.",
+  action: "words:action.",
 };
 const kFaults = ["type", "fault"];
 
@@ -53,10 +54,12 @@ function template(key: string, t: Translate): string | undefined {
   return text === kMissing || text === "" ? undefined : text;
 }
 
+const kVariants = ["", "_b", "_c", "_d"];
+
 /** The words of a code, where it has some that need no parameters. */
 function codeText(key: string, t: Translate): string | undefined {
-  const text = template(key, t);
-  return text?.includes("{{") ? undefined : text;
+  const texts = kVariants.map((variant) => template(key + variant, t));
+  return texts.find((text) => text !== undefined && !text.includes("{{"));
 }
 
 /** A vehicle's "code: prose in its own language": the code has words here, or it is left out. */
@@ -103,7 +106,7 @@ const kHole = /\{\{\s*([a-z0-9_]+)\s*\}\}/gi;
  */
 export function sentence(key: string, params: Params, names: Names, t: Translate): string | undefined {
   const words = inWords(params, names, t);
-  for (const variant of ["", "_b", "_c", "_d"]) {
+  for (const variant of kVariants) {
     const text = template(key + variant, t);
     if (text === undefined) continue;
     if ([...text.matchAll(kHole)].every(([, name]) => words.has(name ?? "")))
