@@ -29,6 +29,7 @@ void enter(Step& step, StepPhase phase) {
 
 /// One behind the last action of the leg that begins with `first`.
 std::size_t end_of_leg(const std::vector<StepAction>& actions, std::size_t first) {
+    if (first >= actions.size()) return actions.size();  // all are done, and only the end is not
     if (vda5050::is_transfer(actions[first].type)) return first + 1;
     const auto next =
         std::find_if(actions.begin() + static_cast<std::ptrdiff_t>(first), actions.end(),

@@ -61,6 +61,11 @@ bool is_candidate(const FleetState& fleet, const NewOrder& order, const LiveVehi
     return bound.empty() || bound == live.record.id;
 }
 
+bool may_stop_at(const plant::Station& station, const LiveVehicle& live) {
+    const auto& types = station.vehicle_types;
+    return types.empty() || std::ranges::find(types, live.type->id) != types.end();
+}
+
 bool is_gone(const FleetState& fleet, const LiveVehicle& live, Time now) {
     return silence(fleet, live, now) >= kGoneAfter;
 }

@@ -10,6 +10,8 @@ namespace pulseline::fleet {
 
 /// By vehicle, type and sequence; not by its actions.
 bool is_candidate(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live);
+/// The station is for vehicles of its type.
+bool may_stop_at(const plant::Station& station, const LiveVehicle& live);
 bool is_gone(const FleetState& fleet, const LiveVehicle& live, Time now);
 
 /// Where the vehicle will stand when all that it has to do besides the order `self` is done;

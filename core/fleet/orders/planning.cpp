@@ -1,6 +1,5 @@
 #include "core/fleet/orders/planning.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/fleet/legs/leg_plans.hpp"
@@ -18,12 +17,6 @@ std::string step_field(std::size_t step, const char* name) {
     return "/steps/" + std::to_string(step) + "/" + name;
 }
 
-bool may_stop_at(const plant::Station& station, const plant::VehicleType& type) {
-    return station.vehicle_types.empty() ||
-           std::find(station.vehicle_types.begin(), station.vehicle_types.end(), type.id) !=
-               station.vehicle_types.end();
-}
-
 Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
                             const Stations& stations, const LiveVehicle& live,
                             std::optional<Pose2> pose, JobOrderId self, FreeManoeuvres free) {
@@ -32,7 +25,7 @@ Result<OrderPlan> plan_with(const FleetState& fleet, const NewOrder& order,
     const auto loaded = drives_loaded(fleet, order, self, live);
     for (std::size_t i = 0; i < order.steps.size(); ++i) {
         const plant::Station* station = stations[i];
-        if (!may_stop_at(*station, *live.type)) {
+        if (!may_stop_at(*station, live)) {
             return fail(
                 Errc::kUnreachable, "station_not_for_type",
                 "Station " + std::to_string(station->number) + " is not for vehicles of type " +

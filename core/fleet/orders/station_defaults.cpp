@@ -1,6 +1,5 @@
 #include "core/fleet/orders/station_defaults.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/fleet/orders/candidates.hpp"
@@ -14,15 +13,10 @@ namespace {
 const StepAction kLower{vda5050::kLowerParking, {}};
 const StepAction kRaise{vda5050::kRaiseParking, {}};
 
-bool may_stop_there(const plant::Station& station, const LiveVehicle& live) {
-    const auto& types = station.vehicle_types;
-    return types.empty() || std::ranges::find(types, live.type->id) != types.end();
-}
-
 bool all_can_park(const FleetState& fleet, const NewOrder& order, const plant::Station& station) {
     bool any = false;
     for (const auto& [id, live] : fleet.vehicles) {
-        if (!is_candidate(fleet, order, live) || !may_stop_there(station, live)) continue;
+        if (!is_candidate(fleet, order, live) || !may_stop_at(station, live)) continue;
         any = true;
         const bool can = live.type->parking && announces_at_node(live, kLower) &&
                          announces_at_node(live, kRaise);

@@ -89,8 +89,9 @@ bool may_still_be_there(const FleetState& fleet, const plant::Load& load,
 plant::LoadId taken_over_by(const LiveVehicle& live) {
     if (is_transferring(live)) return load_named(live.lift->what);
     if (!live.has_leg() || !live.leg().actions_only) return {};
-    const vda5050::Action& first = live.leg().nodes.front().actions.front();
-    const auto* id = first.type == vda5050::kPick ? text_param(first.params, kLoadId) : nullptr;
+    const auto& actions = live.leg().nodes.front().actions;
+    if (actions.empty() || actions.front().type != vda5050::kPick) return {};
+    const auto* id = text_param(actions.front().params, kLoadId);
     return id == nullptr ? plant::LoadId() : plant::LoadId(*id);
 }
 
@@ -188,6 +189,8 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
                       const MovedBy& by, Time now) {
     if (done.type == vda5050::kPick) {
+        // The plant may have lost it since: then nobody here knows of it any more.
+        if (!fleet.loads.contains(load_named(done))) return;
         move_load(fleet, load_named(done), {live.record.id, {}}, by, now);
     } else if (const auto* load = load_on(fleet, live.record.id)) {
         move_load(fleet, load->id, {{}, live.record.at_station}, by, now);

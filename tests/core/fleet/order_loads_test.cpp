@@ -231,6 +231,40 @@ TEST_F(OrderLoads, OneThatIsOnItsWayWhenTheServerDiesIsNotLost) {
     EXPECT_EQ(moves().size(), 1u);
 }
 
+TEST_F(OrderLoads, OneThatANewPlantDoesNotKnowIsOnlyNotKnown) {
+    v1().stands = true;
+    ordered(brings());
+    world.run(1);
+    std::erase_if(world.plant.loads, [](const auto& load) { return load.id == kJig; });
+    world.crash_server();
+    world.run(1);
+    v1().stands = false;
+    world.run(5);
+    EXPECT_FALSE(world.fleet->load(kJig));
+    EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->load.fault)
+        << "and it does not drive with it";
+    EXPECT_TRUE(moves().empty());
+}
+
+/// It has lost its leg when nothing of it was left to do but its end.
+TEST_F(OrderLoads, OneWhoseLastActionIsDoneEndsWithoutIt) {
+    const auto id = ordered(brings()).id;
+    world.run(90);
+    JobOrder order = world.stored(id);
+    ASSERT_EQ(order.steps[0].phase, StepPhase::kAfter);
+    order.state = JobState::kRunning;
+    order.current_step = 0;
+    order.steps[0].state = StepState::kPending;
+    order.steps[0].actions_done = order.steps[0].after.size();
+    world.store.orders[id] = order;
+    world.crash_server();
+    world.run(2);
+    static_cast<void>(world.fleet->resume_order(id, std::nullopt, "op", world.now));
+    static_cast<void>(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(30);
+    EXPECT_EQ(world.stored(id).state, JobState::kEnded) << world.stored(id).reason.code;
+}
+
 TEST_F(OrderLoads, ASnapshotInTheMiddleComesBackTheSame) {
     v1().stands = true;
     ordered(brings());
