@@ -22,10 +22,7 @@ const StepAction kFeetDown{"lowerParking", {}};
 plant::Plant with_brackets() {
     plant::Plant plant = small_plant();
     auto& type = plant.vehicle_types.front();
-    type.brackets = {{"front left", {1, 0.4}},
-                     {"front right", {1, -0.4}},
-                     {"back left", {-1, 0.4}},
-                     {"back right", {-1, -0.4}}};
+    type.brackets = plant::builders::four_brackets();
     type.parking = plant::usual_parking(type.footprint);
     plant::builders::put_on(plant, 0, "J-1");
     return plant;

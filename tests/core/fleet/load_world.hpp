@@ -19,10 +19,7 @@ inline constexpr double kMass_kg = 400;
 inline plant::Plant with_load() {
     plant::Plant plant = small_plant();
     auto& type = plant.vehicle_types.front();
-    type.brackets = {{"front left", {1, 0.4}},
-                     {"front right", {1, -0.4}},
-                     {"back left", {-1, 0.4}},
-                     {"back right", {-1, -0.4}}};
+    type.brackets = plant::builders::four_brackets();
     type.wheels = {};
     type.load_footprint = geometry::rectangle(3.4, 3);
     for (auto& station : plant.stations) {
@@ -33,6 +30,19 @@ inline plant::Plant with_load() {
     plant.loads[0].station = kS1;
     plant.loads[0].outline = geometry::rectangle(3, 2.5);
     plant.loads[0].vehicle_types.clear();
+    return plant;
+}
+
+/// V2 stands so near beside V1 that a load on that would hang above its floor.
+inline plant::Plant with_v2_beside() {
+    plant::Plant plant = with_load();
+    auto& there = plant.stations[1];
+    there.pose.x_m = plant.stations[0].pose.x_m;
+    there.pose.y_m = plant.stations[0].pose.y_m + 2.2;
+    for (auto& node : plant.nodes) {
+        if (node.id == there.node) node.position = there.pose.position();
+    }
+    plant.vehicles[1].home = there.id;
     return plant;
 }
 

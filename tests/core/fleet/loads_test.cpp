@@ -199,17 +199,9 @@ TEST_F(Loads, APersonSaysWhereOneIsAndIsToldWhatForbidsIt) {
 
 /// The load is wider than the vehicle: it is not taken over onto floor that another one holds.
 TEST(LoadsAndFloor, OneIsNotTakenOverAboveFloorOfAnother) {
-    plant::Plant plant = with_load();
-    plant.stations[1].pose.x_m = plant.stations[0].pose.x_m;
-    plant.stations[1].pose.y_m = plant.stations[0].pose.y_m + 2.2;
-    for (auto& node : plant.nodes) {
-        if (node.id == plant.stations[1].node) node.position = plant.stations[1].pose.position();
-    }
-    plant.vehicles[1].home = plant.stations[1].id;
-    World world(plant);
+    World world(with_v2_beside());
     world.connect_all();
     world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
-    world.vehicle("V2").state.pose = plant.stations[1].pose;
     world.run(1);
     const auto held = world.fleet->move_lifts(kV1, kPick, "op", world.now);
     ASSERT_FALSE(held);

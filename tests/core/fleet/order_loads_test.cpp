@@ -278,19 +278,10 @@ TEST_F(OrderLoads, ASnapshotInTheMiddleComesBackTheSame) {
 
 /// The load is wider than the vehicle: above floor that another one holds it waits with its pick.
 TEST(OrderLoadsOf, AboveFloorOfAnotherItWaits) {
-    plant::Plant plant = with_load();
-    plant.stations[1].pose.x_m = plant.stations[0].pose.x_m;
-    plant.stations[1].pose.y_m = plant.stations[0].pose.y_m + 2.6;
-    for (auto& node : plant.nodes) {
-        if (node.id == plant.stations[1].node) node.position = plant.stations[1].pose.position();
-    }
-    plant.vehicles[1].home = plant.stations[1].id;
-    World world(plant);
+    World world(with_v2_beside());
     world.connect_all();
     world.announce({"pick", "drop"});
-    world.vehicle("V2").state.pose = plant.stations[1].pose;
-    weigh(world.vehicle("V1"), plant, 0, 0.15);
-    weigh(world.vehicle("V2"), plant, 0, 0.15);
+    for (auto& [id, vehicle] : world.vehicles) weigh(vehicle, world.plant, 0, 0.15);
     world.run(1);
     NewOrder order;
     order.vehicle = kV1;

@@ -1,10 +1,8 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { LiftCommand, Vehicle } from "@/shared/api/types";
-import { CommandFailed } from "@/shared/commands";
 import { usePlant, useStations } from "@/shared/live";
-import { CommandButton } from "@/shared/ui";
-import { liftBar } from "./lifts";
+import { LoadButton } from "./LoadButton";
 import { useLift } from "./useLift";
 
 /** Taking over what hangs or stands where the vehicle stands, or setting down there what it carries. */
@@ -21,20 +19,6 @@ export function LoadTransfer({ vehicle, refused }: { vehicle: Vehicle; refused: 
   const { command, progress } = useLift(vehicle, type, body);
   if (here?.support === undefined || wanted === undefined) return null;
   const name = loads.find((load) => load.id === wanted)?.name ?? wanted;
-  const bar = liftBar(vehicle, type);
-  return (
-    <>
-      <div className="feet">
-        <CommandButton
-          label={t(type === "pick" ? "lifts.take_over" : "lifts.set_down", { load: name })}
-          primary={false}
-          direction="go"
-          progress={progress}
-          disabledReason={refused ?? (bar === undefined ? undefined : t(`lifts.${bar}`))}
-          onRun={command.run}
-        />
-      </div>
-      <CommandFailed command={command} />
-    </>
-  );
+  const label = t(type === "pick" ? "lifts.take_over" : "lifts.set_down", { load: name });
+  return <LoadButton {...{ label, vehicle, type, command, progress, refused }} />;
 }

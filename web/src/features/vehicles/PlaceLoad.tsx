@@ -2,12 +2,11 @@ import { useCallback } from "react";
 import { useTranslation } from "react-i18next";
 import { api, call } from "@/shared/api";
 import type { LoadPlace, Vehicle } from "@/shared/api/types";
-import { CommandFailed } from "@/shared/commands";
 import { usePlant, useStations, useVehicles } from "@/shared/live";
-import { CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
-import { liftBar, placesToSay, type SaidPlace } from "./lifts";
+import { LoadButton } from "./LoadButton";
+import { placesToSay, type SaidPlace } from "./lifts";
 
 interface Props {
   vehicle: Vehicle;
@@ -59,20 +58,6 @@ function PlaceButton({ vehicle, refused, said, name }: Props & { said: SaidPlace
     }, [load, is, station, vehicle.id]),
   );
   const progress = useProgress(command, (vehicle.load === load) === (is === "on_vehicle"), vehicle.name);
-  const bar = liftBar(vehicle, "pick");
-  return (
-    <>
-      <div className="feet">
-        <CommandButton
-          label={t(`lifts.${is}`, { load: name })}
-          primary={false}
-          direction="go"
-          progress={progress}
-          disabledReason={refused ?? (bar === undefined ? undefined : t(`lifts.${bar}`))}
-          onRun={command.run}
-        />
-      </div>
-      <CommandFailed command={command} />
-    </>
-  );
+  const label = t(`lifts.${is}`, { load: name });
+  return <LoadButton type="pick" {...{ label, vehicle, command, progress, refused }} />;
 }
