@@ -137,7 +137,7 @@ struct ParkingFoot {
     Point2 position;   // body frame
 };
 
-/// One that is further out than this holds its vehicle: by less its reports tremble, and one that
+/// A foot further out than this holds its vehicle: by less its reports tremble, and one that
 /// was stopped just below its upper switch is far off the floor.
 inline constexpr double kFootDown_m = 0.002;
 

@@ -42,7 +42,7 @@ public:
     bool moving() const { return phase_ != Phase::kStands; }
     /// The vehicle is lifted, and this foot has a share of it.
     bool carries(std::size_t foot) const;
-    /// Out of its upper switch.
+    /// One of them holds the vehicle (plant::kFootDown_m).
     bool extended() const;
     /// Why the last movement did not end as it should: foot_without_floor {foot, extension_m}, of
     /// one alone foot_reaches_no_floor, which stays; foot_overloaded {foot, force_n, limit_n},
