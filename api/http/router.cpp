@@ -91,13 +91,20 @@ std::optional<Response> check_role(const Route& route, const Request& request) {
                       "Your role may not do this; ask somebody with the role named in params.", {},
                       {{"needed_role", std::string(access::to_string(*route.least))}});
     }
+    const auto* socket = std::get_if<Socket>(&route.handler);
+    if (socket != nullptr && *socket == Socket::kHandHeld &&
+        request.identity.kind != access::Identity::Kind::kUser) {
+        return refuse(403, request, "person_needed",
+                      "Only a person who is signed in drives a vehicle by hand, no program with a "
+                      "token; sign in in the dashboard.");
+    }
     return std::nullopt;
 }
 
 std::optional<Response> check_cross_site(const Route& route, const Request& request,
                                          const AccessPolicy& policy) {
     const auto* socket = std::get_if<Socket>(&route.handler);
-    if (socket != nullptr && *socket == Socket::kWebSocket) {
+    if (socket != nullptr && *socket != Socket::kEventStream) {
         if (!request.identity.by_cookie() || origin_allowed(request, policy)) return std::nullopt;
         return refuse(403, request, "origin_not_allowed",
                       "A page of this origin may not open the stream; open the dashboard at an "

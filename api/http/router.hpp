@@ -31,7 +31,7 @@
 ///     } else if (auto* h = std::get_if<WorkerHandler>(&route.handler)) {
 ///         response = co_await on(workers, [&] { return h(worker_context, request); });
 ///     } else {                                       // Socket
-///         route.operation is "stream" (WebSocket upgrade) or "streamEvents" (SSE)
+///         route.operation is "stream" or "handHeld" (WebSocket upgrade) or "streamEvents" (SSE)
 ///     }
 ///
 /// Whatever a hop throws becomes internal_error(request); a failed commit unavailable(request).
@@ -42,8 +42,9 @@ using InlineHandler = Response (*)(const InlineContext&, const Request&);
 using FleetHandler = FleetAnswer (*)(FleetContext&, const Request&);
 using HistoryHandler = Response (*)(const HistoryContext&, const Request&);
 using WorkerHandler = Response (*)(const WorkerContext&, const Request&);
-/// The server itself keeps the connection: a WebSocket, or server-sent events.
-enum class Socket { kWebSocket, kEventStream };
+/// The server itself keeps the connection: a WebSocket with what happens or of a hand-held control,
+/// or server-sent events.
+enum class Socket { kWebSocket, kHandHeld, kEventStream };
 
 struct Route {
     const char* method;

@@ -186,6 +186,7 @@ std::span<const Route> routes() {
 
         {"GET", "/api/v1/events", "streamEvents", kViewer, {"after"}, Socket::kEventStream},
         {"GET", "/api/v1/stream", "stream", kViewer, {}, Socket::kWebSocket},
+        {"GET", "/api/v1/vehicles/{id}/hand-held", "handHeld", kOperator, {}, Socket::kHandHeld},
 
         {"GET", "/api/v1/openapi.json", "getOpenApi", kPublic, {}, get_openapi},
         {"GET", "/healthz", "health", kPublic, {}, health},

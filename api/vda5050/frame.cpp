@@ -27,9 +27,9 @@ Result<Frame> decode_frame(std::string_view text) {
     json::FieldErrors errors;
     json::ObjectReader in(*parsed, "", errors);
     Frame frame;
-    frame.topic =
-        in.one_of("topic", {Topic::kOrder, Topic::kInstantActions, Topic::kState,
-                            Topic::kVisualization, Topic::kConnection, Topic::kFactsheet});
+    frame.topic = in.one_of(
+        "topic", {Topic::kOrder, Topic::kInstantActions, Topic::kState, Topic::kVisualization,
+                  Topic::kConnection, Topic::kFactsheet, Topic::kHandHeld});
     frame.retain = in.boolean_or("retain", false);
     in.object("payload");
     if (auto status = errors.status(); !status) return fail(status.error());

@@ -20,6 +20,8 @@ const char* to_string(Topic topic) {
             return "connection";
         case Topic::kFactsheet:
             return "factsheet";
+        case Topic::kHandHeld:
+            return "handHeld";
     }
     return "";
 }

@@ -14,8 +14,16 @@ namespace pulseline::vda5050 {
 
 using json::Json;
 
-enum class Topic { kOrder, kInstantActions, kState, kVisualization, kConnection, kFactsheet };
-inline constexpr std::size_t kTopics = 6;
+enum class Topic {
+    kOrder,
+    kInstantActions,
+    kState,
+    kVisualization,
+    kConnection,
+    kFactsheet,
+    kHandHeld,  // ours, both ways: hand_held.hpp
+};
+inline constexpr std::size_t kTopics = 7;
 const char* to_string(Topic topic);  // "order", the last level of the MQTT topic
 
 inline constexpr const char* kVersion = "2.1.0";

@@ -250,6 +250,9 @@ void decode_entry(const std::string& type, Values& in, StateMessage& state) {
         auto fix = decode_fix(in);
         const bool ours = is_known_source(fix.by) && is_known_result(fix.result);
         if (ours && state.fixes.size() < kMostPoseFixes) keep(state.fixes, std::move(fix), in);
+    } else if (type == "handHeld") {
+        auto person = in.text("person");
+        if (in.usable()) state.in_hand_of = std::move(person);
     } else if (type == "load") {
         const double load_kg = in.number("load_kg", limits::kLoad_kg);
         if (in.usable()) state.load_kg = load_kg;
@@ -285,6 +288,7 @@ Json encode_information(const StateMessage& state) {
         if (foot.force_n) references.emplace_back("force_n", number_text(*foot.force_n));
         list.push_back(entry("parkingFoot", references));
     }
+    if (state.in_hand_of) list.push_back(entry("handHeld", {{"person", *state.in_hand_of}}));
     list.push_back(entry("load", {{"load_kg", number_text(state.load_kg)}}));
     return list;
 }

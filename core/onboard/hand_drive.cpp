@@ -11,16 +11,11 @@ using kinematics::Twist;
 
 constexpr double kNothing = 1e-3;
 
-/// What a hand-held control can ask of the vehicle, no faster than somebody walks. Wheels that have
-/// to be steered first leave a person waiting who sways between a turn and a way aside; on rollers
-/// every twist is at hand (Wang: omni-directional mobile control of the platform under the manual
-/// control mode).
-Twist within_reach(const plant::VehicleType& type, Twist wanted) {
+/// What a hand-held control can ask of the vehicle, no faster than somebody walks.
+Twist within_reach(Twist wanted) {
     const double way = std::hypot(wanted.vx_mps, wanted.vy_mps);
     if (way < kNothing) wanted.vx_mps = wanted.vy_mps = 0;
-    const bool sideways =
-        type.kinematics != plant::Kinematics::kMecanum && std::abs(wanted.vy_mps) > kNothing;
-    if (sideways || std::abs(wanted.turn_radps) < kNothing) wanted.turn_radps = 0;
+    if (std::abs(wanted.turn_radps) < kNothing) wanted.turn_radps = 0;
     const double turn = std::abs(wanted.turn_radps);
     const double slower = std::min({1.0, HandDrive::kFastest_mps / std::max(way, kNothing),
                                     HandDrive::kFastest_radps / std::max(turn, kNothing)});
@@ -37,7 +32,7 @@ void HandDrive::take() {
 }
 
 Status HandDrive::command(const Twist& wanted) {
-    const Twist asked = within_reach(drive_.type(), wanted);
+    const Twist asked = within_reach(wanted);
     if (const auto wheels = kinematics::wheels_of(drive_.type(), asked); !wheels) {
         wanted_ = {};
         return fail(wheels.error());

@@ -6,7 +6,7 @@
 namespace pulseline::onboard {
 
 /// Driving a vehicle from a hand-held control beside it (Tang 2020: the first alignment): forwards,
-/// backwards, sideways or turning, on rollers all of them together, slowly, and only while the
+/// backwards, sideways and turning, together where the wheels can, slowly, and only while the
 /// person keeps asking for it. Whoever lets go, or loses the line, has the vehicle brake.
 /// Thread safety: none. No clock: time passes by step().
 class HandDrive {
@@ -21,9 +21,8 @@ public:
 
     /// Brakes; from then on it moves by command() only. What was queued is dropped.
     void take();
-    /// Asks to move so (body frame) from now on for kLetGo_s, no faster than the above. Of a way
-    /// aside and a turn together the way wins, but on rollers. Fails with
-    /// cannot_move_so {wheel, sideways_mps} and leaves the vehicle braking.
+    /// Asks to move so (body frame) from now on for kLetGo_s, no faster than the above. Fails
+    /// with cannot_move_so {wheel, sideways_mps} and leaves the vehicle braking.
     Status command(const kinematics::Twist& wanted);
     /// REQUIRES: taken and not given back.
     void step(double dt_s);

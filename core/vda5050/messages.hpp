@@ -229,6 +229,8 @@ struct StateMessage {
     bool new_base_request = false;
     double distance_since_last_node_m = 0;
     std::string operating_mode = "AUTOMATIC";
+    /// In MANUAL: who has the hand-held control; empty: somebody beside the vehicle.
+    std::optional<std::string> in_hand_of;
     std::optional<Pose2> pose;
     bool position_initialized = false;
     double localization_score = 0;

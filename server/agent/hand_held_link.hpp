@@ -11,12 +11,10 @@
 namespace pulseline::agent {
 
 /// The socket of a hand-held control beside the vehicles (`--hand-held PATH`, a Unix socket that
-/// only its owner may open). One JSON object a line in each direction, one control at a time:
-///   {"do":"take"}  {"do":"drive","vx_mps":0.2,"vy_mps":0,"turn_radps":0}  {"do":"give_back"}
-///   {"do":"where"}; with several vehicles also "vehicle":"MAKER/SERIAL".
-/// Each is answered by {"ok":true,"operating_mode":...,"standing":...,"pose":{...}} or
-/// {"ok":false,"reason":CODE,"why":...}. "drive" holds for HandDrive::kLetGo_s and must be
-/// repeated; a control that goes away leaves the vehicle braking and in MANUAL.
+/// only its owner may open): a command a line, as api/vda5050/hand_held.hpp says, and with several
+/// vehicles also "vehicle":"MAKER/SERIAL"; an answer a line. One control at a time. A drive holds
+/// for HandDrive::kLetGo_s and must be repeated; a control that goes away leaves the vehicle
+/// braking and in MANUAL.
 class HandHeldLink {
 public:
     /// Fails with socket_not_made {path}; a socket left over by an ended agent is replaced.

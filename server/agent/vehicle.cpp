@@ -47,6 +47,7 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
                                         : std::optional<LearnedMoves>(
                                               std::in_place, settings.learned, vehicle.id.str())),
       executor_(drive_, stop_senses_, settings.hall.str(), &handling_, learned_before(learned_)),
+      hands_(executor_),
       estimate_(geometry::Pose2{}, settings.odometry),
       rest_watch_(drive_, estimate_),
       watch_(cameras_, drive_, estimate_),

@@ -7,9 +7,11 @@
 #include <string>
 #include <string_view>
 
+#include "api/vda5050/hand_held.hpp"
 #include "api/vda5050/header.hpp"
 #include "core/onboard/executor.hpp"
 #include "core/onboard/going_round.hpp"
+#include "core/onboard/hand_controls.hpp"
 #include "core/onboard/load_handling.hpp"
 #include "core/onboard/look_out.hpp"
 #include "core/onboard/pose/contour_watch.hpp"
@@ -60,16 +62,11 @@ public:
     /// The message that says goodbye on a clean exit.
     std::string offline_frame();
 
-    // From a hand-held control beside it; as onboard::Executor says.
-    void take_by_hand() { executor_.take_by_hand(); }
-    Status drive_by_hand(const kinematics::Twist& wanted) {
-        return executor_.drive_by_hand(wanted);
-    }
-    Status give_back() { return executor_.give_back(); }
-    bool in_hand() const { return executor_.in_hand(); }
+    /// Does what a hand-held control says, or refuses it as onboard::HandControls does.
+    vda5050::HandAnswer hand_held(const onboard::HandControl& control,
+                                  const vda5050::HandCommand& command, Steady::time_point now);
+
     bool standing() const { return drive_.standing(); }
-    bool knows_pose() const { return executor_.position_initialized(); }
-    const geometry::Pose2& believed_pose() const { return drive_.believed_pose(); }
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
@@ -113,6 +110,7 @@ private:
     onboard::LoadHandling handling_;
     std::optional<LearnedMoves> learned_;
     onboard::Executor executor_;
+    onboard::HandControls hands_;
     std::optional<onboard::LookOut> look_out_;        // with scanners
     std::optional<onboard::GoingRound> going_round_;  // with a look-out
     onboard::PoseEstimate estimate_;

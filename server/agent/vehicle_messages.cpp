@@ -27,6 +27,7 @@ constexpr double kRangeSigmas = 3;
 vda5050::StateMessage Vehicle::state() {
     vda5050::StateMessage state;
     executor_.write_state(state);
+    if (executor_.in_hand()) state.in_hand_of = hands_.holder()->person;
     machine_.write_state(state);
     if (look_out_ && !executor_.in_hand()) {
         look_out_->write_state(state);
@@ -312,11 +313,61 @@ void Vehicle::receive(std::string_view text) {
         }
         return;
     }
+    if (frame->topic == Topic::kHandHeld) {
+        const auto said = vda5050::decode_hand_frame(frame->payload);
+        if (!said) return report(said.error(), topic);
+        const auto answer = hand_held({said->control, said->person}, said->command, Steady::now());
+        put_whole([&] {
+            outbox_.put_event(vda5050::encode_frame(
+                Topic::kHandHeld, false,
+                vda5050::encode_hand_answer({said->control, answer},
+                                            headers_.next(Topic::kHandHeld, utc_now()))));
+        });
+        return;
+    }
     report({Errc::kInvalid,
             {"wrong_topic", {}},
-            "a vehicle hears order and instantActions only",
+            "a vehicle hears order, instantActions and handHeld only",
             "/topic"},
            topic);
+}
+
+vda5050::HandAnswer Vehicle::hand_held(const onboard::HandControl& control,
+                                       const vda5050::HandCommand& command,
+                                       Steady::time_point now) {
+    using What = vda5050::HandCommand::What;
+    const double now_s = std::chrono::duration<double>(now.time_since_epoch()).count();
+    Status done;
+    hands_.heard(control.id, now_s);
+    switch (command.what) {
+        case What::kTake:
+            done = hands_.take(control, now_s);
+            break;
+        case What::kDrive:
+            done = hands_.drive(control.id, command.twist, command.sent_s, now_s);
+            break;
+        case What::kGiveBack:
+            done = hands_.give_back(control.id);
+            break;
+        case What::kLeft:
+            hands_.left(control.id);
+            break;
+        case What::kWhere:
+            break;
+    }
+    state_due_ |= command.what != What::kWhere && command.what != What::kDrive;
+    vda5050::HandAnswer answer;
+    answer.sequence = command.sequence;
+    if (!done) answer.refused = done.error();
+    answer.operating_mode = executor_.in_hand() ? "MANUAL" : "AUTOMATIC";
+    answer.standing = drive_.standing();
+    if (executor_.in_hand()) {
+        answer.person = hands_.holder()->person;
+        answer.mine = hands_.holder()->id == control.id;
+    }
+    // Before anybody has said where it stands it does not know.
+    if (executor_.position_initialized()) answer.pose = drive_.believed_pose();
+    return answer;
 }
 
 }  // namespace pulseline::agent

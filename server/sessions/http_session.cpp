@@ -110,6 +110,15 @@ api::Response upgrade_required(const api::Request& request) {
     return response;
 }
 
+api::Response unknown_vehicle(const api::Request& request) {
+    return api::problem(404,
+                        Error{Errc::kNotFound,
+                              {"unknown_vehicle", {}},
+                              "The plant has no such vehicle; GET /api/v1/vehicles lists all.",
+                              {}},
+                        request);
+}
+
 }  // namespace
 
 net::awaitable<Next> http_session(Context& context, ByteStream stream, std::string peer) {
@@ -155,20 +164,30 @@ net::awaitable<Next> http_session(Context& context, ByteStream stream, std::stri
         }
         auto out = co_await answer(context, request);
         if (out.socket) {
-            const bool events =
-                std::get<api::Socket>(out.socket->handler) == api::Socket::kEventStream;
-            if (events) {
+            const auto kind = std::get<api::Socket>(out.socket->handler);
+            if (kind == api::Socket::kEventStream) {
                 note(context, request, out.route, 200, start);
                 co_await event_session(context, stream, std::move(request), version);
                 break;
             }
-            if (upgrade) {
+            const auto* vehicle =
+                kind == api::Socket::kHandHeld
+                    ? plant::find_vehicle(context.plant, plant::VehicleId(request.params["id"]))
+                    : nullptr;
+            if (kind == api::Socket::kHandHeld && vehicle == nullptr) {
+                out.response = unknown_vehicle(request);
+            } else if (upgrade) {
                 note(context, request, out.route, 101, start);
                 end_abruptly(stream, false);
+                if (vehicle != nullptr) {
+                    co_return hand_held_session(context, std::move(stream), std::move(message),
+                                                std::move(request), vehicle->id);
+                }
                 co_return stream_session(context, std::move(stream), std::move(message),
                                          std::move(request));
+            } else {
+                out.response = upgrade_required(request);
             }
-            out.response = upgrade_required(request);
         }
         note(context, request, out.route, out.asset ? 200 : out.response.status, start);
         keep = co_await write_response(context, stream, request, out.response, version, keep,

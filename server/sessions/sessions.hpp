@@ -20,6 +20,10 @@ net::awaitable<Next> http_session(Context& context, ByteStream stream, std::stri
 net::awaitable<void> stream_session(Context& context, ByteStream stream, Upgrade upgrade,
                                     api::Request request);
 
+/// /api/v1/vehicles/{id}/hand-held, after identity, origin and vehicle were checked.
+net::awaitable<void> hand_held_session(Context& context, ByteStream stream, Upgrade upgrade,
+                                       api::Request request, plant::VehicleId vehicle);
+
 /// /api/v1/events.
 net::awaitable<void> event_session(Context& context, ByteStream& stream, api::Request request,
                                    unsigned version);

@@ -44,13 +44,15 @@ Result<VehicleFrame> read_vehicle_frame(std::string_view text, const plant::Vehi
         case Topic::kFactsheet:
             out.retained = vda5050::print(frame->payload);
             return made(std::move(out), vda5050::decode_factsheet(frame->payload));
+        case Topic::kHandHeld:
+            return made(std::move(out), vda5050::decode_hand_answer(frame->payload));
         case Topic::kOrder:
         case Topic::kInstantActions:
             break;
     }
     return fail(Errc::kInvalid, "wrong_topic",
                 std::string("A vehicle does not send on the topic ") + to_string(frame->topic) +
-                    "; send state, visualization, connection or factsheet.",
+                    "; send state, visualization, connection, factsheet or handHeld.",
                 "/topic");
 }
 

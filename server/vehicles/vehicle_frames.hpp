@@ -4,6 +4,7 @@
 #include <string_view>
 #include <variant>
 
+#include "api/vda5050/hand_held.hpp"
 #include "api/vda5050/header.hpp"
 #include "core/base/result.hpp"
 #include "core/plant/plant.hpp"
@@ -16,7 +17,7 @@ struct VehicleFrame {
     vda5050::Topic topic = vda5050::Topic::kState;
     std::string retained;  // payload of the topics that are kept for a vehicle that is away
     std::variant<vda5050::StateMessage, vda5050::VisualizationMessage, vda5050::ConnectionState,
-                 vda5050::Factsheet>
+                 vda5050::Factsheet, vda5050::HandAnswerFrame>
         message;
 };
 

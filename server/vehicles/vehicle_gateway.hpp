@@ -14,6 +14,7 @@
 
 #include "api/access/access_control.hpp"
 #include "api/http/wire/message.hpp"
+#include "api/vda5050/hand_held.hpp"
 #include "api/vda5050/header.hpp"
 #include "server/base/camera_store.hpp"
 #include "server/base/metrics.hpp"
@@ -31,6 +32,13 @@ public:
     virtual ~VehicleSocket() = default;
     virtual void send(std::string frame) = 0;
     virtual void close(std::uint16_t code, const char* reason) = 0;
+};
+
+/// An open page of the dashboard by which a person may drive one vehicle.
+class HandHeldPage {
+public:
+    virtual ~HandHeldPage() = default;
+    virtual void answer(const vda5050::HandAnswer& answer) = 0;
 };
 
 /// Between the vehicles' sockets and the fleet: who may connect as whom, what a frame means, what
@@ -68,17 +76,33 @@ public:
     /// Tells a fleet that was built anew who is connected, who is not, and what each one said last.
     void introduce_all();
 
+    // What hand-held controls say goes past the fleet straight to the vehicle, whose program
+    // decides between them; what it does of it its states tell.
+    /// False when the vehicle has kMostControls of them open. `control` is a name nobody else has.
+    bool hand_held_opened(const plant::VehicleId& id, const std::string& control,
+                          const std::string& person, HandHeldPage& page);
+    /// Answered through the page, by the vehicle, or for it with vehicle_not_connected.
+    void hand_held(const plant::VehicleId& id, const std::string& control,
+                   const vda5050::HandCommand& command);
+    void hand_held_closed(const plant::VehicleId& id, const std::string& control);
+
     /// Newest retained payload of connection or factsheet; empty before the first.
     std::string retained(const plant::VehicleId& id, vda5050::Topic topic) const;
 
 private:
     using Steady = std::chrono::steady_clock;
+    /// All their answers together stay below what a vehicle may say.
+    static constexpr std::size_t kMostControls = 3;
     /// So long a refused message is shown with the vehicle's own errors.
     static constexpr auto kShowRefused = std::chrono::seconds(60);
     /// Newest state on its way to the fleet: one waits at most, a newer one takes its place.
     struct StateSlot {
         std::mutex mutex;
         std::optional<vda5050::StateMessage> waiting;
+    };
+    struct HandHeld {
+        std::string person;
+        HandHeldPage* page = nullptr;
     };
     struct Row {
         std::shared_ptr<VehicleSocket> socket;
@@ -99,6 +123,7 @@ private:
         std::int64_t not_logged = 0;
         std::optional<vda5050::HeaderSource> headers;
         bool said_offline = false;
+        std::map<std::string, HandHeld> hands;  // by the name of the control
     };
 
     Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
@@ -108,6 +133,8 @@ private:
     static Steady::time_point next_beat(const plant::VehicleId& id, Steady::time_point now,
                                         Duration every);
     void too_many(const plant::VehicleId& id, Row& row);
+    static void tell_not_connected(const Row& row);
+    static void pass_hand_answer(const Row& row, const vda5050::HandAnswerFrame& frame);
     void malformed(const plant::VehicleId& id, Row& row, const Error& error);
     void pass_state(const plant::VehicleId& id, Row& row, vda5050::StateMessage state);
     void hand_over_factsheet(const plant::VehicleId& id, const Row& row);

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "api/vda5050/frame.hpp"
+#include "api/vda5050/hand_held.hpp"
 #include "api/vda5050/instant_actions.hpp"
 #include "api/vda5050/order.hpp"
 #include "server/vehicles/vehicle_frames.hpp"
@@ -18,6 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     if (const auto frame = vda5050::decode_frame(bytes)) {
         (void)vda5050::decode_order(frame->payload);
         (void)vda5050::decode_instant_actions(frame->payload);
+        (void)vda5050::decode_hand_frame(frame->payload);
     }
     return 0;
 }

@@ -164,6 +164,7 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         // Before its first state only the server knows what a vehicle carries.
         {"load_kg", !vehicle.last_heard && load != nullptr ? load->mass_kg : state.load_kg},
         {"load_name", load != nullptr ? load->name : ""}};
+    if (state.in_hand_of) json["in_hand_of"] = *state.in_hand_of;
     if (load != nullptr) json["load"] = load->id.str();
     if (const auto& worst = vehicle.load.worst) {
         json["worst_bracket"] = {

@@ -76,14 +76,20 @@ void watch_fatal_error(FleetState& fleet, LiveVehicle& live, Time now) {
 
 /// Somebody has taken the vehicle into their hands, or given it back: from the first on nothing
 /// moves it but they, and after the second nothing does until a person says so here.
-void watch_mode(FleetState& fleet, LiveVehicle& live, const std::string& before, Time now) {
+void watch_mode(FleetState& fleet, LiveVehicle& live, const vda5050::StateMessage& before,
+                Time now) {
     const std::string& mode = live.state.operating_mode;
-    if (mode != before) {
+    const auto& person = live.state.in_hand_of;
+    if (mode != before.operating_mode || person != before.in_hand_of) {
+        Params params{{"from", before.operating_mode}, {"to", mode}};
+        if (person) params.push_back({"person", *person});
         add_event(fleet, now, event::kVehicleOperatingMode, {}, live.record.leg, live.record.id, {},
-                  {{"from", before}, {"to", mode}});
+                  std::move(params));
     }
     if (is_automatic(live) || live.record.integration != Integration::kUtilise) return;
-    require_person(fleet, live, {reasons::kDrivenByHand, {{"operating_mode", mode}}}, now);
+    Params because{{"operating_mode", mode}};
+    if (person) because.push_back({"person", *person});
+    require_person(fleet, live, {reasons::kDrivenByHand, std::move(because)}, now);
 }
 
 }  // namespace
@@ -99,7 +105,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     fleet.changed_vehicles.insert(live.record.id);
     note_errors(fleet, live, before.errors, now);
     handle_pose(fleet, live, before, now);
-    watch_mode(fleet, live, before.operating_mode, now);
+    watch_mode(fleet, live, before, now);
     handle_action_states(fleet, live, now);
     settle_load(fleet, live, now);
     // What it has passed is where it says to be; on that nothing is freed or measured.

@@ -123,16 +123,16 @@ requires std::same_as<std::remove_const_t<S>, StateMessage>
 void fields(V& visit, S& it) {
     auto& [header_id, timestamp, order_id, order_update_id, last_node_id, last_node_sequence_id,
            node_states, edge_states, driving, paused, new_base_request, distance_since_last_node_m,
-           operating_mode, pose, position_initialized, localization_score, deviation_range_m,
-           map_id, velocity_mps, turn_rate_radps, battery_percent, charging, e_stop,
-           field_violation, action_states, errors, brackets, wheels, cameras, receivers, reflectors,
-           navigation, parking_feet, load_kg, fixes] = it;
+           operating_mode, in_hand_of, pose, position_initialized, localization_score,
+           deviation_range_m, map_id, velocity_mps, turn_rate_radps, battery_percent, charging,
+           e_stop, field_violation, action_states, errors, brackets, wheels, cameras, receivers,
+           reflectors, navigation, parking_feet, load_kg, fixes] = it;
     visit(header_id, timestamp, order_id, order_update_id, last_node_id, last_node_sequence_id,
           node_states, edge_states, driving, paused, new_base_request, distance_since_last_node_m,
-          operating_mode, pose, position_initialized, localization_score, deviation_range_m, map_id,
-          velocity_mps, turn_rate_radps, battery_percent, charging, e_stop, field_violation,
-          action_states, errors, brackets, wheels, cameras, receivers, reflectors, navigation,
-          parking_feet, load_kg);
+          operating_mode, in_hand_of, pose, position_initialized, localization_score,
+          deviation_range_m, map_id, velocity_mps, turn_rate_radps, battery_percent, charging,
+          e_stop, field_violation, action_states, errors, brackets, wheels, cameras, receivers,
+          reflectors, navigation, parking_feet, load_kg);
 }
 PULSELINE_FIELDS(Factsheet, series_name, speed_max_mps, acceleration_max_mps2, length_m, width_m,
                  actions, node_actions, instant_actions, json)

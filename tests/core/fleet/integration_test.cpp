@@ -246,6 +246,37 @@ TEST(ManualMode, TakesTheVehicleOutOfTheServersHands) {
     EXPECT_EQ(world.stored(order->order.id).state, JobState::kEnded);
 }
 
+TEST(ManualMode, WhoHasItInHandStandsWithTheOrderAndInTheEvents) {
+    World world(resting_plant());
+    world.connect_all();
+    const auto order = world.order("V1", {3});
+    ASSERT_TRUE(order);
+    world.run(2);
+    FakeVehicle& v1 = world.vehicle("V1");
+    const auto in_hand = [&](const char* mode, std::optional<std::string> person) {
+        v1.state.operating_mode = mode;
+        v1.state.in_hand_of = std::move(person);
+        world.run(1);
+    };
+    in_hand("MANUAL", "ann");
+    const Params because{{"operating_mode", std::string("MANUAL")}, {"person", std::string("ann")}};
+    EXPECT_EQ(world.stored(order->order.id).reason, (Reason{"driven_by_hand", because}));
+    in_hand("MANUAL", "bob");
+    in_hand("AUTOMATIC", std::nullopt);
+    std::vector<std::string> said;
+    for (const Event& event : world.store.events) {
+        if (event.type != "vehicle.operating_mode") continue;
+        std::string words;
+        for (const auto& [name, value] : event.params) {
+            words += name + " " + std::get<std::string>(value) + " ";
+        }
+        said.push_back(words);
+    }
+    EXPECT_EQ(said, (std::vector<std::string>{"from AUTOMATIC to MANUAL person ann ",
+                                              "from MANUAL to MANUAL person bob ",
+                                              "from MANUAL to AUTOMATIC "}));
+}
+
 TEST(ManualMode, GivenBackNothingMovesUntilAPersonSaysSo) {
     World world(resting_plant());
     world.connect_all();

@@ -59,6 +59,7 @@ TEST(StateFilter, WhatTheFleetDecidesByPassesAtOnce) {
         [](auto& s) { s.paused = true; },
         [](auto& s) { s.new_base_request = true; },
         [](auto& s) { s.operating_mode = "MANUAL"; },
+        [](auto& s) { s.in_hand_of = "ann"; },
         [](auto& s) { s.position_initialized = false; },
         [](auto& s) { s.pose.reset(); },
         [](auto& s) { s.map_id = "other"; },

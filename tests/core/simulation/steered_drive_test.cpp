@@ -142,6 +142,22 @@ TEST(SteeredDrive, SteersItsWheelsStandingBeforeANewDirection) {
     EXPECT_FALSE(drive.stop_cause());
 }
 
+TEST(SteeredDrive, TurnsWhileItGoesAside) {
+    ServoDrive drive(platform(), {}, 4);
+    const kinematics::Twist asked{0, 0.2, 0.03};
+    drive.steer(asked);
+    run(drive, 12);
+    EXPECT_FALSE(drive.stop_cause());
+    EXPECT_NEAR(drive.twist().vx_mps, 0, 0.01);
+    EXPECT_NEAR(drive.twist().vy_mps, asked.vy_mps, 0.01);
+    EXPECT_NEAR(drive.twist().turn_radps, asked.turn_radps, 0.003);
+    EXPECT_LT(norm(lost(drive).position()), 0.02);
+    drive.steer({0, 0.2, -0.03});
+    run(drive, 12);
+    EXPECT_FALSE(drive.stop_cause());
+    EXPECT_NEAR(drive.twist().turn_radps, -0.03, 0.003);
+}
+
 TEST(SteeredDrive, TheStatisticalOneHasItsUsualErrorsAndNoneWithoutThem) {
     VehicleMotion exact(mecanum(), {}, 1, 1, simulation::testing::exact());
     exact.steer({0.2, 0.1, 0.02});

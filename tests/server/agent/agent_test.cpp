@@ -76,7 +76,7 @@ TEST_F(VehicleTest, SaysWhoItIsAndReportsCodesButNoPoseAtFirst) {
     EXPECT_GE(sent[vda5050::Topic::kState], 3);
     EXPECT_EQ(sent[vda5050::Topic::kVisualization], 0);
     EXPECT_FALSE(state.position_initialized);
-    EXPECT_EQ(vehicle.believed_pose(), geometry::Pose2{})
+    EXPECT_EQ(vehicle.estimate().pose(), geometry::Pose2{})
         << "nobody has told it, and it does not know truth";
     ASSERT_EQ(state.cameras.size(), 2u);
     EXPECT_EQ(state.cameras[0].payload, "ST01-F");
@@ -408,10 +408,45 @@ TEST_F(VehicleTest, AHandHeldControlIsAnsweredAndRefusedInWords) {
                              R"({"do":"drive","vx_mps":"fast"})", R"({"do":"take","more":1})"}) {
         EXPECT_EQ(hand_held(vehicle, line)["ok"], false) << line;
     }
-    EXPECT_FALSE(vehicle.in_hand()) << "nothing of that took it";
+    EXPECT_FALSE(vehicle.executor().in_hand()) << "nothing of that took it";
     EXPECT_EQ(hand_held(vehicle, R"({"do":"take"})")["operating_mode"], "MANUAL");
     run(100ms);
     EXPECT_EQ(hand_held(vehicle, R"({"do":"give_back"})")["operating_mode"], "AUTOMATIC");
+}
+
+TEST_F(VehicleTest, APageAndAControlBesideItAreTwoAndItsStatesSayWhoHasIt) {
+    vehicle.link_up();
+    const auto by_page = [&](const char* control, const char* person,
+                             vda5050::HandCommand::What what) {
+        vda5050::HandCommand command;
+        command.what = what;
+        command.sequence = 7;
+        vehicle.receive(vda5050::encode_frame(
+            vda5050::Topic::kHandHeld, false,
+            vda5050::encode_hand_frame({control, person, command},
+                                       headers.next(vda5050::Topic::kHandHeld, {}))));
+    };
+    using What = vda5050::HandCommand::What;
+    run(2s);
+    EXPECT_FALSE(state.in_hand_of);
+    by_page("h1", "ann", What::kTake);
+    run(2s);
+    EXPECT_EQ(state.operating_mode, "MANUAL");
+    EXPECT_EQ(state.in_hand_of, "ann");
+    EXPECT_EQ(sent[vda5050::Topic::kHandHeld], 1) << "it answers";
+    EXPECT_EQ(hand_held(vehicle, R"({"do":"take"})")["params"]["person"], "ann");
+    EXPECT_FALSE(hand_held(vehicle, R"({"do":"where"})").contains("mine"));
+
+    by_page("h1", "ann", What::kLeft);
+    EXPECT_EQ(hand_held(vehicle, R"({"do":"take"})")["mine"], true);
+    run(2s);
+    EXPECT_EQ(state.in_hand_of, "") << "somebody beside it";
+    by_page("h1", "ann", What::kGiveBack);
+    run(1s);
+    EXPECT_EQ(state.operating_mode, "MANUAL") << "not hers any more";
+    hand_held(vehicle, R"({"do":"give_back"})");
+    run(1s);
+    EXPECT_FALSE(state.in_hand_of);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ import type { Fleet } from "@/shared/api/types";
 import { age, days, timeOfDay } from "@/shared/words/format";
 import {
   alarms,
+  inHand,
   silent,
   useFleet,
   useLink,
@@ -13,7 +14,7 @@ import {
   useVehicles,
   type Alarm,
 } from "@/shared/live";
-import { Link, navigate } from "@/shared/router";
+import { Link, navigate, useLocation } from "@/shared/router";
 import { Banner, Button, goGuard } from "@/shared/ui";
 import { usePhone } from "@/shared/ui/useNarrow";
 import { useAlarmWords } from "@/shared/words/useAlarmWords";
@@ -164,8 +165,11 @@ function WaitingBanner({ onResume }: { onResume: () => void }) {
   const vehicles = useVehicles();
   const link = useLink();
   const may = useMayCommand();
-  const waiting = vehicles.filter((v) => v.needs_resume && !v.paused && !silent(v));
-  if (waiting.length === 0 || fleet?.paused) return null;
+  const { path } = useLocation();
+  const waiting = vehicles.filter((v) => v.needs_resume && !v.paused && !silent(v) && !inHand(v));
+  // Where it is driven by hand it is let go there.
+  const alone = waiting.length === 1 && path === `/drive/${encodeURIComponent(waiting[0]!.id)}`;
+  if (waiting.length === 0 || alone || fleet?.paused) return null;
   const first = waiting.slice(0, kNamed).map((v) => v.name);
   const more = waiting.length - first.length;
   const names = first.join(t("join")) + (more > 0 ? ` ${t("resume.more", { count: more })}` : "");

@@ -1,5 +1,5 @@
 import type { Vehicle } from "@/shared/api/types";
-import { silent } from "@/shared/live";
+import { inHand, silent } from "@/shared/live";
 
 export type ResumeGroup = "fleet" | "waits" | "singly";
 export interface ResumeRows {
@@ -10,7 +10,7 @@ export interface ResumeRows {
 /** Who may be let go, by why it stands. One that was paused by itself has its own reason to stand. */
 function groupOf(v: Vehicle): ResumeGroup | undefined {
   if (v.paused) return v.pause?.with_fleet ? "fleet" : "singly";
-  return v.needs_resume ? "waits" : undefined;
+  return v.needs_resume && !inHand(v) ? "waits" : undefined;
 }
 
 const kGroups: readonly ResumeGroup[] = ["fleet", "waits", "singly"];

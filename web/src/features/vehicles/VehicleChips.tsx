@@ -4,7 +4,6 @@ import { pressed, symbolOf } from "@/shared/live";
 import { Chip } from "@/shared/ui";
 import { fixed, mass } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import "./VehicleChips.css";
 
 /** Where it is, how it drives, what it carries, charge and fields, a word each. */
 export function VehicleChips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
@@ -28,7 +27,11 @@ export function VehicleChips({ vehicle, stale }: { vehicle: Vehicle; stale: bool
       {vehicle.link !== "never" && (
         <>
           <Chip>
-            {t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
+            {vehicle.in_hand_of === undefined
+              ? t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })
+              : vehicle.in_hand_of === ""
+                ? t("chip.in_hand_beside")
+                : t("chip.in_hand", { person: words.actor(vehicle.in_hand_of) })}
           </Chip>
           <Chip>
             {loaded

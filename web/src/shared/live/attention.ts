@@ -44,6 +44,8 @@ export interface Alarm {
 }
 
 export const pressed = (v: Vehicle) => v.e_stop !== undefined && v.e_stop !== "" && v.e_stop !== "NONE";
+/** A person drives it, or it is being serviced: nobody can let it go on from here. */
+export const inHand = (v: Vehicle) => v.operating_mode !== "AUTOMATIC";
 export const silent = (v: Vehicle) => v.link === "lost" || v.link === "gone";
 export const stale = (v: Vehicle) => v.link === "late" || silent(v);
 
@@ -77,7 +79,7 @@ const kByReason: Readonly<Record<string, [AlarmKind, Priority]>> = {
 };
 
 /** What waits for a person as a matter of course: nothing is wrong with the vehicle. */
-const kRoutine = new Set(["server_restarted", "integrated_again", "vehicle_restarted"]);
+const kRoutine = new Set(["server_restarted", "integrated_again", "vehicle_restarted", "driven_by_hand"]);
 
 type Cause = Omit<Alarm, "vehicle">;
 

@@ -1,0 +1,197 @@
+// A person drives a platform by hand from the dashboard, in Chromium against the real server and a real agent: with keys and with
+// two fingers, at three sizes, in both languages and themes; with two people at once, with an order under way, with the line cut.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { Client, angleBetween } from "../harness/client.mjs";
+import { System, until } from "../harness/processes.mjs";
+import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
+
+const kId = "TP-01";
+let system, client, browser;
+
+before(async () => {
+  system = await System.create("pulse-line", { users: ["operator", "engineer", "viewer"] });
+  system.prepareVehicles([kId]);
+  await system.startServer();
+  client = new Client(system.url, system.apiToken);
+  system.startAgent(kId, { seed: 22, timeFactor: 4, sensing: "analytic" });
+  await client.untilReady(kId);
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await system?.stop();
+});
+
+const open = (role, how = {}) => signedIn(browser, system, role, { path: `/drive/${kId}`, bypassCSP: true, ...how });
+const truth = () => system.lastTruth(kId);
+const stands = () => until("it stands", () => truth().moving === false);
+const command = (page, name) => page.locator(".nextsteps .cmd", { hasText: name });
+const isMine = (page) => page.locator(".desk[data-mine=true]").waitFor();
+/** Its way since then in its own frame of then. */
+const moved = (from) => {
+  const now = truth(), [dx, dy] = [now.x_m - from.x_m, now.y_m - from.y_m], [c, s] = [Math.cos(from.heading_rad), Math.sin(from.heading_rad)];
+  return { ahead_m: c * dx + s * dy, left_m: c * dy - s * dx, turn_rad: angleBetween(now.heading_rad, from.heading_rad) };
+};
+const take = async (page, name = "Take it in hand") => {
+  await command(page, name).click();
+  await isMine(page);
+};
+const giveBack = async (page, name = "Give it back") => {
+  await stands();
+  await until("it can be given back", async () => (await command(page, name).getAttribute("data-state")) === "ready");
+  await command(page, name).click();
+  await client.untilVehicle(kId, (v) => v.operating_mode === "AUTOMATIC" && v.in_hand_of === undefined, "is its own again");
+};
+const letGoOn = (page, name = "Resume") => decide(page, page.locator(".nextsteps .held .cmd", { hasText: name }));
+
+test("with the keyboard: held and pressed it moves as asked, let go it stands, sideways and turning together", async () => {
+  const page = await open("operator");
+  await take(page);
+  await client.untilVehicle(kId, (v) => v.in_hand_of === "operator" && v.needs_resume, "is in the operator's hands, everywhere");
+  let from = truth();
+  await page.keyboard.down("ArrowUp");
+  await page.keyboard.down("Space"); // the direction came before the hold: it does not count
+  await page.locator(".desk .says", { hasText: "Choose a direction" }).waitFor();
+  assert.ok(Math.abs(moved(from).ahead_m) < 1e-3);
+  await page.keyboard.up("ArrowUp");
+
+  await page.keyboard.down("ArrowUp");
+  await until("it has gone ahead", () => moved(from).ahead_m > 0.3);
+  await page.keyboard.up("Space");
+  await page.locator(".desk .says", { hasText: "It stands" }).waitFor();
+  await stands();
+  from = truth();
+  await page.keyboard.up("ArrowUp");
+
+  await page.keyboard.press("Digit3");
+  await page.keyboard.down("Space");
+  await page.keyboard.down("KeyA");
+  await page.keyboard.down("KeyE");
+  await until("it has gone left and turned right together", () => moved(from).left_m > 0.5 && moved(from).turn_rad < -0.02);
+  await page.evaluate(() => window.dispatchEvent(new Event("blur")));
+  await stands();
+  for (const key of ["KeyA", "KeyE", "Space"]) await page.keyboard.up(key);
+  await giveBack(page);
+  await letGoOn(page);
+  await client.untilVehicle(kId, (v) => !v.needs_resume, "may go on");
+  await page.locator(".nextsteps a", { hasText: "Send it" }).waitFor();
+  assert.deepEqual(page.errors, []);
+  await page.context().close();
+});
+
+test("with two fingers on a tablet; another finger than the hold's leaves it standing", async () => {
+  const page = await open("operator", { width: 1024, height: 768, lang: "zh", theme: "dark" });
+  await take(page, "接管车辆");
+  const touch = await page.context().newCDPSession(page);
+  const middle = async (label) => {
+    const { x, y, width, height } = await page.locator(`[aria-label="${label}"]`).boundingBox();
+    return { x: x + width / 2, y: y + height / 2 };
+  };
+  const [hold, back] = [{ ...(await middle("驾驶时按住")), id: 1 }, { ...(await middle("后退")), id: 2 }];
+  const fingers = (type, ...touchPoints) => touch.send("Input.dispatchTouchEvent", { type, touchPoints });
+  const from = truth();
+  await fingers("touchStart", back);
+  await fingers("touchEnd");
+  assert.ok(Math.abs(moved(from).ahead_m) < 1e-3, "no hold, no way");
+  await fingers("touchStart", hold);
+  await fingers("touchStart", hold, back);
+  await until("it has gone back", () => moved(from).ahead_m < -0.3);
+  await picture(page, "drive-1024-zh-dark");
+  await fingers("touchEnd", back); // the thumb leaves the hold
+  await stands();
+  await fingers("touchEnd");
+  assert.deepEqual(await overlapsOf(page), []);
+  await giveBack(page, "交还控制");
+  await letGoOn(page, "恢复");
+  assert.deepEqual(page.errors, []);
+  await page.context().close();
+});
+
+test("two people at once: the second reads who has it, moves nothing, and has it when the first has gone", async () => {
+  const ann = await open("operator"), bob = await open("engineer");
+  await take(ann);
+  await bob.locator(".nextsteps", { hasText: "operator has it in hand" }).waitFor();
+  await command(bob, "Take it in hand").click();
+  await bob.locator(".failedline", { hasText: "operator has the vehicle in hand" }).waitFor();
+  const from = truth();
+  await bob.evaluate(() => document.activeElement.blur()); // Space would press the button again
+  await bob.keyboard.down("Space");
+  await bob.keyboard.down("ArrowUp");
+  await ann.keyboard.down("Space");
+  await ann.keyboard.down("ArrowDown");
+  await until("it goes back", () => moved(from).ahead_m < -0.2);
+  const faceplate = await signedIn(browser, system, "viewer", { path: `/vehicles/${kId}` });
+  await faceplate.locator(".chip", { hasText: "In the hands of operator" }).waitFor();
+  assert.equal(await faceplate.locator("a", { hasText: "Drive by hand" }).count(), 0, "a viewer drives nothing");
+  await ann.context().close(); // her tablet is gone, the finger still down
+  await stands();
+  assert.equal((await client.get(`/api/v1/vehicles/${kId}`)).operating_mode, "MANUAL");
+  for (const key of ["ArrowUp", "Space"]) await bob.keyboard.up(key);
+  await until("it can be asked again", async () => (await command(bob, "Take it in hand").getAttribute("data-state")) !== "requested");
+  await take(bob);
+  await client.untilVehicle(kId, (v) => v.in_hand_of === "engineer", "is in the other's hands");
+  await giveBack(bob);
+  await letGoOn(bob);
+  await client.untilVehicle(kId, (v) => !v.needs_resume, "may go on");
+  await Promise.all([bob, faceplate].map((page) => page.context().close()));
+});
+
+test("taken in the middle of an order it stands, and given back the order goes on where a person says so", async () => {
+  const order = await client.order(kId, [3]);
+  await until("it drives", () => truth().moving === true);
+  const page = await open("operator");
+  await decide(page, command(page, "Take it in hand"));
+  await isMine(page);
+  const interrupted = await client.untilOrder(order.id, (o) => o.state === "Interrupted", "is interrupted");
+  assert.deepEqual([interrupted.reason.code, interrupted.reason.params.person], ["driven_by_hand", "operator"]);
+  await stands();
+  await picture(page, "drive-1920-en-light");
+  assert.deepEqual(await faultsOf(page), []);
+  assert.deepEqual(await reachFaultsOf(page), []);
+  assert.deepEqual(await overlapsOf(page), []);
+  const from = truth();
+  await page.keyboard.down("Space");
+  await page.keyboard.down("ArrowDown");
+  await until("it has gone back", () => moved(from).ahead_m < -0.2);
+  for (const key of ["ArrowDown", "Space"]) await page.keyboard.up(key);
+  await giveBack(page);
+  await letGoOn(page);
+  assert.equal((await client.untilEnded(order.id, 120)).state, "Ended");
+  await page.context().close();
+});
+
+test("the server dies under a pressed finger: it stands, and taken anew it goes on", async () => {
+  const page = await open("operator");
+  await take(page);
+  const from = truth();
+  await page.keyboard.down("Space");
+  await page.keyboard.down("ArrowUp");
+  await until("it goes ahead", () => moved(from).ahead_m > 0.2);
+  await system.kill(system.server);
+  await stands();
+  await page.locator(".desk .says.bad").waitFor();
+  await picture(page, "drive-cut-1920-en-light");
+  await system.startServer();
+  await page.locator(".desk .says", { hasText: "Take it in hand first" }).waitFor({ timeout: 30_000 });
+  const stood = truth();
+  for (const key of ["ArrowUp", "Space"]) await page.keyboard.up(key);
+  await until("it can be asked again", async () => (await command(page, "Take it in hand").getAttribute("data-state")) === "ready");
+  await take(page);
+  assert.ok(Math.abs(moved(stood).ahead_m) < 1e-3, "nothing moved by itself");
+  await giveBack(page);
+  await page.context().close();
+});
+
+test("a small screen and one without a vehicle have words, too", async () => {
+  const page = await open("operator", { width: 390, height: 844, theme: "dark" });
+  await page.locator(".desk").waitFor();
+  await picture(page, "drive-390-en-dark");
+  assert.deepEqual(await overlapsOf(page), []);
+  await page.context().close();
+  const none = await signedIn(browser, system, "operator", { path: "/drive/NO-99" });
+  await none.locator(".shell").waitFor();
+  await none.getByText("NO-99").first().waitFor();
+  await none.context().close();
+});
