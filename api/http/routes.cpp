@@ -11,6 +11,7 @@
 #include "api/http/stops/light_handlers.hpp"
 #include "api/http/stops/localization_handlers.hpp"
 #include "api/http/stops/stop_record_handlers.hpp"
+#include "api/http/vehicles/camera_handlers.hpp"
 #include "api/http/vehicles/motion_preview_handlers.hpp"
 #include "api/http/vehicles/vehicle_handlers.hpp"
 
@@ -55,6 +56,12 @@ std::span<const Route> routes() {
          kViewer,
          {},
          get_camera_image},
+        {"GET",
+         "/api/v1/vehicles/{id}/cameras/{camera}/steps/{step}",
+         "getCameraStep",
+         kViewer,
+         {},
+         get_camera_step},
         {"POST", "/api/v1/vehicles/{id}/pause", "pauseVehicle", kOperator, {}, pause_vehicle},
         {"POST",
          "/api/v1/vehicles/{id}/init-position",

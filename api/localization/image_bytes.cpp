@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <vector>
 
 #include "api/localization/file_bytes.hpp"
 
@@ -130,6 +131,12 @@ Result<cv::Mat> read_grey_file(const std::string& path) {
     const auto bytes = read_bytes(path, kMostImageBytes);
     if (!bytes) return fail(bytes.error());
     return decode_grey(*bytes, path);
+}
+
+std::string encode_png(const cv::Mat& image) {
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".png", image, bytes);
+    return {bytes.begin(), bytes.end()};
 }
 
 }  // namespace pulseline::api::localization

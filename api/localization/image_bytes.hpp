@@ -18,4 +18,7 @@ inline constexpr std::size_t kMostImagePixels = 50'000'000;
 /// Fails with file_unreadable and file_too_large as well.
 [[nodiscard]] Result<cv::Mat> read_grey_file(const std::string& path);
 
+/// Throws cv::Exception when there is no memory for it.
+std::string encode_png(const cv::Mat& image);
+
 }  // namespace pulseline::api::localization

@@ -75,9 +75,7 @@ void CameraSensing::look_expecting(std::optional<simulation::KnownFloor> known) 
     auto view = simulation::sense_stop(actual_, motion_.type().cameras, motion_.true_pose(), codes,
                                        options_, random_);
     readings_ = std::move(view.readings);
-    pictured_ = readings_;
     images_ = std::move(view.images);
-    sizes_m_ = std::move(view.sizes_m);
     fresh_ = true;
 }
 
@@ -162,9 +160,7 @@ std::vector<CameraSensing::Picture> CameraSensing::pictures() const {
     std::vector<Picture> pictures;
     const auto& cameras = motion_.type().cameras;
     for (std::size_t i = 0; i < images_.size(); ++i) {
-        const auto annotated = vision::annotate(images_[i], cameras[i],
-                                                onboard::body_from_code(pictured_[i]), sizes_m_[i]);
-        const auto jpeg = vision::encode_jpeg(annotated, cameras[i]);
+        const auto jpeg = vision::encode_jpeg(images_[i], cameras[i]);
         pictures.push_back({cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }
     return pictures;

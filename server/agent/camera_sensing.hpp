@@ -64,9 +64,7 @@ private:
     std::mt19937_64 random_;
     std::vector<plant::Camera> actual_;
     std::vector<vda5050::CameraReading> readings_;
-    std::vector<vda5050::CameraReading> pictured_;  // what the images show, one per image
     std::vector<cv::Mat> images_;
-    std::vector<double> sizes_m_;  // of the codes looked for in them
     std::optional<localisation::PoseFix> fix_;
     struct OnTheWay {
         onboard::WayReading reading;

@@ -73,20 +73,17 @@ PictureCameras::PictureCameras(const plant::VehicleType& type, const onboard::Dr
 void PictureCameras::look_expecting(std::span<const SurveyedMarker> expected) {
     readings_.clear();
     images_.clear();
-    sizes_m_.clear();
     const Pose2& at = drive_.believed_pose();
     for (std::size_t i = 0; i < type_.cameras.size(); ++i) {
         const plant::Camera& camera = type_.cameras[i];
         const auto* below = code_below(camera, at, expected);
         const auto look = look_of(type_, below);
-        sizes_m_.push_back(look.size_m);
         auto picture = shutter_.expose(i);
         images_.push_back(picture ? std::move(picture->grey) : cv::Mat());
         readings_.push_back(
             picture ? read_code(images_.back(), camera, look, below, at, errors_, loaded_)
                     : onboard::no_code(camera, picture.error().reason.code));
     }
-    pictured_ = readings_;
     fresh_ = true;
 }
 
@@ -134,9 +131,7 @@ std::vector<Cameras::Picture> PictureCameras::pictures() const {
     std::vector<Picture> pictures;
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i].empty()) continue;
-        const auto annotated = vision::annotate(images_[i], type_.cameras[i],
-                                                onboard::body_from_code(pictured_[i]), sizes_m_[i]);
-        const auto jpeg = vision::encode_jpeg(annotated, type_.cameras[i]);
+        const auto jpeg = vision::encode_jpeg(images_[i], type_.cameras[i]);
         pictures.push_back({type_.cameras[i].name, std::string(jpeg.begin(), jpeg.end())});
     }
     return pictures;

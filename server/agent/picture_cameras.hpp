@@ -53,10 +53,8 @@ private:
     localisation::ErrorBudget errors_;
     bool loaded_;
     std::vector<vda5050::CameraReading> readings_;
-    std::vector<vda5050::CameraReading> pictured_;  // what the images show, one per image
-    std::vector<cv::Mat> images_;                   // empty where none could be taken
-    std::vector<double> sizes_m_;                   // of the codes looked for in them
-    std::vector<double> since_frame_s_;             // of each camera
+    std::vector<cv::Mat> images_;        // empty where none could be taken
+    std::vector<double> since_frame_s_;  // of each camera
     std::optional<localisation::PoseFix> fix_;
     bool fresh_ = false;
 };

@@ -1,9 +1,5 @@
 #include "api/http/vehicles/vehicle_handlers.hpp"
 
-#include <fmt/format.h>
-
-#include <chrono>
-
 #include "api/http/vehicles/vehicle_json.hpp"
 #include "api/http/vehicles/vehicle_requests.hpp"
 #include "api/http/wire/etag.hpp"
@@ -31,22 +27,6 @@ FleetAnswer vehicle_answer(const FleetContext& context, const Request& request,
                            const Result<fleet::VehicleView>& changed) {
     if (!changed) return {problem(changed.error(), request)};
     return {json_response(202, vehicle_json(context.plant, context.images, *changed))};
-}
-
-/// "Sat, 21 Nov 2026 03:50:36 GMT" (RFC 9110).
-std::string http_date(Time time) {
-    constexpr const char* kDays[] = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
-    constexpr const char* kMonths[] = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
-                                       "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    const std::chrono::sys_time<std::chrono::nanoseconds> at{time.time_since_epoch()};
-    const auto day = std::chrono::floor<std::chrono::days>(at);
-    const std::chrono::year_month_day date{day};
-    const std::chrono::hh_mm_ss clock{std::chrono::floor<std::chrono::seconds>(at - day)};
-    return fmt::format(
-        "{}, {:02} {} {:04} {:02}:{:02}:{:02} GMT", kDays[std::chrono::weekday(day).c_encoding()],
-        static_cast<unsigned>(date.day()), kMonths[static_cast<unsigned>(date.month()) - 1],
-        static_cast<int>(date.year()), clock.hours().count(), clock.minutes().count(),
-        clock.seconds().count());
 }
 
 }  // namespace
@@ -107,23 +87,6 @@ FleetAnswer integrate_vehicle(FleetContext& context, const Request& request) {
         context, request,
         context.fleet.integrate(plant::VehicleId(request.param("id")), wanted->level,
                                 wanted->off_floor, request.identity.name, context.now));
-}
-
-Response get_camera_image(const InlineContext& context, const Request& request) {
-    const plant::VehicleId id(request.param("id"));
-    if (plant::find_vehicle(context.plant, id) == nullptr) {
-        return problem(unknown_vehicle(id.str()), request);
-    }
-    const auto image = context.images.newest(id, request.param("camera"));
-    if (!image) {
-        return problem(unknown("no_image", request.param("camera"),
-                               "This camera has sent no picture yet; try again later."),
-                       request);
-    }
-    return {200,
-            image->mime,
-            {{"Cache-Control", "no-store"}, {"Last-Modified", http_date(image->taken)}},
-            image->bytes};
 }
 
 FleetAnswer get_fleet(FleetContext& context, const Request&) {

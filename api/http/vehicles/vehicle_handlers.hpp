@@ -11,7 +11,6 @@ FleetAnswer init_position(FleetContext& context, const Request& request);
 FleetAnswer move_lifts(FleetContext& context, const Request& request);
 FleetAnswer stop_lifts(FleetContext& context, const Request& request);
 FleetAnswer integrate_vehicle(FleetContext& context, const Request& request);
-Response get_camera_image(const InlineContext& context, const Request& request);
 
 FleetAnswer get_fleet(FleetContext& context, const Request& request);
 FleetAnswer pause_fleet(FleetContext& context, const Request& request);

@@ -62,7 +62,6 @@ StopView sense_stop(std::span<const plant::Camera> actual,
         const auto in_reach = near(actual[i], hall_from_body, codes);
         const KnownCode* expected = code_below(calibrated[i], options.known);
         const plant::UsualCode look = expected ? expected->look : options.look;
-        view.sizes_m.push_back(look.size_m);
         const double smear_px = norm(options.smear_m) * vision::pixels_per_metre(actual[i]);
         const auto found = [&](const vision::MarkerReading& reading) {
             view.readings.push_back(

@@ -44,7 +44,6 @@ struct SensingOptions {
 struct StopView {
     std::vector<vda5050::CameraReading> readings;  // one per camera, in their order
     std::vector<cv::Mat> images;                   // 8-bit grey, one per camera; none when analytic
-    std::vector<double> sizes_m;                   // of the codes looked for, one per camera
 };
 
 /// What the cameras of a vehicle at the true pose see of the true codes. `actual` cameras

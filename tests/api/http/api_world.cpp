@@ -46,7 +46,7 @@ std::vector<Row> newest_first(const std::vector<Row>& rows, int limit, Keep keep
 std::optional<CameraImages::Image> OneImage::newest(const plant::VehicleId& vehicle,
                                                     const std::string& camera) const {
     if (vehicle.str() != "V1" || camera != "front") return std::nullopt;
-    return Image{"image/jpeg", "JPEG", time_from_ns(1'795'233'036'000'000'000)};
+    return Image{"image/jpeg", bytes, time_from_ns(1'795'233'036'000'000'000)};
 }
 
 std::optional<Time> OneImage::taken(const plant::VehicleId& vehicle,

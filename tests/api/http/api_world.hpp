@@ -22,6 +22,7 @@ public:
                                 const std::string& camera) const override;
     std::optional<Time> taken(const plant::VehicleId& vehicle,
                               const std::string& camera) const override;
+    std::string bytes = "JPEG";
 };
 
 class FakeService : public Service {

@@ -2,6 +2,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
 #include "api/http/plant/grid_png.hpp"
 #include "api/http/wire/common_json.hpp"
 #include "api/http/wire/problem.hpp"
@@ -183,6 +186,31 @@ TEST(Vehicles, CameraPictureCarriesWhenItWasTaken) {
     EXPECT_EQ(image.content_type, "image/jpeg");
     EXPECT_EQ(image.body, "JPEG");
     EXPECT_EQ(image.header("Last-Modified"), "Sat, 21 Nov 2026 03:50:36 GMT");
+}
+
+TEST(Vehicles, ACameraPictureComesInTheStepsOfThePaper) {
+    plant::Plant plant = fleet::testing::small_plant();
+    plant::Camera camera;
+    camera.name = "front";
+    for (auto& type : plant.vehicle_types) type.cameras = {camera};
+    ApiWorld api(plant);
+    const std::string path = "/api/v1/vehicles/V1/cameras/front/steps/";
+    EXPECT_EQ(api.get(path + "grey").code(), "no_image") << "what came is no picture";
+    cv::Mat grey(camera.height_px / 2, camera.width_px / 2, CV_8U, cv::Scalar(200));
+    cv::rectangle(grey, {250, 180}, {350, 280}, cv::Scalar(20), cv::FILLED);
+    std::vector<std::uint8_t> jpeg;
+    cv::imencode(".jpg", grey, jpeg);
+    api.images.bytes.assign(jpeg.begin(), jpeg.end());
+    for (const char* step : {"grey", "edges", "corners"}) {
+        const Answer answer = api.get(path + step);
+        ASSERT_EQ(answer.status, 200) << step << answer.body;
+        EXPECT_EQ(answer.content_type, "image/png");
+        const std::vector<std::uint8_t> png(answer.body.begin(), answer.body.end());
+        EXPECT_EQ(cv::imdecode(png, cv::IMREAD_UNCHANGED).size(), grey.size()) << step;
+    }
+    EXPECT_EQ(api.get(path + "magic").code(), "unknown_step");
+    EXPECT_EQ(api.get("/api/v1/vehicles/V1/cameras/belly/steps/grey").code(), "no_image");
+    EXPECT_EQ(api.get("/api/v1/vehicles/V9/cameras/front/steps/grey").code(), "unknown_vehicle");
 }
 
 TEST(ServiceHandlers, HealthReadinessMetricsAndTheDocumentAnswer) {

@@ -131,12 +131,12 @@ function GiveBack({ vehicle, control, state }: Pick<Props, "vehicle" | "control"
 
 /** Where its cameras have to find their codes before it can be left to itself (Tang 2020, section 2, workflow a). */
 function Codes({ vehicle, type }: Pick<Props, "vehicle" | "type">) {
-  const { t } = useTranslation(["drive", "vehicles"]);
+  const { t } = useTranslation(["drive", "body"]);
   return (
     <span className="codes">
       {(type?.cameras ?? []).map(({ name }) => {
-        const camera = t(`vehicles:camera.title.${name}`, {
-          defaultValue: t("vehicles:camera.other", { name }),
+        const camera = t(`body:camera.title.${name}`, {
+          defaultValue: t("body:camera.other", { name }),
         });
         const seen = vehicle.cameras.find((one) => one.name === name);
         const off = millimetres(Math.hypot(seen?.forward_m ?? 0, seen?.left_m ?? 0));

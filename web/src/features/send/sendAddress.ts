@@ -1,9 +1,9 @@
-const kKept = ["vehicle", "station", "order"] as const;
+const kKept = ["vehicle", "station", "order", "view"] as const;
 type Kept = (typeof kKept)[number];
 
 /**
  * The address of Send with what has been chosen: whoever is signed out, goes back or loads the page again
- * finds vehicle, station and the order that is watched as they were. What `change` does not name stays.
+ * finds vehicle, station, the order that is watched and what is looked at as they were. What `change` does not name stays.
  */
 export function sendAddress(
   change: Partial<Record<Kept, string | undefined>>,

@@ -16,14 +16,14 @@ import { Link } from "@/shared/router";
 import { Card, PanelEmpty, StatusSymbol, Tabs, VehicleMini } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { age } from "@/shared/words/format";
-import { CameraCard } from "./CameraCard";
+import { CameraCard } from "@/shared/body/CameraCard";
 import { ElsewhereCard } from "./ElsewhereCard";
 import { FixesCard } from "./FixesCard";
 import { IntegrationCard } from "./IntegrationCard";
-import { LiftsCard } from "./LiftsCard";
-import { LoadsCard } from "./LoadsCard";
+import { LiftsCard } from "@/shared/body/LiftsCard";
+import { LoadsCard } from "@/shared/body/LoadsCard";
 import { PoseCard } from "./PoseCard";
-import { shownCameras } from "./shownCameras";
+import { shownCameras } from "@/shared/body/shownCameras";
 import { StopsCard } from "./StopsCard";
 import { useHeard } from "./useHeard";
 import { VehicleChips } from "./VehicleChips";
@@ -60,7 +60,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
   const cameras =
     shown.length === 0 ? (
       <Card title={t("tabs.cameras")}>
-        <PanelEmpty what={t("camera.none")} />
+        <PanelEmpty what={t("body:camera.none")} />
       </Card>
     ) : (
       shown.map(({ name, camera }) => (
@@ -71,6 +71,7 @@ export function Faceplate({ vehicle }: { vehicle: Vehicle }) {
           camera={camera}
           type={type?.cameras.find((x) => x.name === name)}
           now={now}
+          steps={narrow}
         />
       ))
     );

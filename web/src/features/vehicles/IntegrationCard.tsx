@@ -6,7 +6,7 @@ import { CommandFailed } from "@/shared/commands";
 import { CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { canApply, holdsFloor, levels, type Level } from "./integration";
-import "./IntegrationCard.css";
+import "@/shared/ui/folded.css";
 
 /** How far a vehicle takes part; takes it out and in again. */
 export function IntegrationCard({ vehicle, refused }: { vehicle: Vehicle; refused: string | undefined }) {

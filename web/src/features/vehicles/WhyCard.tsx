@@ -116,12 +116,12 @@ function Row({ row, ageS, stale }: { row: WhyRow; ageS: number | undefined; stal
           name: t("why.load"),
           value: t("why.load_line", {
             state: row.fault ? words.reason(row.fault) : t(row.empty ? "why.no_load" : "why.balanced"),
-            feet: t(row.down ? "loads.feet_lowered" : "loads.feet_raised"),
+            feet: t(row.down ? "body:loads.feet_lowered" : "body:loads.feet_raised"),
           }),
         };
       case "wheel":
         return {
-          name: t("loads.wheel", { name: words.wheel(row.wheel.name) }),
+          name: t("body:loads.wheel", { name: words.wheel(row.wheel.name) }),
           value: row.wheel.fault
             ? words.fault(row.wheel.fault)
             : t("why.warm", { temperature: fixed(row.wheel.temperature_c, 0) }),

@@ -1,3 +1,4 @@
+import { parseNumber } from "@/shared/words/parseNumber";
 import type { Plant, Pose, StatedPose } from "@/shared/api/types";
 
 /** What a person typed to say where the vehicle stands. */
@@ -41,18 +42,6 @@ export type InitResult =
   | { kind: "bad_station"; number: string }
   | { kind: "bad_number"; field: "x" | "y" | "heading" }
   | { kind: "bad_heading" };
-
-/** A typed number; comma or real minus are as good as point and hyphen. Groups of three may be set apart. */
-export function parseNumber(text: string): number | undefined {
-  const plain = text
-    .trim()
-    .replace(/\u2212/g, "-")
-    .replace(/[\s\u2009\u00a0]/g, "");
-  const normal = /^[+-]?\d{1,3}(,\d{3})+(\.\d+)?$/.test(plain)
-    ? plain.replace(/,/g, "")
-    : plain.replace(",", ".");
-  return /^[+-]?(\d+\.?\d*|\.\d+)$/.test(normal) ? Number(normal) : undefined;
-}
 
 export function readDraft(draft: InitDraft, plant: Plant | undefined): InitResult {
   if (draft.how === "station") {

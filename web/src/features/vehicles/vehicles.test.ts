@@ -1,10 +1,11 @@
 import { describe, expect, it } from "vitest";
 import type { Plant, Vehicle, VehicleType } from "@/shared/api/types";
-import { footCorner, onSheet, sheetOf } from "./drawing/faceplate";
+import { footCorner, onSheet, sheetOf } from "@/shared/body/drawing/faceplate";
 import { canApply } from "./integration";
-import { draftOf, emptyDraft, parseNumber, readDraft } from "./initPosition";
-import { summarise, titleOf } from "./drawing/loads";
-import { shownCameras } from "./shownCameras";
+import { parseNumber } from "@/shared/words/parseNumber";
+import { draftOf, emptyDraft, readDraft } from "./initPosition";
+import { summarise, titleOf } from "@/shared/body/drawing/loads";
+import { shownCameras } from "@/shared/body/shownCameras";
 import { byUrgency } from "./urgency";
 import { newest } from "./useHeard";
 import { whyRows } from "./whyRows";

@@ -1,8 +1,8 @@
 import type { Reason, StationState, Vehicle, VehicleType } from "@/shared/api/types";
 import { faultKey } from "@/shared/words/faults";
 import { feetDown } from "@/shared/live/feet";
-import { wheelState } from "./drawing/faceplate";
-import { summarise } from "./drawing/loads";
+import { wheelState } from "@/shared/body/drawing/faceplate";
+import { summarise } from "@/shared/body/drawing/loads";
 
 /** One line under "Why is it standing?": what was looked at and what it says. */
 export type WhyRow =

@@ -12,7 +12,7 @@ const kBeside = 1.06;
 
 /** Words beside wheels and parking feet. */
 export function WheelLabels({ vehicle, type, sheet }: OnSheetProps) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const words = useWords();
   const row = sheet.height * 0.049;
   return (

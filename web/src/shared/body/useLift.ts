@@ -13,7 +13,7 @@ export interface Lift {
 
 /** A movement as it is asked for here, and how far it is, whoever asked. */
 export function useLift(vehicle: Vehicle, type: LiftCommand["type"], body: LiftCommand | undefined): Lift {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const words = useWords();
   const [asked, setAsked] = useState<string>();
   const command = useCommand(

@@ -5,7 +5,7 @@ import { summarise, type SensorShare } from "./loads";
 
 /** A card a bracket: how high it is, and the forces of its two pins. */
 export function ForceCards({ vehicle, type, sheet }: OnSheetProps) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const summary = summarise(vehicle, type);
   if (!summary) return null;
   return (

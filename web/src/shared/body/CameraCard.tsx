@@ -1,9 +1,12 @@
+import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
+import { usePlant } from "@/shared/live";
 import { Card, Chip } from "@/shared/ui";
 import { age, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
 import type { Camera } from "./shownCameras";
-import { usePicture } from "./usePicture";
+import { onPicture, outlineOf } from "./onPicture";
+import { kSteps, usePicture, type PictureStep } from "./usePicture";
 import "./CameraCard.css";
 
 type CameraType = VehicleType["cameras"][number];
@@ -15,14 +18,18 @@ export function CameraCard({
   camera,
   type,
   now,
+  steps = false,
 }: {
   vehicle: Vehicle;
   name: string;
   camera: Camera | undefined;
   type: CameraType | undefined;
   now: number;
+  /** Offers the steps by which a code is found (Tang 2020, Fig. 9): where there is room to look at them. */
+  steps?: boolean;
 }) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
+  const [step, setStep] = useState<PictureStep>("result");
   const title = t(`camera.title.${name}`, { defaultValue: t("camera.other", { name }) });
   const old = secondsSince(camera?.image_at, now);
   return (
@@ -32,8 +39,17 @@ export function CameraCard({
       summary={<Chip symbol={camera?.found ? "c-ok" : "c-no"}>{found()}</Chip>}
       right={age(old)}
     >
+      {steps && (
+        <div className="seg camsteps" role="group" aria-label={t("camera.steps")}>
+          {kSteps.map((one) => (
+            <button key={one} type="button" aria-pressed={one === step} onClick={() => setStep(one)}>
+              {t(`camera.step.${one}`)}
+            </button>
+          ))}
+        </div>
+      )}
       <div className="camin">
-        <Picture vehicle={vehicle.id} name={name} camera={camera} type={type} title={title} />
+        <Picture vehicle={vehicle.id} name={name} camera={camera} type={type} title={title} step={step} />
         <Readings camera={camera} />
       </div>
     </Card>
@@ -59,43 +75,47 @@ function Picture({
   camera,
   type,
   title,
+  step,
 }: {
   vehicle: string;
   name: string;
   camera: Camera | undefined;
   type: CameraType | undefined;
   title: string;
+  step: PictureStep;
 }) {
-  const { t } = useTranslation("vehicles");
-  const shown = usePicture(vehicle, name, camera?.image_at);
+  const { t } = useTranslation("body");
+  const shown = usePicture(vehicle, name, camera?.image_at, step);
   return (
     <div className="camimg" style={{ aspectRatio: `${type?.width_px ?? 1280} / ${type?.height_px ?? 1024}` }}>
       {shown === undefined ? (
         <span className="lab">{t("camera.no_image")}</span>
       ) : (
         <>
-          <img src={shown} alt={t("camera.image", { name: title })} />
-          {camera && <Overlay camera={camera} type={type} />}
+          <img
+            src={shown}
+            alt={t(step === "result" ? "camera.image" : "camera.image_step", {
+              name: title,
+              step: t(`camera.step.${step}`),
+            })}
+          />
+          {camera && step === "result" && <Overlay camera={camera} type={type} />}
         </>
       )}
     </div>
   );
 }
 
-/** Cross hair of the camera's axis and a vector to the code: forward is up in the picture as mounted. */
+/** Cross hair of the camera's axis, the code's outline and a vector to its middle: forward is up in the picture as mounted. */
 function Overlay({ camera, type }: { camera: Camera; type: CameraType | undefined }) {
+  const size_m = useCodeSize(camera.payload);
   if (!type) return null;
-  const scale = type.f_px / type.height_m; // px per metre on the floor
   const { width_px: w, height_px: h, cu_px: cu, cv_px: cv } = type;
   const seen = camera.found && camera.forward_m !== undefined && camera.left_m !== undefined;
-  const mount = type.body_from_camera.heading_rad;
-  // Body offsets into the camera's own axes: image u is camera x, image v camera y, seen from above.
-  const fx = camera.forward_m ?? 0;
-  const fy = camera.left_m ?? 0;
-  const x = Math.cos(mount) * fx + Math.sin(mount) * fy;
-  const y = -Math.sin(mount) * fx + Math.cos(mount) * fy;
-  const u = cu + x * scale;
-  const v = cv - y * scale;
+  const { u, v } = onPicture(type, camera.forward_m ?? 0, camera.left_m ?? 0);
+  const outline = outlineOf(type, camera, size_m)
+    .map((corner) => `${corner.u} ${corner.v}`)
+    .join("L");
   const line = w / 175;
   return (
     <svg viewBox={`0 0 ${w} ${h}`} aria-hidden="true">
@@ -108,6 +128,8 @@ function Overlay({ camera, type }: { camera: Camera; type: CameraType | undefine
       />
       {seen && (
         <>
+          <path d={`M${outline}Z`} className="edge" strokeWidth={2.4 * line} />
+          <path d={`M${outline}Z`} className="mark" strokeWidth={1.2 * line} />
           <path d={`M${cu} ${cv}L${u} ${v}`} className="edge" strokeWidth={4.4 * line} />
           <circle cx={u} cy={v} r={4 * line} className="edgef" />
           <path d={`M${cu} ${cv}L${u} ${v}`} className="mark" strokeWidth={2.4 * line} />
@@ -118,8 +140,14 @@ function Overlay({ camera, type }: { camera: Camera; type: CameraType | undefine
   );
 }
 
+const kUsualSize_m = 0.06;
+function useCodeSize(payload: string): number {
+  const markers = usePlant().data?.markers;
+  return markers?.find((marker) => marker.payload === payload)?.size_m ?? kUsualSize_m;
+}
+
 function Readings({ camera }: { camera: Camera | undefined }) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const seen = camera?.found ? camera : undefined;
   const forward = seen?.forward_m;
   const left = seen?.left_m;

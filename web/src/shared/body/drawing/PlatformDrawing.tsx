@@ -17,7 +17,7 @@ export interface PlatformDrawingProps {
 
 /** The platform from above (Tang 2020, Fig. 12): brackets with their forces, wheels, feet, centre of load. */
 export function PlatformDrawing({ vehicle, type, stale }: PlatformDrawingProps) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const sheet = sheetOf(type);
   const { width, height } = sheet;
   return (

@@ -15,7 +15,7 @@ interface Props extends Lift {
 
 /** Something about a vehicle's load, in two presses; barred as a transfer of that type is. */
 export function LoadButton({ label, vehicle, type, command, progress, refused }: Props) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const bar = liftBar(vehicle, type);
   return (
     <>

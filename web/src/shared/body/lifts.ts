@@ -1,5 +1,5 @@
 import type { LiftCommand, Load, Reason, Vehicle } from "@/shared/api/types";
-import { parseNumber } from "./initPosition";
+import { parseNumber } from "@/shared/words/parseNumber";
 
 export const kAll = "all";
 export type SpeedDraft = { kind: "speed"; speed_mps: number } | { kind: "full" } | { kind: "bad_speed" };

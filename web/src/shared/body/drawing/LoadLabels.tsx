@@ -5,7 +5,7 @@ import { summarise } from "./loads";
 
 /** Weight and centre of the load. */
 export function LoadLabels({ vehicle, type, sheet }: OnSheetProps) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const summary = summarise(vehicle, type);
   const centre = vehicle.load_centre;
   if (type?.brackets.length === 0) return null;

@@ -16,7 +16,7 @@ interface Props {
 
 /** Nobody saw the end of a transfer: while the brackets contradict what is known, a person says where the load is. */
 export function PlaceLoad({ vehicle, refused }: Props) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const words = useWords();
   const loads = usePlant().data?.loads ?? [];
   const stations = useStations();
@@ -48,7 +48,7 @@ export function PlaceLoad({ vehicle, refused }: Props) {
 }
 
 function PlaceButton({ vehicle, refused, said, name }: Props & { said: SaidPlace; name: string }) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const { load, is, station } = said;
   const command = useCommand(
     useCallback(() => {

@@ -13,7 +13,7 @@ import { heights, kAll, liftBar, readHeight, readSpeed, reasonOf } from "./lifts
 import { LoadTransfer } from "./LoadTransfer";
 import { PlaceLoad } from "./PlaceLoad";
 import { useLift, type Lift } from "./useLift";
-import "./IntegrationCard.css";
+import "@/shared/ui/folded.css";
 import "./LiftsCard.css";
 
 interface Props {
@@ -22,17 +22,21 @@ interface Props {
   /** Why commands are off. */
   refused: string | undefined;
 }
+type CardProps = Props & {
+  /** Unfolded from the beginning: where nothing else is to be seen. */
+  open?: boolean;
+};
 
 /** Brackets and parking feet outside an order: one movement at a time, held with one press by anybody. */
-export function LiftsCard({ vehicle, type, refused }: Props) {
-  const { t } = useTranslation("vehicles");
+export function LiftsCard({ vehicle, type, refused, open = false }: CardProps) {
+  const { t } = useTranslation("body");
   const words = useWords();
   const { id, lift } = vehicle;
   const hold = useCommand(
     useCallback(() => call(api.POST("/api/v1/vehicles/{id}/lifts/stop", { params: { path: { id } } })), [id]),
   );
   const holding = useProgress(hold, lift?.state !== "under_way", vehicle.name);
-  const [opened, setOpened] = useState(false);
+  const [opened, setOpened] = useState(open);
   const asks = lift !== undefined || vehicle.load_fault !== undefined;
   if (asks && !opened) setOpened(true); // and stays so when that is over
   const hasBrackets = (type?.brackets.length ?? 0) > 0;
@@ -105,7 +109,7 @@ function Choice(props: {
 
 /** Which bracket, how high, how fast, and the button. */
 function BracketLift({ vehicle, type, refused }: Props) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const [bracket, setBracket] = useState(kAll);
   const [text, setText] = useState("");
   const [speedText, setSpeedText] = useState("");
@@ -182,7 +186,7 @@ function BracketLift({ vehicle, type, refused }: Props) {
 
 /** All feet down until they carry, or up; or one alone. */
 function FootLift({ vehicle, refused }: Props) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const [foot, setFoot] = useState(kAll);
   const one = foot === kAll ? undefined : foot;
   const lower = useFeet(vehicle, "lowerParking", one);

@@ -19,7 +19,7 @@ export function LoadsCard({
   stale: boolean;
   heard_s: number | undefined;
 }) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const words = useWords();
   const summary = summarise(vehicle, type);
   const parts: string[] = [];

@@ -7,7 +7,7 @@ import { useLift } from "./useLift";
 
 /** Taking over what hangs or stands where the vehicle stands, or setting down there what it carries. */
 export function LoadTransfer({ vehicle, refused }: { vehicle: Vehicle; refused: string | undefined }) {
-  const { t } = useTranslation("vehicles");
+  const { t } = useTranslation("body");
   const loads = usePlant().data?.loads ?? [];
   const here = useStations().find((station) => station.id === vehicle.at_station);
   const wanted = vehicle.load ?? here?.state?.load;
