@@ -1,5 +1,7 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
+import { useMayCommand } from "@/shared/live";
+import { Link } from "@/shared/router";
 import { Card, StatusSymbol, Value } from "@/shared/ui";
 import { age, dateTime, fixed, heading, length, millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
@@ -14,6 +16,7 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
   const atMs = heard.pose_s === undefined ? undefined : now - heard.pose_s * 1000;
   const shared = { ageS: pose ? ageS : ("never" as const), atMs };
   const words = useWords();
+  const may = useMayCommand();
   const codes = vehicle.codes_under_way;
   const chain = vehicle.leg?.marker_chain;
   const light = lightWords(vehicle);
@@ -118,6 +121,11 @@ export function PoseCard({ vehicle, heard, now }: { vehicle: Vehicle; heard: Hea
           />
           <span>{t(`pose.reflectors.${reflectors.key}`, reflectors.values)}</span>
         </p>
+      )}
+      {may && (
+        <Link className="btn byhand" to={`/drive/${encodeURIComponent(vehicle.id)}`}>
+          {t("command.drive")}
+        </Link>
       )}
     </Card>
   );
