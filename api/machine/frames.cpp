@@ -39,6 +39,7 @@ void members(V& visit, F& f) {
     visit(f.brackets);
     visit(f.feet);
     visit(f.cameras);
+    visit(f.scanners);
 }
 template <class V, class F>
 requires std::same_as<std::remove_const_t<F>, SetPoints::Wheel>
@@ -132,6 +133,24 @@ template <class V, class F>
 requires std::same_as<std::remove_const_t<F>, Refused>
 void members(V& visit, F& f) { visit(f.why); }
 
+template <class V, class F>
+requires std::same_as<std::remove_const_t<F>, Look>
+void members(V& visit, F& f) { visit(f.id); }
+template <class V, class F>
+requires std::same_as<std::remove_const_t<F>, Scans::Scan>
+void members(V& visit, F& f) {
+    visit(f.first_rad);
+    visit(f.step_rad);
+    visit(f.blind);
+    visit.ranges(f.ranges_m);
+}
+template <class V, class F>
+requires std::same_as<std::remove_const_t<F>, Scans>
+void members(V& visit, F& f) {
+    visit(f.id);
+    visit(f.scans);
+}
+
 class Writer {
 public:
     explicit Writer(std::string& out) : out_(out) {}
@@ -174,6 +193,11 @@ public:
     void bytes(const std::string& bytes, std::size_t count) {
         assert(bytes.size() == count);
         out_ += bytes.substr(0, count);
+    }
+    void ranges(const std::vector<float>& ranges_m) {
+        assert(ranges_m.size() <= kMostRays);
+        (*this)(static_cast<std::uint16_t>(ranges_m.size()));
+        for (const float range_m : ranges_m) (*this)(std::bit_cast<std::uint32_t>(range_m));
     }
 
 private:
@@ -247,6 +271,18 @@ public:
         }
     }
     void bytes(std::string& bytes, std::size_t count) { bytes = take(count); }
+    void ranges(std::vector<float>& ranges_m) {
+        std::uint16_t count = 0;
+        (*this)(count);
+        if (count > kMostRays) return refuse("too many rays");
+        ranges_m.assign(count, 0.0F);
+        for (float& range_m : ranges_m) {
+            std::uint32_t bits = 0;
+            (*this)(bits);
+            range_m = std::bit_cast<float>(bits);
+            if (!std::isfinite(range_m) || range_m < 0) return refuse("a range that is none");
+        }
+    }
 
 private:
     void refuse(const char* why) {

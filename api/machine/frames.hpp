@@ -15,10 +15,12 @@
 /// endian; numbers in SI units, in the order of the members here; texts behind their length.
 namespace pulseline::machine {
 
-constexpr std::uint16_t kVersion = 1;
+constexpr std::uint16_t kVersion = 2;
 /// Of one frame behind its length: a picture of one camera and what is around it.
 constexpr std::size_t kLargestFrame = 4U << 20U;
-constexpr std::size_t kMostParts = 64;  // wheels, brackets, feet or cameras of one machine
+constexpr std::size_t kMostParts =
+    64;  // wheels, brackets, feet, cameras or scanners of one machine
+constexpr std::size_t kMostRays = 4096;  // of one turn of a laser scanner
 
 /// From the program, first of all. Before it nothing else is taken.
 struct Hello {
@@ -37,6 +39,7 @@ struct Description {
     std::vector<std::string> brackets;
     std::vector<std::string> feet;
     std::vector<std::string> cameras;
+    std::vector<std::string> scanners;
     bool operator==(const Description&) const = default;
 };
 
@@ -144,6 +147,26 @@ struct Picture {
     bool operator==(const Picture&) const = default;
 };
 
+/// From the program: what all laser scanners see, now.
+struct Look {
+    std::uint32_t id = 0;
+    bool operator==(const Look&) const = default;
+};
+
+/// From the machine: the newest turn of each scanner, in the order of the description.
+struct Scans {
+    struct Scan {
+        double first_rad = 0;  // of the first ray, in the scanner's own frame
+        double step_rad = 0;
+        bool blind = false;           // its window is dirty or covered, as it says itself
+        std::vector<float> ranges_m;  // 0: nothing came back
+        bool operator==(const Scan&) const = default;
+    };
+    std::uint32_t id = 0;
+    std::vector<Scan> scans;
+    bool operator==(const Scans&) const = default;
+};
+
 /// From the machine, and then it closes: why it does not talk to this program.
 struct Refused {
     std::string why;
@@ -151,7 +174,7 @@ struct Refused {
 };
 
 using Frame = std::variant<Hello, Description, SetPoints, Feedback, Lift, LiftEnded, StopLifts,
-                           SwitchOff, Expose, Picture, Refused>;
+                           SwitchOff, Expose, Picture, Refused, Look, Scans>;
 
 /// Length and all. REQUIRES: no more parts or bytes than a frame may have.
 std::string encode(const Frame& frame);

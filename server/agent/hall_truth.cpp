@@ -43,4 +43,9 @@ std::vector<geometry::Pose2> charger_contacts(const plant::Plant& plant) {
     return poses;
 }
 
+geometry::Polygon thing_at(geometry::Point2 place) {
+    constexpr double kBox_m = 0.5;
+    return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
+}
+
 }  // namespace pulseline::agent

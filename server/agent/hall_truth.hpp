@@ -21,4 +21,7 @@ std::optional<simulation::TrueLoad> carried_at_first(const plant::Plant& plant,
 /// The contacts stand where the drawing says; the vehicle's stop is what is measured against them.
 std::vector<geometry::Pose2> charger_contacts(const plant::Plant& plant);
 
+/// Somebody left a box standing there, hall frame.
+geometry::Polygon thing_at(geometry::Point2 place);
+
 }  // namespace pulseline::agent

@@ -36,6 +36,7 @@ struct MachineOptions {
     std::string errors = "nominal";
     std::string truth_log;
     std::uint64_t seed = 1;
+    std::vector<std::string> faults;
 };
 
 /// The controller with its one program, and the truth for those who judge.
@@ -67,7 +68,9 @@ public:
             error_code ec;
             co_await timer.async_wait(into(ec));
             const auto now = Steady::now();
-            controller_.wait(std::chrono::duration<double>(now - last).count());
+            const double passed_s = std::chrono::duration<double>(now - last).count();
+            controller_.wait(passed_s);
+            controller_.apply_faults(passed_s);
             last = now;
             tell_truth(now);
         }
@@ -172,7 +175,18 @@ Status run(const MachineOptions& options) {
     const auto address = parse_machine(options.listen);
     if (!address) return fail(address.error());
 
-    SimulatedController controller(world, *vehicle, loaded, *pose, {options.seed, {}, false});
+    SimulatedController::Settings settings;
+    settings.seed = options.seed;
+    for (const auto& text : options.faults) {
+        auto fault = parse_fault(text);
+        if (!fault) return fail(fault.error());
+        if (!SimulatedController::has(fault->kind)) {
+            return fail(Errc::kInvalid, "bad_fault",
+                        "fault \"" + text + "\" is none that a machine over TCP has");
+        }
+        settings.faults.push_back(std::move(*fault));
+    }
+    SimulatedController controller(world, *vehicle, loaded, *pose, settings);
     Host host(controller, options.vehicle, std::move(truth));
     net::io_context io(1);
     error_code ec;
@@ -210,6 +224,11 @@ int machine_command(int argc, char** argv) {
     app.add_option("--errors", options.errors,
                    "how well the simulated machine and floor are kept: nominal, kind, harsh")
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
+    app.add_option(
+        "--fault", options.faults,
+        "for tests: wheel=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, camera-dark, "
+        "look-out-covered, obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, each with "
+        "@SECONDS or without, and behind driving: or not");
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
     CLI11_PARSE(app, argc, argv);
     try {

@@ -76,14 +76,17 @@ Result<geometry::Pose2> start_pose(const Options& options, const simulation::Wor
     return simulation::placed_pose(world, vehicle, options.seed);
 }
 
-/// Its machine is behind a controller; it has no scanner, and needs no map.
+/// Its machine is behind a controller.
 Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& world,
-                              const plant::Vehicle& vehicle) {
+                              const plant::Vehicle& vehicle,
+                              std::shared_ptr<const mapping::MatchedMap> map) {
     const auto address = parse_machine(options.machine);
     if (!address) return fail(address.error());
     VehicleSettings known;
     known.hall = plant::find_station(world.plant, vehicle.home)->hall;
     known.learned = options.learned;
+    known.map = std::move(map);
+    known.particles_seed = simulation::seed_for(options.seed, "particles " + vehicle.id.str());
     TcpMachine::Settings settings;
     settings.time_factor = options.time_factor;
     settings.errors = world.errors;
@@ -111,7 +114,8 @@ Result<Unit> make_vehicle(const Options& options, const simulation::World& world
     if (!pose) return fail(pose.error());
     auto map = maps.of(plant::find_station(world.plant, vehicle->home)->hall);
     if (!map) return fail(map.error());
-    if (!options.machine.empty()) return make_tcp_vehicle(options, world, *vehicle);
+    if (!options.machine.empty())
+        return make_tcp_vehicle(options, world, *vehicle, std::move(*map));
     SimulationSettings settings;
     settings.seed = options.seed;
     settings.time_factor = options.time_factor;

@@ -79,6 +79,8 @@ SimulatedController::SimulatedController(const simulation::World& world,
                  first_load_kg(world.plant, vehicle),
                  simulation::seed_for(settings.seed, "body " + vehicle.id.str())),
       cameras_(type.cameras),
+      scanners_(world, hall_, type, wheels_.true_pose(),
+                simulation::seed_for(settings.seed, "scanners " + vehicle.id.str())),
       random_(simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
       settings_(settings),
       load_kg_(first_load_kg(world.plant, vehicle)),
@@ -120,6 +122,8 @@ std::vector<Frame> SimulatedController::handle(const Frame& frame) {
         wheels_.switch_off(type_.wheels[off->wheel].name);
     } else if (const auto* expose = std::get_if<Expose>(&frame)) {
         answers.push_back(picture(*expose));
+    } else if (const auto* look = std::get_if<Look>(&frame)) {
+        answers.push_back(scans(*look));
     } else {
         return {Refused{"not_for_a_machine: that is what it says itself"}};
     }
@@ -136,6 +140,7 @@ Description SimulatedController::description() const {
         for (const auto& foot : type_.parking->feet) told.feet.push_back(foot.name);
     }
     for (const auto& camera : type_.cameras) told.cameras.push_back(camera.name);
+    for (const auto& scanner : type_.scanners) told.scanners.push_back(scanner.name);
     return told;
 }
 
@@ -230,7 +235,7 @@ void SimulatedController::end_lift(std::vector<Frame>& answers) {
 
 Frame SimulatedController::picture(const Expose& expose) {
     if (expose.camera >= cameras_.size()) return Refused{"unknown_camera: it has fewer"};
-    const auto codes = codes_around(world_, hall_, true_pose(), true);
+    const auto codes = codes_around(world_, hall_, true_pose(), !covered_);
     auto conditions = simulation::ImageConditions::nominal(random_);
     if (settings_.dark) conditions.exposure = 0;
     const auto& camera = cameras_[expose.camera];
@@ -245,6 +250,72 @@ Frame SimulatedController::picture(const Expose& expose) {
                             static_cast<std::size_t>(image.cols));
     }
     return picture;
+}
+
+Frame SimulatedController::scans(const Look& look) {
+    scanners_.scan(seen_);
+    Scans told;
+    told.id = look.id;
+    for (const auto& scan : seen_) {
+        auto& one = told.scans.emplace_back();
+        one.first_rad = scan.first_rad;
+        one.step_rad = scan.step_rad;
+        one.blind = scan.blind;
+        one.ranges_m = scan.ranges_m;
+        for (float& range_m : one.ranges_m) range_m = control::is_return(range_m) ? range_m : 0;
+    }
+    return told;
+}
+
+bool SimulatedController::has(Fault::Kind fault) {
+    return fault != Fault::Kind::kBearing && fault != Fault::Kind::kTransmitterDark &&
+           fault != Fault::Kind::kScannerCovered;
+}
+
+void SimulatedController::apply_faults(double dt_s) {
+    age_s_ += dt_s;
+    std::erase_if(settings_.faults, [&](const Fault& fault) {
+        if (age_s_ < fault.after_s || (fault.driving && braked_)) return false;
+        apply(fault);
+        return true;
+    });
+}
+
+void SimulatedController::apply(const Fault& fault) {
+    switch (fault.kind) {
+        case Fault::Kind::kMarkerLost:
+            covered_ = true;
+            break;
+        case Fault::Kind::kDark:
+            settings_.dark = true;
+            break;
+        case Fault::Kind::kObstacle:
+            scanners_.put(thing_at(fault.place));
+            break;
+        case Fault::Kind::kWayFree:
+            scanners_.take_away();
+            scanners_.clean();
+            break;
+        case Fault::Kind::kLookOutCovered:
+            scanners_.cover();
+            break;
+        case Fault::Kind::kWheel:
+            wheels_.break_wheel(fault.part);
+            break;
+        case Fault::Kind::kSlip:
+            wheels_.set_slip(fault.part, fault.share);
+            break;
+        case Fault::Kind::kEncoder:
+            wheels_.kill_encoder(fault.part);
+            break;
+        case Fault::Kind::kCarried:
+            wheels_.carry(fault.carried);
+            break;
+        case Fault::Kind::kBearing:
+        case Fault::Kind::kTransmitterDark:
+        case Fault::Kind::kScannerCovered:
+            break;  // it has none of these
+    }
 }
 
 void SimulatedController::wait(double dt_s) {

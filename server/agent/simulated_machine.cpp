@@ -20,12 +20,6 @@ double first_charge(const plant::Vehicle& vehicle, const SimulationSettings& set
     return std::uniform_real_distribution<double>(82, 98)(random);
 }
 
-/// Somebody left a box standing there.
-geometry::Polygon thing_at(geometry::Point2 place) {
-    constexpr double kBox_m = 0.5;
-    return geometry::transformed({place.x_m, place.y_m, 0}, geometry::rectangle(kBox_m, kBox_m));
-}
-
 std::unique_ptr<simulation::SimulatedDrive> make_drive(
     const plant::VehicleType& type, const plant::Vehicle& vehicle, const geometry::Pose2& true_pose,
     double load_kg, const SimulationSettings& settings, const localisation::ErrorBudget& errors) {

@@ -21,7 +21,11 @@ using onboard::Wheels;
 
 constexpr auto kReach = 2s;
 constexpr auto kPictureTime = 2s;  // exposed and carried over
-constexpr double kAgain_s = 1;     // between two tries to reach it
+constexpr auto kScanTime = 1s;
+constexpr double kAgain_s = 1;               // between two tries to reach it
+constexpr std::uint32_t kScanCycles = 4;     // between two turns, while somebody looks at them
+constexpr std::uint32_t kFreshCycles = 6;    // older than that a turn is waited for
+constexpr std::uint32_t kLookedCycles = 50;  // nobody has looked for so long: no more are asked for
 constexpr std::string_view kAllParts = "all";
 
 Status same_names(const char* part, const std::vector<std::string>& told,
@@ -54,7 +58,8 @@ Status is_of_type(const Description& told, const plant::VehicleType& type) {
     if (auto same = same_names("brackets", told.brackets, names_of(type.brackets)); !same)
         return same;
     if (auto same = same_names("feet", told.feet, feet_of(type)); !same) return same;
-    return same_names("cameras", told.cameras, names_of(type.cameras));
+    if (auto same = same_names("cameras", told.cameras, names_of(type.cameras)); !same) return same;
+    return same_names("scanners", told.scanners, names_of(type.scanners));
 }
 
 }  // namespace
@@ -100,6 +105,9 @@ public:
         for (const auto& wheel : wanted)
             points.wheels.push_back({wheel.speed_mps, wheel.angle_rad});
         if (!say(points)) return;
+        // Asked for beforehand, a turn is there when it is looked at, and no cycle waits for it.
+        if (looked_at_ && number_ - *looked_at_ < kLookedCycles && number_ % kScanCycles == 0)
+            ask_to_look();
         const auto answer_time = std::chrono::duration_cast<MachineLink::Duration>(
             std::chrono::duration<double>(watchdog_s_));
         while (link_) {
@@ -136,6 +144,20 @@ public:
                 return std::move(*picture);
             }
         }
+    }
+
+    /// The newest turn of the scanners; nothing: the line is lost.
+    const Scans* look() {
+        looked_at_ = number_;
+        if (scans_ && number_ - scans_at_ <= kFreshCycles) return &*scans_;
+        const std::uint32_t id = ask_to_look();
+        while (link_) {
+            auto frame = hear(kScanTime);
+            if (!frame) break;
+            note(std::move(*frame));
+            if (scans_ && scans_->id == id) return &*scans_;
+        }
+        return nullptr;
     }
 
     void try_again(double dt_s) {
@@ -175,6 +197,21 @@ private:
 
     void note(Frame frame) {
         if (auto* ended = std::get_if<LiftEnded>(&frame)) ended_.push_back(std::move(*ended));
+        auto* scans = std::get_if<Scans>(&frame);
+        if (scans == nullptr) return;
+        if (scans->scans.size() != type_.scanners.size()) {
+            return lose({Errc::kInvalid,
+                         {"machine_frame_broken", {{"why", "scanners are missing"}}},
+                         "The machine tells of other scanners than it has.",
+                         {}});
+        }
+        scans_ = std::move(*scans);
+        scans_at_ = number_;
+    }
+
+    std::uint32_t ask_to_look() {
+        say(Look{++looks_});
+        return looks_;
     }
 
     void take(Feedback told) {
@@ -195,6 +232,7 @@ private:
         if (!link_) return;
         server::log::error("machine.lost", {{"what", error.what}});
         link_.reset();
+        scans_.reset();
         since_try_s_ = 0;
         for (auto& wheel : told_.wheels) wheel.speed_mps = 0;
     }
@@ -207,6 +245,10 @@ private:
     std::vector<LiftEnded> ended_;
     std::uint32_t number_ = 0;
     std::uint32_t pictures_ = 0;
+    std::uint32_t looks_ = 0;
+    std::optional<Scans> scans_;  // the newest
+    std::uint32_t scans_at_ = 0;  // cycle in which they came
+    std::optional<std::uint32_t> looked_at_;
     int cycles_ = 0;
     int dead_cycles_ = 0;
     double since_try_s_ = 0;
@@ -309,7 +351,8 @@ public:
     bool holds_vehicle() const override {
         const auto& told = controller_.told();
         return told.charging || told.moving_lifts || busy() ||
-               std::ranges::any_of(told.feet, [](const auto& f) { return f.extension_m > plant::kFootDown_m; });
+               std::ranges::any_of(
+                   told.feet, [](const auto& f) { return f.extension_m > plant::kFootDown_m; });
     }
 
     std::vector<vda5050::BracketStatus> brackets() override {
@@ -389,6 +432,31 @@ private:
     Controller& controller_;
 };
 
+class TcpMachine::TcpScanners final : public onboard::Scanners {
+public:
+    TcpScanners(Controller& controller, const plant::VehicleType& type)
+        : controller_(controller), type_(type) {}
+
+    /// Without a line they are blind: it must not drive on what they saw before.
+    void scan(std::vector<control::Scan>& scans) override {
+        const Scans* told = controller_.look();
+        scans.resize(type_.scanners.size());
+        for (std::size_t i = 0; i < scans.size(); ++i) {
+            scans[i].body_from_sensor = type_.scanners[i].body_from_scanner;
+            scans[i].blind = told == nullptr || told->scans[i].blind;
+            scans[i].ranges_m.clear();
+            if (told == nullptr) continue;
+            scans[i].first_rad = told->scans[i].first_rad;
+            scans[i].step_rad = told->scans[i].step_rad;
+            scans[i].ranges_m = told->scans[i].ranges_m;
+        }
+    }
+
+private:
+    Controller& controller_;
+    const plant::VehicleType& type_;
+};
+
 Result<std::unique_ptr<TcpMachine>> TcpMachine::open(const MachineAddress& address,
                                                      const plant::VehicleType& type,
                                                      const Settings& settings) {
@@ -404,6 +472,8 @@ TcpMachine::TcpMachine(std::unique_ptr<Controller> controller, const plant::Vehi
       wheels_(std::make_unique<TcpWheels>(*controller_, type)),
       equipment_(std::make_unique<TcpEquipment>(*controller_, type)),
       shutter_(std::make_unique<TcpShutter>(*controller_)),
+      scanners_(type.scanners.empty() ? nullptr
+                                      : std::make_unique<TcpScanners>(*controller_, type)),
       drive_(type, *wheels_, geometry::Pose2{}, settings.time_factor),
       cameras_(type, drive_, *shutter_, settings.errors, settings.loaded) {}
 
@@ -412,6 +482,7 @@ TcpMachine::~TcpMachine() = default;
 onboard::Drive& TcpMachine::drive() { return drive_; }
 Cameras& TcpMachine::cameras() { return cameras_; }
 onboard::Equipment& TcpMachine::equipment() { return *equipment_; }
+onboard::Scanners* TcpMachine::scanners() { return scanners_.get(); }
 
 /// A drive that has exchanged nothing stands with its brakes on; what lifts goes on by cycles all
 /// the same. Between the set points of one that moves, brakes would fall in.

@@ -35,7 +35,7 @@ public:
     onboard::Drive& drive() override;
     Cameras& cameras() override;
     onboard::Equipment& equipment() override;
-    onboard::Scanners* scanners() override { return nullptr; }
+    onboard::Scanners* scanners() override;
     onboard::Receivers* receivers() override { return nullptr; }
     onboard::NavigationScanner* navigation_scanner() override { return nullptr; }
     void step(double dt_s) override;
@@ -46,6 +46,7 @@ private:
     class TcpWheels;
     class TcpEquipment;
     class TcpShutter;
+    class TcpScanners;
 
     TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
                const Settings& settings);
@@ -55,6 +56,7 @@ private:
     std::unique_ptr<TcpWheels> wheels_;
     std::unique_ptr<TcpEquipment> equipment_;
     std::unique_ptr<TcpShutter> shutter_;
+    std::unique_ptr<TcpScanners> scanners_;  // of a type that has some
     onboard::WheelDrive drive_;
     PictureCameras cameras_;
 };

@@ -15,7 +15,7 @@ before(async () => {
   system.prepareVehicles(["TP-01"]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);
-  system.startAgent("TP-01", { seed: 11, extra: ["--fault", `obstacle=${BOX.x_m},${BOX.y_m}@0`] });
+  await system.startOverTcp("TP-01", { seed: 11, timeFactor: 6, faults: [`obstacle=${BOX.x_m},${BOX.y_m}@0`] });
   await client.untilReady("TP-01");
 });
 after(() => system?.stop());

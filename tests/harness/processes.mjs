@@ -122,11 +122,11 @@ export class System {
   }
 
   /** The simulated machine of a vehicle behind the protocol of server/agent/MACHINE.md; for an agent's `--machine`. */
-  async startMachine(id, { seed = 1, port = 0 } = {}) {
+  async startMachine(id, { seed = 1, port = 0, faults = [] } = {}) {
     const name = `machine-${id}`, listening = /machine\.listening .*port="?(\d+)/g;
     const before = [...this.log(name).matchAll(listening)].length;
     const machine = this.start(AGENT, ["machine", "--world", this.plant.file, "--vehicle", id, "--listen", `tcp://127.0.0.1:${port}`, "--seed", String(seed),
-      "--truth-log", `${this.truthLog}.${id}`], name);
+      "--truth-log", `${this.truthLog}.${id}`, ...faults.flatMap((fault) => ["--fault", fault])], name);
     machine.port = await until(() => `machine ready; its log:\n${this.log(name)}`, () => {
       if (machine.over) throw new Error(`the machine ended: ${this.log(name)}`);
       return Number([...this.log(name).matchAll(listening)][before]?.[1]);
@@ -135,8 +135,8 @@ export class System {
   }
 
   /** A vehicle's program that knows no simulated world, driving its machine over TCP. */
-  async startOverTcp(id, { seed = 1, timeFactor = 10, extra = [] } = {}) {
-    const machine = await this.startMachine(id, { seed });
+  async startOverTcp(id, { seed = 1, timeFactor = 10, extra = [], faults = [] } = {}) {
+    const machine = await this.startMachine(id, { seed, faults });
     // The host of a test lets nobody run every 10 ms; how late a cycle may be is the bench's.
     this.startAgent(id, { seed, timeFactor, extra: ["--machine", `tcp://${this.host}:${machine.port}`, "--machine-watchdog-s", "3", ...extra] });
     return machine;

@@ -10,7 +10,8 @@ namespace pulseline::machine {
 namespace {
 
 std::vector<Frame> one_of_each() {
-    Description description{kVersion, "Works", 2, {"FL", "前轮"}, {"front left"}, {}, {"front"}};
+    Description description{kVersion,       "Works", 2,         {"FL", "前轮"},
+                            {"front left"}, {},      {"front"}, {"front left"}};
     SetPoints points{7, Mode::kRoll, {{0.5, -0.1}, {-0.25, 1.5}}};
     Feedback feedback;
     feedback.cycle = 7;
@@ -36,7 +37,9 @@ std::vector<Frame> one_of_each() {
             SwitchOff{3},
             Expose{3, 1},
             picture,
-            Refused{"another program is connected"}};
+            Refused{"another program is connected"},
+            Look{9},
+            Scans{9, {{-2.35, 0.0044, false, {0.0F, 1.5F, 9.75F}}, {-2.35, 0.0044, true, {}}}}};
 }
 
 std::string reason(std::string_view bytes) {
@@ -87,13 +90,18 @@ TEST(MachineFrames, WithNumbersThatAreNoneOrUnknownKindsAreRefused) {
     Feedback feedback;
     feedback.slip_share = std::numeric_limits<double>::infinity();
     EXPECT_EQ(reason(encode(feedback)), "machine_frame_broken");
+    for (const float wrong :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -0.5F}) {
+        EXPECT_EQ(reason(encode(Scans{1, {{0, 0.1, false, {1.0F, wrong}}}})),
+                  "machine_frame_broken");
+    }
     auto mode = encode(SetPoints{1, Mode::kRoll, {}});
     mode[9] = 3;
     EXPECT_EQ(reason(mode), "machine_frame_broken");
     auto flag = encode(Feedback{});
     flag[9] = 2;
     EXPECT_EQ(reason(flag), "machine_frame_broken");
-    EXPECT_EQ(reason(std::string("\1\0\0\0\x0b", 5)), "machine_frame_broken");
+    EXPECT_EQ(reason(std::string("\1\0\0\0\x0d", 5)), "machine_frame_broken");
     EXPECT_EQ(reason(std::string("\0\0\0\0", 4)), "machine_frame_broken");
 }
 
@@ -104,6 +112,9 @@ TEST(MachineFrames, TooLongOrOfTooManyPartsAreRefusedBeforeTheyAreHeld) {
     many[10] = 65;
     EXPECT_EQ(reason(many), "machine_frame_broken");
     EXPECT_EQ(*frame_size("\1\0"), std::nullopt);
+    auto rays = encode(Scans{1, {{0, 0.1, false, {}}}});
+    rays[28] = 0x11;  // 4,352 of them
+    EXPECT_EQ(decode(rays).error().what.find("too many rays") == std::string::npos, false);
 }
 
 TEST(MachineFrames, APictureThatIsNotOfItsSizeIsRefused) {

@@ -32,10 +32,20 @@ plant::Plant hall() {
     type.wheels = whole.wheels;
     type.brackets = whole.brackets;
     type.parking = whole.parking;
+    type.scanners = plant::usual_scanners(type.footprint);
     type.mass_kg = whole.mass_kg;
     type.max_load_kg = whole.max_load_kg;
     plant::builders::put_on(plant, 0, "A-101", kLoad_kg);
     return plant;
+}
+
+/// Somebody puts a box 7 m ahead of the middle of the vehicle.
+Fault box_after(double time_s) {
+    Fault box;
+    box.kind = Fault::Kind::kObstacle;
+    box.place = {27, 10};
+    box.after_s = time_s;
+    return box;
 }
 
 class ControllerTest : public ::testing::Test {
@@ -59,14 +69,15 @@ protected:
 
     simulation::World world = simulation::make_world(hall(), 1);
     const plant::VehicleType& type = world.plant.vehicle_types[0];
-    SimulatedController controller{world, world.plant.vehicles[0], type, {20, 10, 0}, {}};
+    SimulatedController controller{
+        world, world.plant.vehicles[0], type, {20, 10, 0}, {1, {}, false, {box_after(1)}}};
     std::uint32_t cycle = 0;
 };
 
 TEST_F(ControllerTest, WantsToKnowWhoItIsAndSaysWhatItHas) {
     EXPECT_EQ(refusal(points(Mode::kBraked)), "hello_first");
-    EXPECT_EQ(refusal(Hello{2, 0.01, 0.1}), "unknown_version");
-    EXPECT_EQ(refusal(Hello{1, 0.02, 0.1}), "unknown_cycle");
+    EXPECT_EQ(refusal(Hello{kVersion + 1, 0.01, 0.1}), "unknown_version");
+    EXPECT_EQ(refusal(Hello{kVersion, 0.02, 0.1}), "unknown_cycle");
     const auto answers = controller.handle(Hello{});
     const auto& told = std::get<Description>(answers.at(0));
     ASSERT_EQ(told.wheels.size(), type.wheels.size());
@@ -90,6 +101,27 @@ TEST_F(ControllerTest, DrivesWhatItIsToldAndBrakesWhenNobodyTells) {
     EXPECT_EQ(told.cycle, cycle);
     EXPECT_EQ(told.wheels[0].speed_mps, 0);
     EXPECT_EQ(controller.true_pose(), stands);
+}
+
+TEST_F(ControllerTest, ShowsWhatItsScannersSeeAndWhatStandsInItsWay) {
+    controller.handle(Hello{});
+    const auto before = std::get<Scans>(controller.handle(Look{1}).at(0));
+    controller.apply_faults(0.5);
+    const auto early = std::get<Scans>(controller.handle(Look{2}).at(0));
+    controller.apply_faults(0.6);
+    const auto late = std::get<Scans>(controller.handle(Look{3}).at(0));
+    const auto returns_near = [](const Scans& told) {
+        std::size_t count = 0;
+        for (const auto& scan : told.scans) {
+            count += static_cast<std::size_t>(std::ranges::count_if(
+                scan.ranges_m, [](float range_m) { return range_m > 0 && range_m < 2.5F; }));
+        }
+        return count;
+    };
+    EXPECT_EQ(late.id, 3u);
+    EXPECT_EQ(late.scans.size(), type.scanners.size());
+    EXPECT_EQ(returns_near(early), returns_near(before)) << "not yet";
+    EXPECT_GT(returns_near(late), returns_near(before) + 10);
 }
 
 TEST_F(ControllerTest, SetPointsForOtherWheelsThanItHasMoveNothing) {
@@ -294,6 +326,49 @@ TEST_F(TcpMachineTest, ItsPicturesAreReadAndTellWhereItStands) {
     ASSERT_TRUE(measured) << measured.error().what;
     EXPECT_LT(distance(measured->pose.position(), host.true_pose().position()), 2e-3);
     EXPECT_EQ(machine->cameras().pictures().size(), 2u);
+}
+
+TEST_F(TcpMachineTest, ItsScannersSeeTheHallAsFreshAsTheyAreAskedForAndNothingWithoutALine) {
+    onboard::Scanners* scanners = machine->scanners();
+    ASSERT_NE(scanners, nullptr);
+    controller.apply_faults(1);
+    std::vector<control::Scan> scans;
+    const auto hits = [&] {
+        std::size_t count = 0;
+        for (const auto& scan : scans) {
+            count += static_cast<std::size_t>(std::ranges::count_if(
+                scan.ranges_m, [](float r) { return control::is_return(r); }));
+        }
+        return count;
+    };
+    const auto ranges = [&] {
+        std::vector<std::vector<float>> all;
+        for (const auto& scan : scans) all.push_back(scan.ranges_m);
+        return all;
+    };
+    scanners->scan(scans);
+    ASSERT_EQ(scans.size(), type.scanners.size());
+    EXPECT_EQ(scans[0].body_from_sensor, type.scanners[0].body_from_scanner);
+    EXPECT_FALSE(scans[0].blind);
+    EXPECT_GT(hits(), 10u);
+    const auto first = ranges();
+    run(0.1);
+    scanners->scan(scans);
+    EXPECT_NE(ranges(), first) << "another turn, with other noise";
+    run(2);  // nobody looks
+    scanners->scan(scans);
+    const auto late = ranges();
+    EXPECT_NE(late, first);
+
+    host.close();
+    run(0.1);
+    scanners->scan(scans);
+    for (const auto& scan : scans) EXPECT_TRUE(scan.blind);
+    EXPECT_EQ(hits(), 0u) << "what it saw before is no way to drive by";
+    host.open();
+    run(2);
+    scanners->scan(scans);
+    EXPECT_FALSE(scans[0].blind);
 }
 
 TEST_F(TcpMachineTest, AControllerThatHearsAndSaysNothingIsLostAfterTheWatchdogsTime) {
