@@ -115,21 +115,21 @@ private:
     }
 
     void tell_truth(Steady::time_point now) {
-        const auto& pose = controller_.true_pose();
-        if (!truth_ || (told_ && pose == *told_) || now - told_at_ < kTruthEvery) return;
-        told_ = pose;
-        told_at_ = now;
         TruthLine line;
         line.vehicle = vehicle_;
-        line.pose = pose;
+        line.pose = controller_.true_pose();
         line.moving = !controller_.braked();
+        const bool known = told_ && line.pose == told_->pose && line.moving == told_->moving;
+        if (!truth_ || known || now - told_at_ < kTruthEvery) return;
+        told_ = line;
+        told_at_ = now;
         truth_->write(line, to_ns(utc_now()) / 1'000'000);
     }
 
     SimulatedController& controller_;
     std::string vehicle_;
     std::optional<TruthLog> truth_;
-    std::optional<geometry::Pose2> told_;
+    std::optional<TruthLine> told_;
     Steady::time_point told_at_{};
     bool taken_ = false;
 };

@@ -16,7 +16,7 @@ test("an order given before a person points to where its vehicle stands is drive
   const client = new Client(system.url, system.apiToken);
   const line = { t_ms: Date.now(), vehicle: "TP-01", ...AT, moving: false, order_id: "", last_node_seq: 0, base_end_seq: 0 };
   writeFileSync(`${system.truthLog}.TP-01`, `${JSON.stringify(line)}\n`);
-  system.startAgent("TP-01", { seed: 70, timeFactor: 6, sensing: "analytic", extra: ["--drive", "servo", "--maps", "db/maps/pulse-line"] });
+  await system.startOverTcp("TP-01", { seed: 70, timeFactor: 6, extra: ["--maps", "db/maps/pulse-line"] });
   await client.untilVehicle("TP-01", (v) => v.link === "live" && v.reason?.code === "pose_unknown", "asks");
   const order = await client.order("TP-01", [5]);
   await client.untilOrder(order.id, (o) => o.reason?.code === "pose_unknown", "waits for its pose");

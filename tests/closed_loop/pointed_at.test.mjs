@@ -34,7 +34,9 @@ for (const [plant, starts] of Object.entries(HALLS)) {
     for (const [i, { id, at }] of starts.entries()) {
       const line = { t_ms: Date.now(), vehicle: id, ...at, moving: false, order_id: "", last_node_seq: 0, base_end_seq: 0 };
       writeFileSync(`${system.truthLog}.${id}`, `${JSON.stringify(line)}\n`);
-      system.startAgent(id, { seed: 70 + i, timeFactor: FACTOR, sensing: "analytic", extra: ["--drive", "servo", "--maps", `db/maps/${plant}`] });
+      const how = { seed: 70 + i, timeFactor: FACTOR, extra: ["--maps", `db/maps/${plant}`] };
+      if (plant === "pulse-line") await system.startOverTcp(id, how);
+      else system.startAgent(id, { ...how, sensing: "analytic", extra: ["--drive", "servo", ...how.extra] });
     }
     await Promise.all(starts.map(async ({ id, at, to }) => {
       const first = await client.untilVehicle(id, (v) => v.link === "live" && (v.pose_known || v.reason?.code === "pose_unknown"), "asks");

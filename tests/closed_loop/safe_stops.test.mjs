@@ -56,7 +56,8 @@ test("its scanners' windows covered on the way: it stops, names what it lacks, a
 });
 
 test("a wheel that slips: it stops, and nothing goes on without a person", async () => {
-  await start("TP-01", ["--fault", "slip=front drive:0.2@0.5"]);
+  await system.startOverTcp("TP-01", { seed: 5, timeFactor: 6, faults: ["slip=front drive:0.2@0.5"] });
+  await client.untilReady("TP-01");
   const order = await client.order("TP-01", [2]);
   const stopped = await client.untilVehicle("TP-01", (v) => v.errors.some((error) => error.type === "wheelSlip"), "slips");
   assert.ok(stopped.errors.find((error) => error.type === "wheelSlip").fatal);
