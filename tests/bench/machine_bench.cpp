@@ -29,6 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kCycles = 2000;
 constexpr auto kCycle = std::chrono::milliseconds(10);
 constexpr double kMost_ms = 1.0;  // p99
+constexpr int kLookCycles = 10;  // as often as its look-out looks while it drives
 constexpr const char* kVehicle = "TP-01";
 
 /// One that nobody listens on now.
@@ -95,12 +96,14 @@ int run(const std::string& out) {
     ahead.length_m = 1000;
     drive.append(ahead);
     std::vector<double> behind_ms;
+    std::vector<control::Scan> scans;
     auto due = Clock::now();
     for (int i = 0; i < kCycles; ++i) {
         due += kCycle;
         std::this_thread::sleep_until(due);
         drive.step(0.01);
         (*opened)->step(0.01);
+        if (i % kLookCycles == 0) (*opened)->scanners()->scan(scans);
         behind_ms.push_back(std::chrono::duration<double, std::milli>(Clock::now() - due).count());
     }
     if (drive.stop_cause()) {
