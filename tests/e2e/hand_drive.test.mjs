@@ -162,6 +162,27 @@ test("taken in the middle of an order it stands, and given back the order goes o
   await page.context().close();
 });
 
+test("on its feet it is not moved, and the page says why; raised it moves", async () => {
+  const page = await open("operator");
+  const feet = async (type) => {
+    const { lift } = await client.post(`/api/v1/vehicles/${kId}/lifts`, { type });
+    await client.untilVehicle(kId, (v) => v.lift?.action_id === lift.action_id && v.lift.state === "done", type, 60);
+  };
+  await feet("lowerParking");
+  await take(page);
+  const from = truth();
+  await page.keyboard.down("Space");
+  await page.keyboard.down("ArrowUp");
+  await page.locator(".desk .says.bad", { hasText: "stands on its feet" }).waitFor();
+  assert.ok(Math.abs(moved(from).ahead_m) < 1e-3);
+  for (const key of ["ArrowUp", "Space"]) await page.keyboard.up(key);
+  await giveBack(page);
+  await letGoOn(page);
+  await client.untilVehicle(kId, (v) => !v.needs_resume, "may go on");
+  await feet("raiseParking");
+  await page.context().close();
+});
+
 test("the server dies under a pressed finger: it stands, and taken anew it goes on", async () => {
   const page = await open("operator");
   await take(page);
