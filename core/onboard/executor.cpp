@@ -336,6 +336,8 @@ void Executor::take_by_hand() {
     cancelled_ = true;  // an update would lead on from where it may not stand any more
     changed_ = true;
     abort_actions("taken by hand");
+    must_let_go_ = false;
+    motion_.acknowledge();  // who takes it stands beside it
     hand_.take();
 }
 
@@ -362,10 +364,25 @@ Status Executor::drive_by_hand(const kinematics::Twist& wanted) {
     if (!in_hand_) {
         return fail(Errc::kConflict, "not_in_hand", "Take the vehicle by hand first.");
     }
+    if (wanted == kinematics::Twist{}) {
+        must_let_go_ = false;
+        if (motion_.stop_cause()) motion_.acknowledge();  // who lets go has seen that it stands
+        return hand_.command(wanted);
+    }
+    if (must_let_go_) {
+        return fail(Errc::kConflict, "let_go_first",
+                    "Somebody has paused the vehicle. Let go, look at it, then press again.");
+    }
     if (equipment_ != nullptr && equipment_->holds_vehicle()) {
         return fail(Errc::kConflict, "held",
                     "The vehicle stands on its feet or is plugged in. Raise the feet, stop "
                     "charging.");
+    }
+    if (const auto cause = motion_.stop_cause()) {
+        return fail(
+            Errc::kConflict, cause->code,
+            "The drive has stopped of itself. Let go, look at what stopped it, then press again.",
+            {}, cause->params);
     }
     return hand_.command(wanted);
 }

@@ -38,9 +38,13 @@ public:
 
     /// Somebody drives the vehicle with a hand-held control from now on: it brakes, gives up its
     /// order and takes none (operatingMode MANUAL). Where it stands it still tells, and may be
-    /// told.
+    /// told. A drive that has stopped of itself is let go on, unless what stopped it is still
+    /// there.
     void take_by_hand();
-    /// Fails with conflict not_in_hand {}, or cannot_move_so as HandDrive says.
+    /// A zero twist lets go, by which a drive that has stopped of itself may go on. Fails with
+    /// conflict not_in_hand {}; let_go_first {} after a pause that came meanwhile, which brakes it,
+    /// until somebody lets go; held {} on its feet or plugged in; the cause for which the drive has
+    /// stopped; or cannot_move_so as HandDrive says.
     Status drive_by_hand(const kinematics::Twist& wanted);
     /// Gives it back; it waits for an order. Fails with not_in_hand {} and still_moving {}.
     Status give_back();
@@ -155,6 +159,7 @@ private:
     bool cancelled_ = false;
     bool paused_ = false;
     bool in_hand_ = false;
+    bool must_let_go_ = false;  // a pause came while it was in hand
     bool held_ = false;
     bool equipment_held_ = false;  // by a pause, in the middle of running_equipment_
 

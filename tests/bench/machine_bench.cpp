@@ -29,7 +29,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kCycles = 2000;
 constexpr auto kCycle = std::chrono::milliseconds(10);
 constexpr double kMost_ms = 1.0;  // p99
-constexpr int kLookCycles = 10;  // as often as its look-out looks while it drives
+constexpr int kLookCycles = 10;   // as often as its look-out looks while it drives
 constexpr const char* kVehicle = "TP-01";
 
 /// One that nobody listens on now.

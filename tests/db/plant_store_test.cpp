@@ -289,8 +289,7 @@ TEST(PlantStore, WhatVehiclesCarriedBeforeIsALoadOfItsOwn) {
               "ALTER TABLE vehicles ADD COLUMN load_kg REAL NOT NULL DEFAULT 0",
               "ALTER TABLE stations DROP COLUMN has_support",
               "ALTER TABLE stations DROP COLUMN support_height_m",
-              "ALTER TABLE stations DROP COLUMN parks",
-              "ALTER TABLE stop_records DROP COLUMN load",
+              "ALTER TABLE stations DROP COLUMN parks", "ALTER TABLE stop_records DROP COLUMN load",
               "UPDATE vehicles SET load_name = 'A 101', load_kg = 18200",
               "PRAGMA user_version = 23"}) {
             database.sql() << back;

@@ -162,6 +162,29 @@ test("taken in the middle of an order it stands, and given back the order goes o
   await page.context().close();
 });
 
+test("Pause fleet has it brake under the finger, and only who lets go and presses again moves it", async () => {
+  const page = await open("operator"), other = await signedIn(browser, system, "engineer", { path: "/map" });
+  await take(page);
+  let from = truth();
+  await page.keyboard.down("Space");
+  await page.keyboard.down("ArrowDown");
+  await until("it goes back", () => moved(from).ahead_m < -0.2);
+  await other.locator("button.pause").click();
+  await page.locator(".desk .says", { hasText: "let go, look at it" }).waitFor();
+  await stands();
+  from = truth();
+  for (const key of ["ArrowDown", "Space"]) await page.keyboard.up(key);
+  await page.keyboard.down("Space");
+  await page.keyboard.down("ArrowUp");
+  await until("it goes where somebody wants it on purpose", () => moved(from).ahead_m > 0.1);
+  for (const key of ["ArrowUp", "Space"]) await page.keyboard.up(key);
+  await giveBack(page);
+  await letGoOn(page);
+  await client.post("/api/v1/fleet/resume", { vehicles: [kId] }).catch(() => undefined);
+  await client.untilVehicle(kId, (v) => !v.needs_resume && !v.paused, "may go on");
+  await Promise.all([page, other].map((one) => one.context().close()));
+});
+
 test("on its feet it is not moved, and the page says why; raised it moves", async () => {
   const page = await open("operator");
   const feet = async (type) => {

@@ -123,6 +123,28 @@ TEST_F(HandControlsTest, ClocksThatDriftApartAreNoLateLine) {
     EXPECT_TRUE(drive(kAnn, 0, control_s - 3600)) << "taken anew, on a tablet that slept";
 }
 
+TEST_F(HandControlsTest, APauseBrakesItAndOnlyWhoLetsGoAndPressesAgainMovesIt) {
+    ASSERT_TRUE(hands.take(kAnn, now_s));
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(drive(kAnn));
+        pass(0.1);
+    }
+    instant("startPause", "p");
+    for (int i = 0; i < 30; ++i) {
+        EXPECT_EQ(refused(drive(kAnn)), "let_go_first");
+        pass(0.1);
+    }
+    EXPECT_TRUE(motion.standing());
+    EXPECT_EQ(status("p"), ActionStatus::kFinished) << "it stands, and says so";
+    const double stood_at_m = driven_m();
+    EXPECT_TRUE(drive(kAnn, 0));
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(drive(kAnn)) << "out of the way, on purpose";
+        pass(0.1);
+    }
+    EXPECT_GT(driven_m(), stood_at_m + 0.05);
+}
+
 TEST_F(HandControlsTest, StandingOnItsFeetOrMovingItIsRefused) {
     ASSERT_TRUE(hands.take(kAnn, now_s));
     ASSERT_TRUE(drive(kAnn));

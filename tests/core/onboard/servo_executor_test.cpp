@@ -123,6 +123,36 @@ TEST_P(ServoExecutorTest, CancelWhileItDrivesOrSteersLeavesAnIdleVehicle) {
     EXPECT_LT(drive.true_pose().x_m, 11);
 }
 
+TEST_P(ServoExecutorTest, DrivenByHandItSaysWhatStoppedItAndGoesOnWhenThePersonHasLetGo) {
+    const std::string wheel = GetParam() == 0 ? "back drive" : "BR";
+    executor.handle(leg(12, {}));
+    run(5);
+    drive.set_slip(wheel, 0.3);
+    run(30);
+    ASSERT_TRUE(drive.stop_cause());
+    drive.set_slip(wheel, 0);
+    executor.take_by_hand();
+    run(2);
+    const auto by_hand = [&](double vx_mps, double seconds) {
+        std::string refused;
+        for (double t = 0; t < seconds; t += kStep_s) {
+            const auto done = executor.drive_by_hand({vx_mps, 0, 0});
+            if (!done) refused = done.error().reason.code;
+            run(kStep_s);
+        }
+        return refused;
+    };
+    const double here_m = drive.believed_pose().x_m;
+    EXPECT_EQ(by_hand(-0.2, 5), "") << "who took it has looked";
+    EXPECT_LT(drive.believed_pose().x_m, here_m - 0.3);
+
+    drive.break_wheel(GetParam() == 0 ? "front drive" : "FL");
+    EXPECT_EQ(by_hand(-0.2, 5), "wheel_fault");
+    EXPECT_TRUE(drive.standing());
+    EXPECT_EQ(by_hand(0, 0.5), "");
+    EXPECT_EQ(by_hand(-0.2, 1), "wheel_fault") << "still broken";
+}
+
 TEST_P(ServoExecutorTest, StopPauseLetsADriveGoOnThatHasStoppedItself) {
     const std::string wheel = GetParam() == 0 ? "back drive" : "BR";
     executor.handle(leg(12, {}));

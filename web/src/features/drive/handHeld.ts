@@ -224,6 +224,7 @@ export class HandHeld {
       asked.failed(new ApiProblem({ status: 409, code: refused.code, params: refused.params }));
     else if (refused !== undefined) {
       this.refusedAtMs = now;
+      if (refused.code === "let_go_first") this.release();
       this.change({ refused });
     } else if (this.driving || now - this.refusedAtMs > kReadMs) this.change({ refused: undefined });
     if (answer.ok) asked?.done?.();
