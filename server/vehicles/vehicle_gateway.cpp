@@ -159,7 +159,7 @@ void VehicleGateway::closed(const plant::VehicleId& id, const VehicleSocket* soc
     --ports_.metrics.vehicle_sockets;
     if (!row->said_offline) play_last_will(id, *row);
     log::info("vehicle_disconnected", {{"vehicle", id.str()}});
-    tell_not_connected(*row);
+    tell_not_connected(id);
     ports_.runtime.input(
         id, [id](fleet::Fleet& fleet, Time at) { fleet.vehicle_disconnected(id, at); });
 }

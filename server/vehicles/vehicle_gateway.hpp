@@ -123,7 +123,6 @@ private:
         std::int64_t not_logged = 0;
         std::optional<vda5050::HeaderSource> headers;
         bool said_offline = false;
-        std::map<std::string, HandHeld> hands;  // by the name of the control
     };
 
     Row* current(const plant::VehicleId& id, const VehicleSocket* socket);
@@ -133,8 +132,8 @@ private:
     static Steady::time_point next_beat(const plant::VehicleId& id, Steady::time_point now,
                                         Duration every);
     void too_many(const plant::VehicleId& id, Row& row);
-    static void tell_not_connected(const Row& row);
-    static void pass_hand_answer(const Row& row, const vda5050::HandAnswerFrame& frame);
+    void tell_not_connected(const plant::VehicleId& id) const;
+    void pass_hand_answer(const plant::VehicleId& id, const vda5050::HandAnswerFrame& frame) const;
     void malformed(const plant::VehicleId& id, Row& row, const Error& error);
     void pass_state(const plant::VehicleId& id, Row& row, vda5050::StateMessage state);
     void hand_over_factsheet(const plant::VehicleId& id, const Row& row);
@@ -145,6 +144,7 @@ private:
 
     Ports ports_;
     std::map<plant::VehicleId, Row> rows_;
+    std::map<plant::VehicleId, std::map<std::string, HandHeld>> hands_;  // by the controls' names
 };
 
 }  // namespace pulseline::server

@@ -18,7 +18,7 @@ vda5050::HandAnswer not_connected() {
 
 bool VehicleGateway::hand_held_opened(const plant::VehicleId& id, const std::string& control,
                                       const std::string& person, HandHeldPage& page) {
-    auto& hands = rows_[id].hands;
+    auto& hands = hands_[id];
     if (hands.size() >= kMostControls) return false;
     hands.insert_or_assign(control, HandHeld{person, &page});
     log::info("hand_held.open", {{"vehicle", id.str()}, {"control", control}, {"person", person}});
@@ -27,17 +27,18 @@ bool VehicleGateway::hand_held_opened(const plant::VehicleId& id, const std::str
 
 void VehicleGateway::hand_held(const plant::VehicleId& id, const std::string& control,
                                const vda5050::HandCommand& command) {
-    Row& row = rows_[id];
-    const auto found = row.hands.find(control);
-    if (found == row.hands.end()) return;
-    if (!row.socket) {
+    auto& hands = hands_[id];
+    const auto found = hands.find(control);
+    if (found == hands.end()) return;
+    const auto row = rows_.find(id);
+    if (row == rows_.end() || !row->second.socket) {
         auto answer = not_connected();
         answer.sequence = command.sequence;
         return found->second.page->answer(answer);
     }
     ++ports_.metrics.vehicle_messages_out;
-    const auto header = next_header(id, row, vda5050::Topic::kHandHeld);
-    const auto socket = row.socket;  // close() inside send() must not end it under us
+    const auto header = next_header(id, row->second, vda5050::Topic::kHandHeld);
+    const auto socket = row->second.socket;  // close() inside send() must not end it under us
     socket->send(vda5050::encode_frame(
         vda5050::Topic::kHandHeld, false,
         vda5050::encode_hand_frame({control, found->second.person, command}, header)));
@@ -45,17 +46,22 @@ void VehicleGateway::hand_held(const plant::VehicleId& id, const std::string& co
 
 void VehicleGateway::hand_held_closed(const plant::VehicleId& id, const std::string& control) {
     hand_held(id, control, {vda5050::HandCommand::What::kLeft, {}, {}, 0});
-    if (rows_[id].hands.erase(control) == 0) return;
+    if (hands_[id].erase(control) == 0) return;
     log::info("hand_held.closed", {{"vehicle", id.str()}, {"control", control}});
 }
 
-void VehicleGateway::tell_not_connected(const Row& row) {
-    for (const auto& [control, hand] : row.hands) hand.page->answer(not_connected());
+void VehicleGateway::tell_not_connected(const plant::VehicleId& id) const {
+    const auto hands = hands_.find(id);
+    if (hands == hands_.end()) return;
+    for (const auto& [control, hand] : hands->second) hand.page->answer(not_connected());
 }
 
-void VehicleGateway::pass_hand_answer(const Row& row, const vda5050::HandAnswerFrame& frame) {
-    const auto found = row.hands.find(frame.control);
-    if (found != row.hands.end()) found->second.page->answer(frame.answer);
+void VehicleGateway::pass_hand_answer(const plant::VehicleId& id,
+                                      const vda5050::HandAnswerFrame& frame) const {
+    const auto hands = hands_.find(id);
+    if (hands == hands_.end()) return;
+    const auto found = hands->second.find(frame.control);
+    if (found != hands->second.end()) found->second.page->answer(frame.answer);
 }
 
 }  // namespace pulseline::server

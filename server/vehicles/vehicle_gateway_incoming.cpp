@@ -61,7 +61,7 @@ void VehicleGateway::take_text(const plant::VehicleId& id, Row& at, std::string_
         row->factsheet = std::move(*factsheet);
         hand_over_factsheet(id, *row);
     } else if (const auto* hand = std::get_if<vda5050::HandAnswerFrame>(&decoded->message)) {
-        pass_hand_answer(*row, *hand);
+        pass_hand_answer(id, *hand);
     } else if (const auto* link = std::get_if<vda5050::ConnectionState>(&decoded->message)) {
         row->said_offline = *link == vda5050::ConnectionState::kOffline;
     }

@@ -160,6 +160,7 @@ test("sent back from its feet, it sets the aircraft down where it came from", as
   const load = await client.get(`/api/v1/loads/${kLoad}`);
   assert.deepEqual([load.station, load.vehicle], [1, undefined]);
   assert.equal((await vehicle()).load, undefined);
+  await page.locator(".move .arrival").waitFor(); // or the page moves under the click
   await page.getByRole("link", { name: "Show order" }).click();
   await page.getByText("Before: Feet up").waitFor();
   await page.getByText("After: Set down").waitFor();
