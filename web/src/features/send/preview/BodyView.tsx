@@ -1,3 +1,4 @@
+import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { CameraCard } from "@/shared/body/CameraCard";
 import { LiftsCard } from "@/shared/body/LiftsCard";
@@ -20,6 +21,7 @@ export function BodyView({
   vehicle: Vehicle;
   type: VehicleType | undefined;
 }) {
+  const { t } = useTranslation("send");
   const narrow = useNarrow();
   const refused = useRefusal();
   const now = useServerNow(500);
@@ -43,7 +45,7 @@ export function BodyView({
   );
   const loads = <LoadsCard vehicle={vehicle} type={type} stale={old} heard_s={heard_s} />;
   return (
-    <div className={`bodyview ${view}`}>
+    <div className={`bodyview ${view}`} tabIndex={0} role="group" aria-label={t(`view.${view}`)}>
       {view === "platform" && loads}
       {view === "platform" && !narrow && cameras}
       {view === "cameras" && cameras}
