@@ -387,6 +387,10 @@ Status Executor::drive_by_hand(const kinematics::Twist& wanted) {
     return hand_.command(wanted);
 }
 
+void Executor::brake_by_hand() {
+    if (in_hand_) static_cast<void>(hand_.command({}));
+}
+
 Status Executor::give_back() {
     if (!in_hand_) {
         return fail(Errc::kConflict, "not_in_hand", "Nobody has taken the vehicle by hand.");

@@ -46,6 +46,9 @@ public:
     /// until somebody lets go; held {} on its feet or plugged in; the cause for which the drive has
     /// stopped; or cannot_move_so as HandDrive says.
     Status drive_by_hand(const kinematics::Twist& wanted);
+    /// It brakes, if it is in hand. Nobody has let go by that: what a pause or a drive that has
+    /// stopped of itself asks for is still to be done.
+    void brake_by_hand();
     /// Gives it back; it waits for an order. Fails with not_in_hand {} and still_moving {}.
     Status give_back();
     bool in_hand() const { return in_hand_; }

@@ -48,6 +48,7 @@ Status HandControls::drive(const std::string& control, const kinematics::Twist& 
         quickest_s_ = std::min(took_s, quickest_s_.value_or(took_s) + drifted_s);
         quickest_at_s_ = now_s;
         if (const double late_s = took_s - *quickest_s_; late_s > kLate_s) {
+            executor_.brake_by_hand();  // to stop it is never too late
             return fail(Errc::kConflict, "too_late",
                         "The command was on its way for too long, and is not done any more.", {},
                         {{"late_s", late_s}});
@@ -70,7 +71,7 @@ void HandControls::heard(const std::string& control, double now_s) {
 void HandControls::left(const std::string& control) {
     if (!is_holder(control)) return;
     is_there_ = false;
-    static_cast<void>(executor_.drive_by_hand({}));  // at once, not when it is missed
+    executor_.brake_by_hand();  // at once, not when it is missed
 }
 
 }  // namespace pulseline::onboard

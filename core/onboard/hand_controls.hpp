@@ -23,7 +23,7 @@ public:
     /// So long without a word, and another may take it.
     static constexpr double kSilent_s = 2;
     /// A command that took so much longer than the quickest since it was taken was meant for then,
-    /// not for now: a line that stood still gives all of them at once.
+    /// not for now: a line that stood still gives all of them at once. It brakes instead.
     static constexpr double kLate_s = HandDrive::kLetGo_s;
 
     explicit HandControls(Executor& executor) : executor_(executor) {}

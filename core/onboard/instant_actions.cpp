@@ -84,10 +84,8 @@ void Executor::handle_instant(const Action& action) {
     if (action.type == vda5050::kStartPause) {
         paused_ = true;
         hold_equipment();
-        if (in_hand_) {
-            must_let_go_ = true;
-            static_cast<void>(hand_.command({}));
-        }
+        must_let_go_ = in_hand_;
+        brake_by_hand();
         // An earlier startPause still braking is answered by the same standstill.
         if (!pause_id_.empty()) set_action(pause_id_, ActionStatus::kFinished);
         pause_id_ = action.id;

@@ -111,6 +111,36 @@ TEST_F(HandControlsTest, WhatALineHeldUpIsNotDoneAnyMore) {
     EXPECT_TRUE(drive(kAnn, 0.2, before_s + 2)) << "as quick as before";
 }
 
+TEST_F(HandControlsTest, ToLetGoIsNeverTooLate) {
+    ASSERT_TRUE(hands.take(kAnn, now_s));
+    double control_s = 7;
+    for (int i = 0; i < 10; ++i) {
+        ASSERT_TRUE(drive(kAnn, 0.2, control_s));
+        pass(0.1);
+        control_s += 0.1;
+    }
+    // The newest command came in time, the letting go half a second late.
+    ASSERT_TRUE(drive(kAnn, 0.2, control_s));
+    const double moving_m = driven_m();
+    EXPECT_EQ(refused(drive(kAnn, 0, control_s - 0.5)), "too_late");
+    pass(1);
+    EXPECT_TRUE(motion.standing());
+    EXPECT_LT(driven_m() - moving_m, 0.2 * HandDrive::kLetGo_s) << "not only when it is missed";
+}
+
+TEST_F(HandControlsTest, WhoGoesAwayHasNotLetGoAfterAPause) {
+    ASSERT_TRUE(hands.take(kAnn, now_s));
+    ASSERT_TRUE(drive(kAnn));
+    pass(0.1);
+    instant("startPause", "p");
+    hands.left(kAnn.id);
+    pass(2);
+    ASSERT_TRUE(hands.take(kBob, now_s));
+    EXPECT_EQ(refused(drive(kBob)), "let_go_first");
+    ASSERT_TRUE(drive(kBob, 0));
+    EXPECT_TRUE(drive(kBob));
+}
+
 TEST_F(HandControlsTest, ClocksThatDriftApartAreNoLateLine) {
     ASSERT_TRUE(hands.take(kAnn, now_s));
     double control_s = 0;
