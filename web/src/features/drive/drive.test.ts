@@ -106,7 +106,7 @@ describe("HandHeld", () => {
     expect(line.drives()).toEqual([]); // no direction
     hand.press("ahead", true);
     pass(100);
-    expect(line.drives()).toEqual([0.3, 0.3, 0.3]);
+    expect(line.drives()).toEqual([0.3, 0.3]);
     hand.hold(false);
     expect(line.drives().at(-1)).toBe(0);
     const said = line.drives().length;
@@ -124,6 +124,19 @@ describe("HandHeld", () => {
     pass(200);
     expect(line.drives().length).toBe(said);
     expect(hand.wanted()).toEqual(kStill);
+  });
+
+  it("stays below what a line may say when keys are pressed like mad", () => {
+    const { hand, line, pass } = taken();
+    hand.hold(true);
+    const before = line.sent.length;
+    for (let i = 0; i < 20; ++i) {
+      for (const way of ["ahead", "left", "turn_left"] as const) hand.press(way, true);
+      pass(kRepeatMs);
+      for (const way of ["ahead", "left", "turn_left"] as const) hand.press(way, false);
+    }
+    expect(line.drives().slice(-1)).toEqual([0]); // and stands when they are let go
+    expect(line.sent.length - before).toBeLessThanOrEqual(2 * 20);
   });
 
   it("lets go when nothing is answered, and says that the line is slow", () => {

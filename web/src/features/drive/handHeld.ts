@@ -113,7 +113,8 @@ export class HandHeld {
     if (down) pressed.add(direction);
     else pressed.delete(direction);
     this.change({ pressed });
-    this.tick();
+    // To stand is said at once, to go at the next turn: keys pressed like mad stay below what a line may say.
+    if (isStill(this.wanted())) this.tick();
   }
 
   release(): void {
