@@ -30,7 +30,7 @@ public:
     virtual std::optional<localisation::PoseFix> take_fix() = 0;
     /// True once after each look.
     virtual bool take_fresh() = 0;
-    /// Annotated pictures of the last look; none where there are no images.
+    /// The images of the last look as pictures for people; none where there are none.
     virtual std::vector<Picture> pictures() const = 0;
     /// The vehicle left the place: its readings say nothing any more. Pictures on their way stay.
     virtual void forget() = 0;

@@ -1,6 +1,7 @@
 #include <array>
 #include <chrono>
 
+#include "api/http/vehicles/unknown.hpp"
 #include "api/http/wire/problem.hpp"
 #include "server/sessions/receive.hpp"
 #include "server/sessions/run_handler.hpp"
@@ -110,15 +111,6 @@ api::Response upgrade_required(const api::Request& request) {
     return response;
 }
 
-api::Response unknown_vehicle(const api::Request& request) {
-    return api::problem(404,
-                        Error{Errc::kNotFound,
-                              {"unknown_vehicle", {}},
-                              "The plant has no such vehicle; GET /api/v1/vehicles lists all.",
-                              {}},
-                        request);
-}
-
 }  // namespace
 
 net::awaitable<Next> http_session(Context& context, ByteStream stream, std::string peer) {
@@ -175,7 +167,7 @@ net::awaitable<Next> http_session(Context& context, ByteStream stream, std::stri
                     ? plant::find_vehicle(context.plant, plant::VehicleId(request.params["id"]))
                     : nullptr;
             if (kind == api::Socket::kHandHeld && vehicle == nullptr) {
-                out.response = unknown_vehicle(request);
+                out.response = api::problem(api::unknown_vehicle(request.params["id"]), request);
             } else if (upgrade) {
                 note(context, request, out.route, 101, start);
                 end_abruptly(stream, false);

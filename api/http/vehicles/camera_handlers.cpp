@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "api/http/vehicles/unknown.hpp"
 #include "api/http/wire/problem.hpp"
 #include "api/localization/image_bytes.hpp"
 #include "core/plant/marker_geometry.hpp"
@@ -12,10 +13,6 @@
 
 namespace pulseline::api {
 namespace {
-
-Error not_there(const char* code, const std::string& name, const char* what) {
-    return {Errc::kNotFound, {code, {{"id", name.substr(0, 64)}}}, what, {}};
-}
 
 /// "Sat, 21 Nov 2026 03:50:36 GMT" (RFC 9110).
 std::string http_date(Time time) {
@@ -43,7 +40,7 @@ std::optional<Step> parse_step(const std::string& text) {
 }
 
 Error no_image(const std::string& camera) {
-    return not_there("no_image", camera, "This camera has sent no picture yet; try again later.");
+    return unknown("no_image", camera, "This camera has sent no picture yet; try again later.");
 }
 
 /// Of the codes that it looks for; all of one vehicle have one size.
@@ -64,9 +61,9 @@ Response step_of(const EncodeContext& context, const Request& request, Step step
     if (camera == type->cameras.end() || !image) return problem(no_image(name), request);
     const auto grey = localization::decode_grey(image->bytes, name);
     if (!grey) {
-        return problem(not_there("no_image", name,
-                                 "The newest picture of this camera cannot be read; look at what "
-                                 "the vehicle sends."),
+        return problem(unknown("no_image", name,
+                               "The newest picture of this camera cannot be read; look at what "
+                               "the vehicle sends."),
                        request);
     }
     const auto steps = vision::tang_steps(*grey, *camera, code_size_m(context.plant, *vehicle));
@@ -84,10 +81,7 @@ Response step_of(const EncodeContext& context, const Request& request, Step step
 Response get_camera_image(const InlineContext& context, const Request& request) {
     const plant::VehicleId id(request.param("id"));
     if (plant::find_vehicle(context.plant, id) == nullptr) {
-        return problem(
-            not_there("unknown_vehicle", id.str(),
-                      "There is no vehicle of that id; GET /api/v1/vehicles lists them."),
-            request);
+        return problem(unknown_vehicle(id.str()), request);
     }
     const auto image = context.images.newest(id, request.param("camera"));
     if (!image) {
@@ -103,15 +97,12 @@ Response get_camera_image(const InlineContext& context, const Request& request) 
 FleetAnswer get_camera_step(FleetContext& context, const Request& request) {
     const plant::VehicleId id(request.param("id"));
     if (plant::find_vehicle(context.plant, id) == nullptr) {
-        return {
-            problem(not_there("unknown_vehicle", id.str(),
-                              "There is no vehicle of that id; GET /api/v1/vehicles lists them."),
-                    request)};
+        return {problem(unknown_vehicle(id.str()), request)};
     }
     const auto step = parse_step(request.param("step"));
     if (!step) {
-        return {problem(not_there("unknown_step", request.param("step"),
-                                  "The steps are grey, edges and corners."),
+        return {problem(unknown("unknown_step", request.param("step"),
+                                "The steps are grey, edges and corners."),
                         request)};
     }
     FleetAnswer answer;

@@ -1,5 +1,6 @@
 #include "api/http/vehicles/vehicle_handlers.hpp"
 
+#include "api/http/vehicles/unknown.hpp"
 #include "api/http/vehicles/vehicle_json.hpp"
 #include "api/http/vehicles/vehicle_requests.hpp"
 #include "api/http/wire/etag.hpp"
@@ -9,15 +10,6 @@
 
 namespace pulseline::api {
 namespace {
-
-Error unknown(const char* code, const std::string& id, const char* what) {
-    return {Errc::kNotFound, {code, {{"id", id.substr(0, 64)}}}, what, {}};
-}
-
-Error unknown_vehicle(const std::string& id) {
-    return unknown("unknown_vehicle", id,
-                   "There is no vehicle of that id; GET /api/v1/vehicles lists them.");
-}
 
 Response fleet_response(int status, const FleetContext& context) {
     return json_response(status, fleet_json(context.plant, context.fleet.view(context.now)));
