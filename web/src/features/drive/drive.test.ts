@@ -174,6 +174,21 @@ describe("HandHeld", () => {
     await expect(back).rejects.toMatchObject({ code: "in_other_hands" });
   });
 
+  it("waits for no answer that does not come: after later ones, when the vehicle has gone, and in the end", async () => {
+    const { hand, line, mine, pass } = taken();
+    const overtaken = hand.take();
+    void hand.take();
+    line.answer(mine);
+    await expect(overtaken).rejects.toMatchObject({ code: "no_answer" });
+    const gone = hand.take();
+    line.onmessage?.({ data: JSON.stringify({ sequence: 0, ok: false, reason: "vehicle_not_connected" }) });
+    await expect(gone).rejects.toMatchObject({ code: "no_answer" });
+    expect(hand.state.mine).toBe(false);
+    const silent = hand.take();
+    pass(6000, false);
+    await expect(silent).rejects.toMatchObject({ code: "no_answer" });
+  });
+
   it("has nothing in hand after a cut, and fails what waits", async () => {
     const { hand, line, lines } = taken();
     hand.hold(true);

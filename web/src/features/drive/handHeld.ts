@@ -1,4 +1,4 @@
-import { ApiProblem } from "@/shared/api";
+import { ApiProblem, kRequestTimeoutMs } from "@/shared/api";
 import type { HandHeldAnswer, HandHeldCommand, Reason } from "@/shared/api/types";
 import { isStill, kStill, twistOf, type Direction, type Twist } from "./twist";
 
@@ -138,6 +138,7 @@ export class HandHeld {
     const slow = now - Math.max(asked === Infinity ? now : asked, this.heardAtMs) > kSlowMs;
     if (slow !== this.state.slow) this.change({ slow });
     if (slow) this.release();
+    this.giveUp((_, one) => now - one.atMs > kRequestTimeoutMs);
     const twist = this.wanted();
     const still = isStill(twist);
     if (!still || this.driving) this.send({ do: "drive", ...twist, sent_ms: now });
@@ -171,8 +172,6 @@ export class HandHeld {
       this.socket.close();
       this.socket = undefined;
     }
-    const lost = [...this.pending.values()];
-    this.pending.clear();
     this.driving = false;
     this.change({
       line: "cut",
@@ -182,7 +181,16 @@ export class HandHeld {
       pressed: kNone,
       roundTripMs: undefined,
     });
-    for (const one of lost) one.failed?.(new ApiProblem({ status: 0, code: why }));
+    this.giveUp(() => true, why);
+  }
+
+  /** Fails those that no answer comes for any more. */
+  private giveUp(isLost: (sequence: number, one: Pending) => boolean, why = "no_answer"): void {
+    for (const [sequence, one] of this.pending) {
+      if (!isLost(sequence, one)) continue;
+      this.pending.delete(sequence);
+      one.failed?.(new ApiProblem({ status: 0, code: why }));
+    }
   }
 
   private ask(command: HandHeldCommand): Promise<void> {
@@ -212,6 +220,8 @@ export class HandHeld {
     this.heardAtMs = now;
     const asked = this.pending.get(answer.sequence);
     this.pending.delete(answer.sequence);
+    // They come in their order; what nobody asked for says that the vehicle has gone.
+    this.giveUp((sequence) => asked === undefined || sequence < answer.sequence);
     const refused = answer.ok ? undefined : { code: answer.reason ?? "refused", params: answer.params ?? {} };
     if (answer.operating_mode !== undefined) {
       const mine = answer.mine === true;
