@@ -23,16 +23,25 @@ tl::unexpected<Error> broken(const char* why) {
 
 /// Shows each member of a frame to a visitor, the same way for reading and writing.
 template <class V, class F>
+requires std::same_as<std::remove_const_t<F>, Hello::Axis>
+void members(V& visit, F& f) {
+    visit(f.name);
+    visit(f.position_gain_per_s);
+}
+template <class V, class F>
 requires std::same_as<std::remove_const_t<F>, Hello>
 void members(V& visit, F& f) {
     visit(f.version);
+    if (f.version != kVersion) return visit.nothing_more();
     visit(f.cycle_s);
     visit(f.watchdog_s);
+    visit(f.axes);
 }
 template <class V, class F>
 requires std::same_as<std::remove_const_t<F>, Description>
 void members(V& visit, F& f) {
     visit(f.version);
+    if (f.version != kVersion) return visit.nothing_more();
     visit(f.maker);
     visit(f.dead_cycles);
     visit(f.wheels);
@@ -190,6 +199,7 @@ public:
             }
         }
     }
+    void nothing_more() {}
     void bytes(const std::string& bytes, std::size_t count) {
         assert(bytes.size() == count);
         out_ += bytes.substr(0, count);
@@ -271,6 +281,8 @@ public:
         }
     }
     void bytes(std::string& bytes, std::size_t count) { bytes = take(count); }
+    /// Of another version, which has other members behind its number.
+    void nothing_more() { left_ = {}; }
     void ranges(std::vector<float>& ranges_m) {
         std::uint16_t count = 0;
         (*this)(count);

@@ -15,18 +15,24 @@
 /// endian; numbers in SI units, in the order of the members here; texts behind their length.
 namespace pulseline::machine {
 
-constexpr std::uint16_t kVersion = 2;
+constexpr std::uint16_t kVersion = 3;
 /// Of one frame behind its length: a picture of one camera and what is around it.
 constexpr std::size_t kLargestFrame = 4U << 20U;
 constexpr std::size_t kMostParts =
-    64;  // wheels, brackets, feet, cameras or scanners of one machine
+    64;  // wheels, axes, brackets, feet, cameras or scanners of one machine
 constexpr std::size_t kMostRays = 4096;  // of one turn of a laser scanner
 
 /// From the program, first of all. Before it nothing else is taken.
 struct Hello {
+    struct Axis {
+        std::string name;  // "front drive/steering"
+        double position_gain_per_s = 0;
+        bool operator==(const Axis&) const = default;
+    };
     std::uint16_t version = kVersion;
     double cycle_s = 0.01;    // between two set points
     double watchdog_s = 0.1;  // without one for so long the brakes fall in
+    std::vector<Axis> axes;   // what the plant has of the position loops that it closes
     bool operator==(const Hello&) const = default;
 };
 
@@ -64,7 +70,7 @@ struct Feedback {
         double angle_rad = 0;
         double steered_to_rad = 0;  // what its drive is on the way to
         double temperature_c = 0;
-        bool fault = false;    // its drive is off, or it does not follow
+        std::string fault;  // its drive is off, or it does not follow: "drive_fault"; empty: none
         bool lagging = false;  // so far behind that its encoder is to blame
         bool operator==(const Wheel&) const = default;
     };

@@ -21,6 +21,34 @@ Wheel decode_wheel(ObjectReader& in) {
     return wheel;
 }
 
+Caster decode_caster(ObjectReader& in) {
+    Caster caster;
+    caster.name = in.text("name", kName);
+    caster.position = decode_point(in.object("position"));
+    caster.diameter_m = in.number("diameter_m", kMetres);
+    return caster;
+}
+
+AxisControl decode_control(ObjectReader& in) {
+    AxisControl control;
+    control.cycle_s = in.number_or("cycle_s", control.cycle_s, kQuantity);
+    control.drive_gain_per_s =
+        in.number_or("drive_gain_per_s", control.drive_gain_per_s, kQuantity);
+    control.steering_gain_per_s =
+        in.number_or("steering_gain_per_s", control.steering_gain_per_s, kQuantity);
+    control.lift_gain_per_s = in.number_or("lift_gain_per_s", control.lift_gain_per_s, kQuantity);
+    in.refuse_unknown();
+    return control;
+}
+
+DriveTemperatures decode_temperatures(ObjectReader& in) {
+    DriveTemperatures limits;
+    limits.warm_c = in.number("warm_c", kQuantity);
+    limits.hot_c = in.number("hot_c", kQuantity);
+    in.refuse_unknown();
+    return limits;
+}
+
 CameraMounting decode_mounting(ObjectReader& in) {
     return {decode_pose(in.object("body_from_camera")), in.number("height_m", kMetres),
             in.number_or("tilt_u_rad", 0, kTilt), in.number_or("tilt_v_rad", 0, kTilt)};
@@ -203,6 +231,11 @@ VehicleType decode_vehicle_type(ObjectReader& in) {
         }
     });
     decode_all(in, "wheels", kFew, type.wheels, decode_wheel);
+    decode_all(in, "casters", kFew, type.casters, decode_caster, false);
+    if (auto control = in.object_if_any("control")) type.control = decode_control(*control);
+    if (auto limits = in.object_if_any("drive_temperatures")) {
+        type.drive_temperatures = decode_temperatures(*limits);
+    }
     decode_all(in, "cameras", kFew, type.cameras, decode_camera);
     decode_all(in, "receivers", kFew, type.receivers, decode_receiver, false);
     if (in.has("scanners")) {

@@ -163,6 +163,10 @@ Json encode(const NavigationScanner& s) {
             {"sigma_bearing_rad", s.sigma_bearing_rad}};
 }
 
+Json encode(const Caster& c) {
+    return {{"name", c.name}, {"position", encode(c.position)}, {"diameter_m", c.diameter_m}};
+}
+
 Json encode(const Bracket& b) { return {{"name", b.name}, {"position", encode(b.position)}}; }
 
 Json encode(const ParkingGear& parking) {
@@ -211,6 +215,13 @@ Json encode_all(const std::vector<T>& items) {
     return list;
 }
 
+Json encode(const AxisControl& control) {
+    return {{"cycle_s", control.cycle_s},
+            {"drive_gain_per_s", control.drive_gain_per_s},
+            {"steering_gain_per_s", control.steering_gain_per_s},
+            {"lift_gain_per_s", control.lift_gain_per_s}};
+}
+
 Json encode(const VehicleType& t) {
     Json modes = Json::array();
     for (const MotionMode mode : t.motion_modes) modes.push_back(to_string(mode));
@@ -238,6 +249,10 @@ Json encode(const VehicleType& t) {
                   {{"critical_percent", t.battery.critical_percent},
                    {"low_percent", t.battery.low_percent},
                    {"enough_percent", t.battery.enough_percent}}}};
+    if (!t.casters.empty()) json["casters"] = encode_all(t.casters);
+    json["control"] = encode(t.control);
+    json["drive_temperatures"] = {{"warm_c", t.drive_temperatures.warm_c},
+                                  {"hot_c", t.drive_temperatures.hot_c}};
     if (t.parking) json["parking"] = encode(*t.parking);
     if (!t.brackets.empty() || t.load_rules != LoadRules{})
         json["load_rules"] = encode(t.load_rules);

@@ -116,6 +116,16 @@ Json encode_geometry(const VehicleType& type) {
              {"width", kWheelWidth_m},
              {"constraints", wheel.name}});
     }
+    for (const auto& caster : type.casters) {
+        const auto& at = caster.position;
+        wheels.push_back({{"type", "CASTER"},
+                          {"isActiveDriven", false},
+                          {"isActiveSteered", false},
+                          {"position", {{"x", finite(at.x_m)}, {"y", finite(at.y_m)}}},
+                          {"diameter", finite(caster.diameter_m)},
+                          {"width", kWheelWidth_m},
+                          {"constraints", caster.name}});
+    }
     Json envelopes = Json::array({encode_outline("unloaded", type.footprint)});
     if (!type.load_footprint.empty()) {
         envelopes.push_back(encode_outline("load", type.load_footprint));

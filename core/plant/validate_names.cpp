@@ -191,6 +191,16 @@ void check_own_names(const std::vector<T>& parts, const std::string& list, const
 void check_type_names(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         const VehicleType& type = plant.vehicle_types[i];
+        check_own_names(type.wheels, at("vehicle_types", i, "/wheels"), "wheel",
+                        "Name it by its place, such as \"FL\".", faults);
+        check_own_names(type.casters, at("vehicle_types", i, "/casters"), "caster",
+                        "Name it by its place, such as \"front left\".", faults);
+        check_own_names(type.brackets, at("vehicle_types", i, "/brackets"), "bracket",
+                        "Name it by its place, such as \"front left\".", faults);
+        if (type.parking) {
+            check_own_names(type.parking->feet, at("vehicle_types", i, "/parking/feet"), "foot",
+                            "Name it by its place, such as \"front left\".", faults);
+        }
         check_own_names(type.cameras, at("vehicle_types", i, "/cameras"), "camera",
                         "Name it by its place, such as \"front\".", faults);
         check_own_names(type.receivers, at("vehicle_types", i, "/receivers"), "receiver",

@@ -131,6 +131,41 @@ void check_parking(const VehicleType& t, const std::string& element, Faults& fau
     }
 }
 
+// A position loop with two cycles of dead time swings from twice this on.
+constexpr double kMostGainPerCycle = 0.25;
+constexpr double kLeastCycle_s = 0.001;
+constexpr double kMostCycle_s = 0.05;
+constexpr double kRounding_s = 1e-9;
+
+void check_control(const AxisControl& control, Numbers n) {
+    const double cycle_s = control.cycle_s;
+    if (!n.finite("/cycle_s", cycle_s)) return;
+    const double whole_s = std::round(cycle_s / kLeastCycle_s) * kLeastCycle_s;
+    if (cycle_s < kLeastCycle_s - kRounding_s || cycle_s > kMostCycle_s + kRounding_s ||
+        std::abs(cycle_s - whole_s) > kRounding_s) {
+        n.fault("/cycle_s", "cycle", "No controller takes set points in such a cycle.",
+                "Write whole milliseconds, from 0.001 to 0.05 s.");
+        return;
+    }
+    const auto gain = [&](const char* field, double gain_per_s) {
+        n.positive(field, gain_per_s);
+        if (std::isfinite(gain_per_s) && gain_per_s * cycle_s > kMostGainPerCycle) {
+            n.fault(field, "gain_too_high", "With such a gain the axis swings at its cycle.",
+                    "Keep the gain times the cycle at 0.25 or below.");
+        }
+    };
+    gain("/drive_gain_per_s", control.drive_gain_per_s);
+    gain("/steering_gain_per_s", control.steering_gain_per_s);
+    gain("/lift_gain_per_s", control.lift_gain_per_s);
+}
+
+void check_temperatures(const DriveTemperatures& limits, Numbers n) {
+    if (!n.finite("/warm_c", limits.warm_c) || !n.finite("/hot_c", limits.hot_c)) return;
+    if (limits.warm_c > 0 && limits.hot_c > limits.warm_c) return;
+    n.fault("/hot_c", "temperature_limits", "The temperatures of the drives are not in order.",
+            "Give 0 < warm_c < hot_c, in degrees Celsius.");
+}
+
 void check_type(const VehicleType& t, const std::string& element, Faults& faults) {
     Numbers n(element, faults);
     n.positive("/max_speed_mps", t.max_speed_mps);
@@ -167,6 +202,13 @@ void check_type(const VehicleType& t, const std::string& element, Faults& faults
         wheel.point("/position", t.wheels[i].position);
         wheel.positive("/diameter_m", t.wheels[i].diameter_m);
     }
+    for (std::size_t i = 0; i < t.casters.size(); ++i) {
+        Numbers caster(element + "/casters/" + std::to_string(i), faults);
+        caster.point("/position", t.casters[i].position);
+        caster.positive("/diameter_m", t.casters[i].diameter_m);
+    }
+    check_control(t.control, {element + "/control", faults});
+    check_temperatures(t.drive_temperatures, {element + "/drive_temperatures", faults});
     for (std::size_t i = 0; i < t.cameras.size(); ++i) {
         check_camera(t.cameras[i], {element + "/cameras/" + std::to_string(i), faults});
     }

@@ -25,6 +25,23 @@ ParkingGear usual_parking(const Polygon& footprint) {
              {"back right", {box.min.x_m, box.min.y_m}}}};
 }
 
+std::vector<Axis> axes_of(const VehicleType& type) {
+    const AxisControl& control = type.control;
+    std::vector<Axis> axes;
+    for (const Wheel& wheel : type.wheels) {
+        if (wheel.driven) axes.push_back({wheel.name + "/drive", control.drive_gain_per_s});
+        if (wheel.steered) axes.push_back({wheel.name + "/steering", control.steering_gain_per_s});
+    }
+    for (const Bracket& bracket : type.brackets) {
+        axes.push_back({bracket.name + "/bracket", control.lift_gain_per_s});
+    }
+    if (!type.parking) return axes;
+    for (const ParkingFoot& foot : type.parking->feet) {
+        axes.push_back({foot.name + "/foot", control.lift_gain_per_s});
+    }
+    return axes;
+}
+
 Polygon wheel_base(const VehicleType& type) {
     std::vector<Point2> wheels;
     for (const Wheel& wheel : type.wheels) wheels.push_back(wheel.position);

@@ -51,6 +51,34 @@ struct Wheel {
     double diameter_m = 0;
 };
 
+/// A wheel that swivels and rolls as the vehicle moves: it bears a little of the middle of a long
+/// body and tells nothing (Tang 2020, section 2.1).
+struct Caster {
+    std::string name;  // "middle left front"
+    Point2 position;   // body frame
+    double diameter_m = 0;
+};
+
+/// How the controller of a machine moves its axes (Tang 2020, section 2.1, figures 2 and 3): the
+/// vehicle's program sends set points every cycle, and the controller closes the position loop of
+/// each axis, which is proportional. The axes are those of the type's wheels, brackets and feet
+/// (axes_of).
+struct AxisControl {
+    double cycle_s = 0.01;           // whole milliseconds
+    double drive_gain_per_s = 3.5;   // of what rolls a wheel: the paper's
+    double steering_gain_per_s = 8;  // of what turns one about its vertical axis
+    double lift_gain_per_s = 10;     // of a bracket or a foot
+    bool operator==(const AxisControl&) const = default;
+};
+
+/// Of the servo drives of wheels: where people are told, and where a drive switches itself off,
+/// until it is cooler than warm_c.
+struct DriveTemperatures {
+    double warm_c = 65;
+    double hot_c = 90;
+    bool operator==(const DriveTemperatures&) const = default;
+};
+
 /// How a camera hangs over the floor, from calibration: where the foot of its optical centre,
 /// straight below it, lies in the body frame, and how the image's +u axis is turned against body x.
 struct CameraMounting {
@@ -189,6 +217,9 @@ struct VehicleType {
     double length_m() const;
     std::vector<MotionMode> motion_modes;
     std::vector<Wheel> wheels;
+    std::vector<Caster> casters;
+    AxisControl control;
+    DriveTemperatures drive_temperatures;
     std::vector<Camera> cameras;
     std::vector<Receiver> receivers;     // of iGPS; none: it does not navigate by it
     std::vector<LaserScanner> scanners;  // none: it sees nothing that stands in its way
@@ -209,6 +240,14 @@ struct VehicleType {
 std::vector<LaserScanner> usual_scanners(const Polygon& footprint);
 /// Of a type with brackets that was stored before its feet were: at the corners of the footprint.
 ParkingGear usual_parking(const Polygon& footprint);
+/// One servo axis of a type, with the gain of its position loop.
+struct Axis {
+    std::string name;  // "front drive/drive", "FL/steering", "front left/bracket", "back left/foot"
+    double position_gain_per_s = 0;
+    bool operator==(const Axis&) const = default;
+};
+/// All of them: what drives and steers its wheels, then brackets, then feet, each in its order.
+std::vector<Axis> axes_of(const VehicleType& type);
 /// The convex hull of the wheels' places, body frame.
 Polygon wheel_base(const VehicleType& type);
 /// The cameras as they hang with or without load.

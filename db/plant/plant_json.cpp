@@ -256,4 +256,33 @@ plant::BracketLift bracket_lift_from_json(const std::string& text) {
     return stored.empty() ? plant::BracketLift{} : stored.front();
 }
 
+std::string casters_to_json(const std::vector<plant::Caster>& casters) {
+    return list_to_json(casters, [](const plant::Caster& c) {
+        return Json{{"name", c.name},
+                    {"position", encode(c.position)},
+                    {"diameter_m", number(c.diameter_m)}};
+    });
+}
+std::vector<plant::Caster> casters_from_json(const std::string& text) {
+    return list_from_json<plant::Caster>(text, [](const Json& j) {
+        return plant::Caster{j.at("name"), decode_point(j.at("position")), j.at("diameter_m")};
+    });
+}
+
+std::string control_to_json(const plant::AxisControl& control) {
+    return Json{{"cycle_s", number(control.cycle_s)},
+                {"drive_gain_per_s", number(control.drive_gain_per_s)},
+                {"steering_gain_per_s", number(control.steering_gain_per_s)},
+                {"lift_gain_per_s", number(control.lift_gain_per_s)}}
+        .dump();
+}
+plant::AxisControl control_from_json(const std::string& text) {
+    const auto stored = list_from_json<plant::AxisControl>(
+        "[" + (text == "null" ? "" : text) + "]", [](const Json& j) {
+            return plant::AxisControl{j.at("cycle_s"), j.at("drive_gain_per_s"),
+                                      j.at("steering_gain_per_s"), j.at("lift_gain_per_s")};
+        });
+    return stored.empty() ? plant::AxisControl{} : stored.front();
+}
+
 }  // namespace pulseline::db

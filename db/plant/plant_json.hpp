@@ -33,4 +33,10 @@ plant::LoadRules load_rules_from_json(const std::string& text);
 std::string bracket_lift_to_json(const plant::BracketLift& lift);
 plant::BracketLift bracket_lift_from_json(const std::string& text);
 
+std::string casters_to_json(const std::vector<plant::Caster>& casters);
+std::vector<plant::Caster> casters_from_json(const std::string& text);
+/// "null" becomes the control of a type that states none.
+std::string control_to_json(const plant::AxisControl& control);
+plant::AxisControl control_from_json(const std::string& text);
+
 }  // namespace pulseline::db

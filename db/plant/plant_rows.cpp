@@ -91,6 +91,8 @@ void VehicleTypeRow::set(const plant::VehicleType& type) {
     parking = parking_to_json(type.parking);
     load_rules = load_rules_to_json(type.load_rules);
     bracket_lift = bracket_lift_to_json(type.bracket_lift);
+    casters = casters_to_json(type.casters);
+    control = control_to_json(type.control);
     usual_code_kind = plant::to_string(type.usual_code.kind);
     slip_sensor_noise_mps = type.slip_sensor ? type.slip_sensor->noise_mps : 0;
     names = names_to_json(type.names);
@@ -121,6 +123,8 @@ plant::VehicleType VehicleTypeRow::get() const {
                        : parking_from_json(parking == kBeforeParking ? "null" : parking);
     type.load_rules = load_rules_from_json(load_rules);
     type.bracket_lift = bracket_lift_from_json(bracket_lift);
+    type.casters = casters_from_json(casters);
+    type.control = control_from_json(control);
     read(usual_code_kind, type.usual_code.kind);
     type.slip_sensor.reset();
     if (slip_sensor_noise_mps > 0) type.slip_sensor = {slip_sensor_noise_mps};

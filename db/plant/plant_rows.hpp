@@ -87,11 +87,11 @@ struct VehicleTypeRow {
         "battery_critical_percent, battery_low_percent, battery_enough_percent, "
         "max_steering_rate_radps, height_m, usual_code_kind, usual_code_size_m, "
         "slip_sensor_noise_mps, receivers, scanners, navigation_scanner, parking, "
-        "load_rules, bracket_lift, names";
+        "load_rules, bracket_lift, casters, control, drive_warm_c, drive_hot_c, names";
     std::int64_t position = 0;
     std::string id, kinematics, footprint, load_footprint, motion_modes, wheels, cameras, receivers,
-        scanners, navigation_scanner, brackets, parking, load_rules, bracket_lift, usual_code_kind,
-        names;
+        scanners, navigation_scanner, brackets, parking, load_rules, bracket_lift, casters, control,
+        usual_code_kind, names;
     double slip_sensor_noise_mps = 0;  // 0: none
     plant::VehicleType element;
 
@@ -104,7 +104,8 @@ struct VehicleTypeRow {
                         t.max_load_kg, t.battery.critical_percent, t.battery.low_percent,
                         t.battery.enough_percent, t.max_steering_rate_radps, t.height_m,
                         usual_code_kind, t.usual_code.size_m, slip_sensor_noise_mps, receivers,
-                        scanners, navigation_scanner, parking, load_rules, bracket_lift, names);
+                        scanners, navigation_scanner, parking, load_rules, bracket_lift, casters,
+                        control, t.drive_temperatures.warm_c, t.drive_temperatures.hot_c, names);
     }
     void set(const plant::VehicleType& type);
     plant::VehicleType get() const;

@@ -7,11 +7,6 @@
 namespace pulseline::agent {
 namespace {
 
-constexpr double kAmbient_c = 22;
-constexpr double kHeat_c = 18;        // above ambient at full speed for long
-constexpr double kSeizedHeat_c = 90;  // besides, of a wheel whose bearing grinds
-constexpr double kHeatTime_s = 600;
-
 std::string text_of(const Param& param) {
     if (const auto* text = std::get_if<std::string>(&param.value)) return *text;
     const auto* number = std::get_if<double>(&param.value);
@@ -38,6 +33,10 @@ vda5050::VehicleError stopped_error(const Reason& cause) {
     return error;
 }
 
+vda5050::VehicleError wheel_fault(const std::string& wheel, const std::string& what) {
+    return {"wheelFault", false, "the drive of wheel " + wheel + " " + what, {{"wheel", wheel}}};
+}
+
 }  // namespace
 
 void write_stop(const onboard::Drive& drive, vda5050::StateMessage& state) {
@@ -48,21 +47,25 @@ void write_stop(const onboard::Drive& drive, vda5050::StateMessage& state) {
         return;
     }
     const std::string wheel = text_of(cause->params.at(0));
-    state.errors.push_back(
-        {"wheelFault", false, "the drive of wheel " + wheel + " has a fault", {{"wheel", wheel}}});
+    const bool told = std::ranges::any_of(
+        state.wheels, [&](const auto& w) { return w.name == wheel && !w.fault.empty(); });
+    if (!told) state.errors.push_back(wheel_fault(wheel, "has a fault"));
 }
 
-BodyStatus::BodyStatus(const onboard::Drive& motion) : motion_(motion) {
-    for (const auto& wheel : motion.type().wheels) {
-        wheels_.push_back({wheel.name, 0, 0, kAmbient_c, ""});
+void write_wheel_faults(const plant::VehicleType& type, vda5050::StateMessage& state) {
+    for (const auto& wheel : state.wheels) {
+        if (wheel.fault.empty()) continue;
+        const auto whole = [](double c) { return std::to_string(std::lround(c)); };
+        state.errors.push_back(wheel_fault(
+            wheel.name, wheel.fault == kTooHot ? "is too hot, " + whole(wheel.temperature_c) +
+                                                     " degrees; it goes again below " +
+                                                     whole(type.drive_temperatures.warm_c)
+                                               : "has a fault"));
     }
 }
 
-bool BodyStatus::seize_bearing(const std::string& name) {
-    const bool known =
-        std::ranges::find(wheels_, name, &vda5050::WheelStatus::name) != wheels_.end();
-    if (known) hot_wheel_ = name;
-    return known;
+BodyStatus::BodyStatus(const onboard::Drive& motion) : motion_(motion), heat_(motion.type()) {
+    for (const auto& wheel : motion.type().wheels) wheels_.push_back({wheel.name, 0, 0, 0, ""});
 }
 
 /// As the drive tells; one without a model of its wheels has those of its twist.
@@ -81,34 +84,26 @@ std::string BodyStatus::faulty_wheel() const {
 }
 
 void BodyStatus::step(double dt_s) {
-    const double full_mps = motion_.type().max_speed_mps * motion_.time_factor();
     rolling_ = wheel_motions();
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
-        const double speed = std::abs(rolling_[i].speed_mps);
         wheels_[i].steering_rad = rolling_[i].angle_rad;
-        wheels_[i].speed_mps = speed;
-        const double heat_c = kHeat_c + (wheels_[i].name == hot_wheel_ ? kSeizedHeat_c : 0);
-        const double target_c = kAmbient_c + heat_c * std::min(1.0, speed / full_mps);
-        const double share = std::min(1.0, dt_s * motion_.time_factor() / kHeatTime_s);
-        wheels_[i].temperature_c += share * (target_c - wheels_[i].temperature_c);
+        wheels_[i].speed_mps = std::abs(rolling_[i].speed_mps);
+        rolling_[i].speed_mps /= motion_.time_factor();
+    }
+    heat_.step(dt_s * motion_.time_factor(), rolling_);
+    for (std::size_t i = 0; i < wheels_.size(); ++i) {
+        wheels_[i].temperature_c = heat_.temperature_c(i);
         wheels_[i].fault = "";
-        if (wheels_[i].name == faulty_wheel()) wheels_[i].fault = "drive_fault";
+        if (wheels_[i].name == faulty_wheel()) wheels_[i].fault = kDriveFault;
         if (wheels_[i].name == broken_wheel_) wheels_[i].fault = "steering_drive_fault";
+        if (heat_.is_off(i)) wheels_[i].fault = kTooHot;
     }
 }
 
 void BodyStatus::write_state(vda5050::StateMessage& state) const {
     state.wheels = wheels_;
-    const std::string at_fault = broken_wheel_.empty() ? faulty_wheel() : broken_wheel_;
-    if (!at_fault.empty()) {
-        state.errors.push_back({"wheelFault",
-                                false,
-                                "the drive of wheel " + at_fault + " has a fault",
-                                {{"wheel", at_fault}}});
-    }
-    const auto cause = motion_.stop_cause();
-    if (cause && cause->code != onboard::stop_causes::kWheelFault)
-        state.errors.push_back(stopped_error(*cause));
+    write_wheel_faults(motion_.type(), state);
+    write_stop(motion_, state);
 }
 
 }  // namespace pulseline::agent

@@ -226,8 +226,10 @@ int machine_command(int argc, char** argv) {
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
     app.add_option(
         "--fault", options.faults,
-        "for tests: wheel=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, camera-dark, "
-        "look-out-covered, obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, each with "
+        "for tests: wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
+        "camera-dark, "
+        "look-out-covered, obstacle=X,Y, way-free, carried=AHEAD,LEFT,DEGREES, "
+        "bracket-off=NAME:METRES or pit=FOOT, each with "
         "@SECONDS or without, and behind driving: or not");
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
     CLI11_PARSE(app, argc, argv);

@@ -32,7 +32,6 @@ using namespace std::chrono_literals;
 constexpr int kExitTrouble = 1;
 constexpr int kExitReplaced = 3;
 constexpr auto kTick = 20ms;
-constexpr auto kMachineTick = 10ms;     // one cycle of its set points
 constexpr double kLongestStep_s = 0.2;  // after a stall the vehicle must not leap
 constexpr auto kTellLostTime = 1s;
 
@@ -147,6 +146,11 @@ void let_see(const std::vector<Unit>& units) {
     }
 }
 
+/// Of the set points of a machine over TCP; there is one vehicle only then.
+double cycle_s(std::vector<Unit>& units) {
+    return units.front().vehicle->program().type().control.cycle_s;
+}
+
 net::awaitable<void> step_all(std::vector<Unit>& units, Vehicle::Steady::duration tick,
                               const bool& running) {
     net::steady_timer timer(co_await net::this_coro::executor);
@@ -244,7 +248,11 @@ Result<int> run(const Options& options) {
             if (hand_held) hand_held->stop();
         });
     }
-    const Vehicle::Steady::duration tick = options.machine.empty() ? kTick : kMachineTick;
+    // A machine over TCP is sent its set points in its own cycle.
+    const auto tick = options.machine.empty()
+                          ? kTick
+                          : std::chrono::duration_cast<Vehicle::Steady::duration>(
+                                std::chrono::duration<double>(cycle_s(units)));
     net::co_spawn(io, step_all(units, tick, running), [](const std::exception_ptr& error) {
         if (error) std::rethrow_exception(error);
     });

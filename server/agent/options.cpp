@@ -34,6 +34,8 @@ std::string trimmed(std::string text) {
     return text;
 }
 
+constexpr double kMostOff_m = 0.1;  // of a bracket: its stroke is not much longer
+
 struct Raw {
     std::string server;
     std::string vehicle;
@@ -159,8 +161,8 @@ Result<Fault> parse_fault(const std::string& text) {
             "fault \"" + text +
                 "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
                 "camera-dark, transmitter-dark=NAME, scanner-covered, look-out-covered, "
-                "obstacle=X,Y, way-free or carried=AHEAD,LEFT,DEGREES, each with @SECONDS or "
-                "without, and behind driving: or not");
+                "obstacle=X,Y, way-free, carried=AHEAD,LEFT,DEGREES, bracket-off=NAME:METRES or "
+                "pit=FOOT, each with @SECONDS or without, and behind driving: or not");
     };
     Fault fault;
     std::string what = text;
@@ -206,15 +208,18 @@ Result<Fault> parse_fault(const std::string& text) {
         const auto by = read_numbers(std::exchange(fault.part, {}), 3);
         if (by.empty()) return bad();
         fault.carried = {by[0], by[1], wrap(radians(by[2]))};
-    } else if (kind == "slip") {
-        fault.kind = Fault::Kind::kSlip;
+    } else if (kind == "pit") {
+        fault.kind = Fault::Kind::kPit;
+    } else if (kind == "slip" || kind == "bracket-off") {
+        const bool slips = kind == "slip";
+        fault.kind = slips ? Fault::Kind::kSlip : Fault::Kind::kBracketOff;
         const auto colon = fault.part.rfind(':');
         if (colon == std::string::npos || colon == 0) return bad();
-        const char* end = fault.part.data() + fault.part.size();
-        const auto [rest, error] = std::from_chars(fault.part.data() + colon + 1, end, fault.share);
-        if (error != std::errc{} || rest != end || !(fault.share > 0 && fault.share <= 1)) {
-            return bad();
-        }
+        const auto number = read_numbers(fault.part.substr(colon + 1), 1);
+        if (number.empty()) return bad();
+        if (slips && !(number[0] > 0 && number[0] <= 1)) return bad();
+        if (!slips && !(std::abs(number[0]) <= kMostOff_m)) return bad();
+        (slips ? fault.share : fault.by_m) = number[0];
         fault.part.resize(colon);
     } else {
         return bad();
@@ -300,7 +305,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
         "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
         "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
         "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
-        "look-out-covered@SECONDS, way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS; "
+        "look-out-covered@SECONDS, way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS, "
+        "bracket-off=NAME:METRES@SECONDS, pit=FOOT@SECONDS; "
         "behind driving: each waits until it drives fast the next time");
     try {
         app.parse(argc, argv);

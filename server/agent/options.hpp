@@ -35,15 +35,18 @@ struct Fault {
         kTransmitterDark,
         kScannerCovered,
         kLookOutCovered,
-        kCarried
+        kCarried,
+        kBracketOff,
+        kPit
     };
     Kind kind = Kind::kWheel;
-    std::string part;        // the wheel, or the transmitter
+    std::string part;        // the wheel, the transmitter, the bracket or the foot
     double share = 0;        // of the rim's speed that slips
     geometry::Point2 place;  // of the obstacle's centre, hall frame; it is 0.5 m wide and long
     double after_s = 0;
     bool driving = false;          // after that, the next time it drives fast
     geometry::Pose2 carried = {};  // to where, seen from where it was
+    double by_m = 0;               // that the bracket is higher than it tells
 };
 
 struct Options {

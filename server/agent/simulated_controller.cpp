@@ -7,6 +7,7 @@
 #include "core/simulation/world/image_conditions.hpp"
 #include "core/simulation/world/true_camera.hpp"
 #include "core/vda5050/actions.hpp"
+#include "server/agent/body_status.hpp"
 #include "server/agent/hall_truth.hpp"
 
 namespace pulseline::agent {
@@ -14,11 +15,7 @@ namespace {
 
 using namespace machine;
 
-constexpr double kMachineCycle_s = onboard::Wheels::kCycle_s;
 constexpr double kUsualBattery = 90;
-constexpr double kHallAir_c = 22;
-constexpr double kDriveHeat_k = 18;  // of a drive at full speed for long
-constexpr double kDriveHeatTime_s = 600;
 constexpr const char* kEveryPart = "all";
 
 const char* type_of(Lift::What what) {
@@ -63,6 +60,26 @@ std::optional<vda5050::Action> action_of(const plant::VehicleType& type, const L
     return action;
 }
 
+/// Why a program whose plant says other of the axes is not talked with.
+std::optional<std::string> other_control(const plant::VehicleType& type, const Hello& hello) {
+    if (hello.cycle_s != type.control.cycle_s) {
+        return "unknown_cycle: " + std::to_string(type.control.cycle_s) + " s is what it has";
+    }
+    const auto axes = plant::axes_of(type);
+    if (hello.axes.size() != axes.size()) {
+        return "wrong_axes: " + std::to_string(hello.axes.size()) + " of " +
+               std::to_string(axes.size());
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+        if (hello.axes[i].name != axes[i].name) return "unknown_axis: " + hello.axes[i].name;
+        if (hello.axes[i].position_gain_per_s != axes[i].position_gain_per_s) {
+            return "other_gain: " + axes[i].name + " has " +
+                   std::to_string(axes[i].position_gain_per_s);
+        }
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 SimulatedController::SimulatedController(const simulation::World& world,
@@ -84,7 +101,7 @@ SimulatedController::SimulatedController(const simulation::World& world,
       random_(simulation::seed_for(settings.seed, "eyes " + vehicle.id.str())),
       settings_(settings),
       load_kg_(first_load_kg(world.plant, vehicle)),
-      warm_k_(type.wheels.size()) {
+      heat_(type) {
     equipment_.work_below(world.supports, hall_, carried_at_first(world.plant, vehicle));
     const bool loaded = plant::first_load(world.plant, vehicle.id) != nullptr;
     for (auto& camera : cameras_) {
@@ -97,8 +114,7 @@ std::vector<Frame> SimulatedController::handle(const Frame& frame) {
         if (hello->version != kVersion) {
             return {Refused{"unknown_version: version " + std::to_string(hello->version)}};
         }
-        if (hello->cycle_s != kMachineCycle_s)
-            return {Refused{"unknown_cycle: 0.01 s is what it has"}};
+        if (auto why_not = other_control(type_, *hello)) return {Refused{std::move(*why_not)}};
         hello_ = *hello;
         silent_s_ = 0;
         return {description()};
@@ -166,12 +182,10 @@ std::optional<std::string> SimulatedController::drive(const SetPoints& points) {
             fastest_mps = std::max(fastest_mps, std::abs(wheel.speed_mps));
         }
     }
-    for (std::size_t i = 0; i < warm_k_.size(); ++i) {
-        const double share =
-            std::min(1.0, std::abs(wheels_.measured()[i].speed_mps) / type_.max_speed_mps);
-        warm_k_[i] += kMachineCycle_s / kDriveHeatTime_s * (kDriveHeat_k * share - warm_k_[i]);
-    }
-    equipment_.step(kMachineCycle_s, fastest_mps * kMachineCycle_s);
+    const double cycle_s = type_.control.cycle_s;
+    heat_.step(cycle_s, wheels_.measured());
+    for (std::size_t i = 0; i < type_.wheels.size(); ++i) wheels_.set_hot(i, heat_.is_off(i));
+    equipment_.step(cycle_s, fastest_mps * cycle_s);
     if (std::exchange(load_kg_, equipment_.load_kg()) != load_kg_) wheels_.set_load(load_kg_);
     return std::nullopt;
 }
@@ -196,8 +210,11 @@ Feedback SimulatedController::feedback(std::uint32_t cycle) {
         const auto& name = type_.wheels[i].name;
         const auto& measured = wheels_.measured()[i];
         feedback.wheels.push_back({measured.speed_mps, measured.angle_rad,
-                                   wheels_.present()[i].angle_rad, kHallAir_c + warm_k_[i],
-                                   fault == name, lagging == name});
+                                   wheels_.present()[i].angle_rad, heat_.temperature_c(i),
+                                   heat_.is_off(i) ? kTooHot
+                                   : fault == name ? kDriveFault
+                                                   : "",
+                                   lagging == name});
     }
     for (const auto& bracket : told.brackets) {
         feedback.brackets.push_back(
@@ -268,8 +285,7 @@ Frame SimulatedController::scans(const Look& look) {
 }
 
 bool SimulatedController::has(Fault::Kind fault) {
-    return fault != Fault::Kind::kBearing && fault != Fault::Kind::kTransmitterDark &&
-           fault != Fault::Kind::kScannerCovered;
+    return fault != Fault::Kind::kTransmitterDark && fault != Fault::Kind::kScannerCovered;
 }
 
 void SimulatedController::apply_faults(double dt_s) {
@@ -311,7 +327,15 @@ void SimulatedController::apply(const Fault& fault) {
         case Fault::Kind::kCarried:
             wheels_.carry(fault.carried);
             break;
+        case Fault::Kind::kBracketOff:
+            equipment_.displace_bracket(fault.part, fault.by_m);
+            break;
+        case Fault::Kind::kPit:
+            equipment_.dig_below(fault.part);
+            break;
         case Fault::Kind::kBearing:
+            heat_.seize_bearing(fault.part);
+            break;
         case Fault::Kind::kTransmitterDark:
         case Fault::Kind::kScannerCovered:
             break;  // it has none of these

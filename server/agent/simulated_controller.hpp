@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "api/machine/frames.hpp"
+#include "core/simulation/machine/drive_heat.hpp"
 #include "core/simulation/machine/equipment.hpp"
 #include "core/simulation/machine/wheels_on_floor.hpp"
 #include "core/simulation/world/floor_camera.hpp"
@@ -76,7 +77,7 @@ private:
     bool covered_ = false;  // the codes below
     double age_s_ = 0;
     double silent_s_ = 0;
-    std::vector<double> warm_k_;  // above the hall, of each wheel's drive
+    simulation::DriveHeat heat_;
 };
 
 }  // namespace pulseline::agent

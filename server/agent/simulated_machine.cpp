@@ -74,6 +74,11 @@ SimulatedMachine::SimulatedMachine(const simulation::World& world, const plant::
 
 void SimulatedMachine::step(double dt_s) {
     body_.step(dt_s);
+    if (auto* servo = dynamic_cast<simulation::ServoDrive*>(drive_.get())) {
+        for (std::size_t i = 0; i < type_.wheels.size(); ++i) {
+            servo->set_hot(i, body_.heat().is_off(i));
+        }
+    }
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
     if (std::exchange(load_kg_, equipment_.load_kg()) != load_kg_) drive_->set_load(load_kg_);
 }
@@ -146,6 +151,12 @@ void SimulatedMachine::apply(const Fault& fault) {
         case Fault::Kind::kBearing:
             known = body_.seize_bearing(fault.part);
             break;
+        case Fault::Kind::kBracketOff:
+            known = equipment_.displace_bracket(fault.part, fault.by_m);
+            break;
+        case Fault::Kind::kPit:
+            known = equipment_.dig_below(fault.part);
+            break;
         case Fault::Kind::kSlip:
             known = servo != nullptr && servo->set_slip(fault.part, fault.share);
             break;
@@ -154,8 +165,8 @@ void SimulatedMachine::apply(const Fault& fault) {
             break;
     }
     if (!known)
-        server::log::warn("fault.unknown_wheel",
-                          {{"vehicle", vehicle_.id.str()}, {"wheel", fault.part}});
+        server::log::warn("fault.unknown_part",
+                          {{"vehicle", vehicle_.id.str()}, {"part", fault.part}});
 }
 
 }  // namespace pulseline::agent

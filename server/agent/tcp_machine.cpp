@@ -74,7 +74,11 @@ public:
         auto link = MachineLink::open(address_, kReach);
         if (!link) return fail(link.error());
         Hello hello;
+        hello.cycle_s = type_.control.cycle_s;
         hello.watchdog_s = watchdog_s_;
+        for (const auto& axis : plant::axes_of(type_)) {
+            hello.axes.push_back({axis.name, axis.position_gain_per_s});
+        }
         if (auto sent = link->send(hello); !sent) return sent;
         auto answer = link->receive(kReach);
         if (!answer) return fail(answer.error());
@@ -86,6 +90,11 @@ public:
         if (description == nullptr) {
             return fail(Errc::kConflict, "machine_refused", "The machine does not say what it is.",
                         {}, {{"why", "no description"}});
+        }
+        if (description->version != kVersion) {
+            const auto why = "it speaks version " + std::to_string(description->version);
+            return fail(Errc::kConflict, "machine_refused", "The machine refuses: " + why + ".", {},
+                        {{"why", why}});
         }
         if (auto same = is_of_type(*description, type_); !same) return same;
         dead_cycles_ = description->dead_cycles;
@@ -277,7 +286,7 @@ public:
     bool settled() const override { return controller_.lost() || controller_.told().settled; }
     bool lost() const override { return controller_.lost(); }
     std::optional<std::string> fault() const override {
-        return first([](const Feedback::Wheel& wheel) { return wheel.fault; });
+        return first([](const Feedback::Wheel& wheel) { return !wheel.fault.empty(); });
     }
     std::optional<std::string> lagging() const override {
         return first([](const Feedback::Wheel& wheel) { return wheel.lagging; });
@@ -489,7 +498,7 @@ onboard::Scanners* TcpMachine::scanners() { return scanners_.get(); }
 void TcpMachine::step(double dt_s) {
     controller_->try_again(dt_s);
     if (controller_->take_cycles() == 0 && drive_.braked()) {
-        const auto due = std::lround(dt_s * drive_.time_factor() / Wheels::kCycle_s);
+        const auto due = std::lround(dt_s * drive_.time_factor() / type_.control.cycle_s);
         for (long left = std::max(1L, due); left > 0; --left) {
             controller_->exchange(Mode::kBraked, {});
         }
@@ -504,7 +513,7 @@ void TcpMachine::write_state(vda5050::StateMessage& state) {
         const auto& wheel = told.wheels[i];
         state.wheels.push_back({type_.wheels[i].name, wheel.angle_rad,
                                 std::abs(wheel.speed_mps) * drive_.time_factor(),
-                                wheel.temperature_c, wheel.fault ? "drive_fault" : ""});
+                                wheel.temperature_c, wheel.fault});
     }
     state.battery_percent = told.battery_percent;
     state.charging = told.charging;
@@ -517,6 +526,7 @@ void TcpMachine::write_state(vda5050::StateMessage& state) {
         state.parking_feet.push_back(
             {type_.parking->feet[i].name, told.feet[i].extension_m, told.feet[i].force_n});
     }
+    write_wheel_faults(type_, state);
     write_stop(drive_, state);
 }
 

@@ -223,6 +223,28 @@ TEST(PlantStore, KeepsHowBracketsLiftAndTheUsualWayOfTypesOfBefore) {
     EXPECT_THROW(PlantStore(database).load(), Error);
 }
 
+TEST(PlantStore, KeepsCastersControlAndTemperaturesAndTheUsualOnesOfTypesOfBefore) {
+    Database database(":memory:");
+    plant::Plant plant = demo("pulse-line");
+    plant::VehicleType& type = plant.vehicle_types[0];
+    type.casters = {{"left", {0.5, 0.25}, 0.15}, {"right", {0.5, -0.25}, 0.125}};
+    type.control = {0.02, 2.5, 6, 7.5};
+    type.drive_temperatures = {55, 77};
+    PlantStore(database).import(plant);
+    const plant::VehicleType kept = PlantStore(database).load()->vehicle_types[0];
+    ASSERT_EQ(kept.casters.size(), 2u);
+    EXPECT_EQ(kept.casters[1].name, "right");
+    EXPECT_EQ(kept.casters[1].position, (plant::Point2{0.5, -0.25}));
+    EXPECT_EQ(kept.casters[1].diameter_m, 0.125);
+    EXPECT_EQ(kept.control, type.control);
+    EXPECT_EQ(kept.drive_temperatures, type.drive_temperatures);
+
+    database.sql() << "UPDATE vehicle_types SET control = 'null'";
+    EXPECT_EQ(PlantStore(database).load()->vehicle_types[0].control, plant::AxisControl{});
+    database.sql() << "UPDATE vehicle_types SET control = '{}'";
+    EXPECT_THROW(PlantStore(database).load(), Error);
+}
+
 TEST(PlantStore, KeepsTheFeetOfATypeAndTheUsualOnesOfTypesOfBefore) {
     Database database(":memory:");
     plant::Plant plant = demo("pulse-line");
@@ -289,6 +311,10 @@ TEST(PlantStore, WhatVehiclesCarriedBeforeIsALoadOfItsOwn) {
               "ALTER TABLE vehicles ADD COLUMN load_kg REAL NOT NULL DEFAULT 0",
               "ALTER TABLE stations DROP COLUMN has_support",
               "ALTER TABLE stations DROP COLUMN support_height_m",
+              "ALTER TABLE vehicle_types DROP COLUMN casters",
+              "ALTER TABLE vehicle_types DROP COLUMN control",
+              "ALTER TABLE vehicle_types DROP COLUMN drive_warm_c",
+              "ALTER TABLE vehicle_types DROP COLUMN drive_hot_c",
               "ALTER TABLE stations DROP COLUMN parks", "ALTER TABLE stop_records DROP COLUMN load",
               "UPDATE vehicles SET load_name = 'A 101', load_kg = 18200",
               "PRAGMA user_version = 23"}) {

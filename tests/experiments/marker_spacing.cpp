@@ -69,7 +69,7 @@ std::optional<double> most_off_m(const plant::VehicleType& type, double spacing_
     Pose2 before = drive.believed_pose();
     double most_m = 0;
     while (!drive.idle() && !drive.stop_cause()) {
-        drive.step(simulation::ServoAxis::kCycle_s);
+        drive.step(drive.type().control.cycle_s);
         const Point2 truth = drive.true_pose().position();
         if (whole_in_view(truth, {spacing_m, 0})) return most_m;
         if (whole_in_view(truth, {0, 0})) {

@@ -75,6 +75,11 @@ PLATFORM = {  # Tang 2020, Tables 1 to 3; y to the left
     "wheels": [wheel("FL", 4.97, 0.925, False, True, 0.3), wheel("FR", 4.97, -0.925, False, True, 0.3),
                wheel("BL", -4.97, 0.925, False, True, 0.3), wheel("BR", -4.97, -0.925, False, True, 0.3),
                wheel("front drive", 4.815, 0, True, True, 0.41), wheel("back drive", -4.815, 0, True, True, 0.41)],
+    # Four of them below the middle of the body (section 2.1); no table has their places and sizes.
+    "casters": [{"name": n, "position": point(x, y), "diameter_m": 0.2} for n, x, y in
+                [("front left", 1.6, 0.9), ("front right", 1.6, -0.9), ("back left", -1.6, 0.9), ("back right", -1.6, -0.9)]],
+    "control": {"cycle_s": 0.01, "drive_gain_per_s": 3.5, "steering_gain_per_s": 8, "lift_gain_per_s": 10},
+    "drive_temperatures": {"warm_c": 65, "hot_c": 90},
     "cameras": [camera("front", CAMERA_X), camera("back", -CAMERA_X)], "scanners": scanners(rect(10.5, 2.5)),
     "brackets": [{"name": n, "position": point(x, y)} for n, x, y in
                  [("front left", 2.4, 0.7), ("front right", 2.4, -0.7), ("back left", -3.0, 0.7),

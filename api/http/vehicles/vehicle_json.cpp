@@ -34,8 +34,10 @@ Json bracket_json(const vda5050::BracketStatus& bracket) {
     return json;
 }
 
-Json wheel_json(const vda5050::WheelStatus& wheel) {
+Json wheel_json(const plant::VehicleType* type, const vda5050::WheelStatus& wheel) {
+    const auto limits = type == nullptr ? plant::DriveTemperatures{} : type->drive_temperatures;
     return {{"name", wheel.name},
+            {"warm", wheel.temperature_c >= limits.warm_c},
             {"steering_rad", wheel.steering_rad},
             {"speed_mps", wheel.speed_mps},
             {"temperature_c", wheel.temperature_c},
@@ -155,7 +157,9 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
         {"field_violation", state.field_violation},
         {"errors", list_json(state.errors, error_json)},
         {"brackets", list_json(state.brackets, bracket_json)},
-        {"wheels", list_json(state.wheels, wheel_json)},
+        {"wheels",
+         list_json(state.wheels,
+                   [&](const vda5050::WheelStatus& wheel) { return wheel_json(type, wheel); })},
         {"cameras", list_json(state.cameras,
                               [&](const vda5050::CameraReading& reading) {
                                   return camera_json(type, images, vehicle.id, reading);

@@ -11,8 +11,6 @@
 namespace pulseline::fleet {
 namespace {
 
-constexpr double kWarmWheel_c = 65;
-
 Check check(std::string code, Check::Result result, Params params) {
     return {std::move(code), result, std::move(params), std::nullopt};
 }
@@ -116,7 +114,7 @@ std::optional<Check> wheels_check(const LiveVehicle& live) {
         return check("wheels", Check::Result::kFail, std::move(params));
     }
     for (const auto& wheel : live.state.wheels) {
-        if (wheel.temperature_c < kWarmWheel_c) continue;
+        if (wheel.temperature_c < live.type->drive_temperatures.warm_c) continue;
         params.push_back({"wheel", wheel.name});
         params.push_back({"temperature_c", wheel.temperature_c});
         return check("wheels", Check::Result::kNote, std::move(params));

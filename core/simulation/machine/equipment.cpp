@@ -46,6 +46,7 @@ LiftingDrive bracket_lifts(const plant::VehicleType& type, std::mt19937_64& rand
     parameters.most_force_n = plant::bracket_rating_n(type);
     parameters.stroke_m = type.bracket_lift.stroke_m;
     parameters.speed_mps = type.bracket_lift.speed_mps;
+    parameters.control = type.control;
     return {std::move(places), parameters, random()};
 }
 
@@ -90,8 +91,8 @@ void VehicleEquipment::work_below(std::shared_ptr<Supports> supports, plant::Hal
     carried_ = std::move(carried);
 }
 
-/// Brackets that move below a load that hangs there take it over, and those that carry one set it
-/// down on what is free, as they go through its height.
+/// Brackets that move, by themselves or with all on its feet, below a load that hangs there take it
+/// over, and those that carry one set it down on what is free, as they go through its height.
 void VehicleEquipment::meet_support() {
     support_ = supports_ ? supports_->above(hall_, true_pose_) : nullptr;
     if (support_ == nullptr || !brackets_) return;
@@ -112,15 +113,25 @@ void VehicleEquipment::share_with_support() {
     if (share > 0) carried_ = load;
     brackets_->set_load(load_kg_, load_centre_);
     if (feet_) feet_->set_load(load_kg_, load_centre_);
-    if (brackets_->moving()) return;
+    if (busy()) return;
     if (share == 1) support_->load.reset();
     support_ = nullptr;
+}
+
+bool VehicleEquipment::displace_bracket(const std::string& name, double by_m) {
+    const auto lift = brackets_ ? brackets_->find(name) : std::nullopt;
+    if (!lift) return false;
+    brackets_->displace(*lift, by_m);
+    brackets_->set_load(load_kg_, load_centre_);
+    return true;
 }
 
 double VehicleEquipment::mean_height_m() const {
     double sum_m = 0;
     for (std::size_t i = 0; i < brackets_->places().size(); ++i) sum_m += brackets_->height_m(i);
-    return sum_m / static_cast<double>(brackets_->places().size());
+    // On its feet the whole is higher.
+    const double raised_m = feet_ && feet_->extended() ? std::max(0.0, feet_->plane()[0]) : 0;
+    return raised_m + sum_m / static_cast<double>(brackets_->places().size());
 }
 
 std::optional<std::string> VehicleEquipment::begin(const vda5050::Action& action) {
@@ -157,6 +168,7 @@ std::optional<std::string> VehicleEquipment::begin_feet(const vda5050::Action& a
             "foot_carries", {{"foot", feet_->name(*foot)}, {"force_n", feet_->force_n(*foot)}}});
     }
     lower ? feet_->lower(foot) : feet_->raise(foot);
+    meet_support();
     return std::nullopt;
 }
 

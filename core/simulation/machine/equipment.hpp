@@ -48,6 +48,10 @@ public:
     /// That its wheels carry now.
     double load_kg() const { return load_kg_; }
 
+    // Faults, from outside. False: there is no such part.
+    bool displace_bracket(const std::string& name, double by_m);
+    bool dig_below(const std::string& foot) { return feet_ && feet_->dig(foot); }
+
     /// `way_m`: driven meanwhile.
     void step(double dt_s, double way_m);
     void write_state(vda5050::StateMessage& state);

@@ -25,8 +25,9 @@ LiftingDrive::LiftingDrive(std::vector<LiftPlace> places, const LiftParameters& 
     std::uniform_real_distribution<double> uneven(-parameters_.uneven, parameters_.uneven);
     for (std::size_t i = 0; i < places_.size(); ++i) {
         lifts_.push_back(
-            {ServoAxis(screw(parameters_.most_force_n, parameters_.speed_mps), random_()), 0, 0,
-             uneven(random_), 0, 0, false});
+            {ServoAxis(screw(parameters_.most_force_n, parameters_.speed_mps, parameters_.control),
+                       random_()),
+             0, 0, 0, uneven(random_), 0, 0, false});
     }
 }
 
@@ -72,8 +73,8 @@ std::optional<Reason> LiftingDrive::begin(std::optional<std::size_t> lift, doubl
 
 void LiftingDrive::step(double dt_s) {
     pending_s_ += dt_s;
-    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
-         pending_s_ -= ServoAxis::kCycle_s) {
+    for (; pending_s_ >= parameters_.control.cycle_s - ServoAxis::kRounding_s;
+         pending_s_ -= parameters_.control.cycle_s) {
         if (moving_) cycle();
     }
 }
@@ -86,8 +87,9 @@ void LiftingDrive::cycle() {
         left_m = std::max(left_m, std::abs(lift.wanted_m - lift.commanded_m));
         in_step &= std::abs(lift.axis.following_error()) <= parameters_.in_step_m;
     }
-    speed_mps_ = in_step ? pace(left_m)
-                         : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * ServoAxis::kCycle_s);
+    speed_mps_ =
+        in_step ? pace(left_m)
+                : std::max(0.0, speed_mps_ - parameters_.accel_mps2 * parameters_.control.cycle_s);
     std::vector<double> before_m;
     for (const Lift& lift : lifts_) before_m.push_back(lift.commanded_m);
     advance(1);
@@ -97,19 +99,20 @@ void LiftingDrive::cycle() {
         Lift& lift = lifts_[i];
         if (!lift.moves) continue;
         lift.axis.set_external_force(-lift.force_n);
-        lift.axis.cycle(lift.commanded_m, (lift.commanded_m - before_m[i]) / ServoAxis::kCycle_s);
+        lift.axis.cycle(lift.commanded_m,
+                        (lift.commanded_m - before_m[i]) / parameters_.control.cycle_s);
         there &= std::abs(lift.wanted_m - lift.axis.measured_position()) <= kLiftThere_m;
     }
     for (Lift& lift : lifts_) lift.last_force_n = lift.force_n;
     share_load();
     check_forces();
-    settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
+    settled_s_ = there ? settled_s_ + parameters_.control.cycle_s : 0;
     if (moving_ && settled_s_ >= kLiftSettle_s) finish();
 }
 
 /// Trapezoidal profile: speed of the next cycle with `left_m` to go.
 double LiftingDrive::pace(double left_m) const {
-    const double step = parameters_.accel_mps2 * ServoAxis::kCycle_s;
+    const double step = parameters_.accel_mps2 * parameters_.control.cycle_s;
     const double braking = std::sqrt(step * step + 2 * parameters_.accel_mps2 * left_m) - step;
     return std::min({wanted_mps_, speed_mps_ + step, braking});
 }
@@ -124,7 +127,7 @@ void LiftingDrive::advance(double sign) {
         any = true;
     }
     if (!any) return;
-    const double front_m = hindmost_m + speed_mps_ * ServoAxis::kCycle_s;
+    const double front_m = hindmost_m + speed_mps_ * parameters_.control.cycle_s;
     for (Lift& lift : lifts_) {
         if (!lift.moves || sign * (lift.wanted_m - lift.commanded_m) <= 0) continue;
         const double to_m =
@@ -137,8 +140,8 @@ void LiftingDrive::advance(double sign) {
 void LiftingDrive::share_load() {
     std::vector<Support> supports;
     for (std::size_t i = 0; i < lifts_.size(); ++i) {
-        supports.push_back(
-            {places_[i].position, lifts_[i].axis.position(), parameters_.stiffness_npm});
+        supports.push_back({places_[i].position, lifts_[i].axis.position() + lifts_[i].above_m,
+                            parameters_.stiffness_npm});
     }
     const auto rest = rest_on(supports, load_kg_ * kGravity_mps2, centre_);
     for (std::size_t i = 0; i < lifts_.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/geometry/pose2.hpp"
+#include "core/plant/vehicle_type.hpp"
 #include "core/simulation/machine/servo_axis.hpp"
 
 namespace pulseline::simulation {
@@ -28,6 +29,7 @@ struct LiftParameters {
     double uneven = 0.03;          // between the two sensors of a lift, half width
     double sensor_noise = 0.002;   // share, sigma
     double in_step_m = 0.0004;     // a lift lagging by more makes the others wait
+    plant::AxisControl control = {};
 };
 
 /// Lifts that carry one rigid load, moving singly or in step (Tang 2020, section 2.1: bracket and
@@ -64,6 +66,8 @@ public:
     const std::vector<LiftPlace>& places() const { return places_; }
     std::optional<std::size_t> find(const std::string& name) const;
     double height_m(std::size_t lift) const { return lifts_[lift].axis.position(); }
+    /// Its encoder tells so much less than how high it truly is.
+    void displace(std::size_t lift, double by_m) { lifts_[lift].above_m = by_m; }
     /// What the two sensors of a lift show now.
     Forces forces(std::size_t lift);
 
@@ -71,6 +75,7 @@ private:
     struct Lift {
         ServoAxis axis;
         double commanded_m = 0;
+        double above_m = 0;  // what its encoder tells
         double wanted_m = 0;
         double split = 0;  // of the force between the sensors: (1 + split) / 2 and (1 - split) / 2
         double force_n = 0;

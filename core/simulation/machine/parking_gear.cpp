@@ -27,6 +27,7 @@ constexpr double kFeetInStep_m = 0.0005;  // one that lags by more makes the oth
 
 ParkingGear::ParkingGear(const plant::VehicleType& type, FloorUnder floor_under, std::uint64_t seed)
     : parking_(*type.parking),
+      cycle_s_(type.control.cycle_s),
       mass_kg_(type.mass_kg),
       floor_under_(std::move(floor_under)),
       random_(seed) {
@@ -34,13 +35,24 @@ ParkingGear::ParkingGear(const plant::VehicleType& type, FloorUnder floor_under,
     for (const auto& wheel : type.wheels) wheels_.push_back(wheel.position);
     for (std::size_t i = 0; i < parking_.feet.size(); ++i) {
         feet_.push_back(
-            {ServoAxis(screw(parking_.rating_n, parking_.speed_mps), random_()), 0, 0, false});
+            {ServoAxis(screw(parking_.rating_n, parking_.speed_mps, type.control), random_()), 0, 0,
+             false});
     }
 }
 
 void ParkingGear::set_load(double load_kg, geometry::Point2 centre) {
+    const bool same = load_kg == load_kg_ && centre == load_centre_;
     load_kg_ = load_kg;
     load_centre_ = centre;
+    if (!same && !moving()) settle();
+}
+
+bool ParkingGear::dig(const std::string& foot) {
+    const auto which = find(foot);
+    if (!which) return false;
+    feet_[*which].over_pit = true;
+    settle();
+    return true;
 }
 
 bool ParkingGear::carries(std::size_t foot) const {
@@ -90,8 +102,7 @@ void ParkingGear::stop() {
 
 void ParkingGear::step(double dt_s) {
     pending_s_ += dt_s;
-    for (; pending_s_ >= ServoAxis::kCycle_s - ServoAxis::kRounding_s;
-         pending_s_ -= ServoAxis::kCycle_s) {
+    for (; pending_s_ >= cycle_s_ - ServoAxis::kRounding_s; pending_s_ -= cycle_s_) {
         if (moving()) cycle();
     }
 }
@@ -118,7 +129,7 @@ void ParkingGear::cycle() {
     const bool there = std::ranges::all_of(feet_, [](const Foot& foot) {
         return std::abs(foot.commanded_m - foot.axis.measured_position()) <= kFootThere_m;
     });
-    settled_s_ = there ? settled_s_ + ServoAxis::kCycle_s : 0;
+    settled_s_ = there ? settled_s_ + cycle_s_ : 0;
     if (settled_s_ >= kFootSettle_s) advance();
 }
 
@@ -151,7 +162,7 @@ void ParkingGear::advance() {
 void ParkingGear::move(Foot& foot, double to_m) {
     const double before_m = std::exchange(foot.commanded_m, to_m);
     foot.axis.set_external_force(-foot.force_n);
-    foot.axis.cycle(to_m, (to_m - before_m) / ServoAxis::kCycle_s);
+    foot.axis.cycle(to_m, (to_m - before_m) / cycle_s_);
 }
 
 /// Each by itself: the floor is not even.
@@ -163,7 +174,7 @@ void ParkingGear::feel() {
         const double speed_mps =
             near ? std::min(kFeels_mps, parking_.speed_mps) : parking_.speed_mps;
         const bool stays = foot.touches || !takes_part(i);
-        const double further_m = stays ? 0 : speed_mps * ServoAxis::kCycle_s;
+        const double further_m = stays ? 0 : speed_mps * cycle_s_;
         move(foot, std::min(foot.commanded_m + further_m, parking_.stroke_m));
     }
 }
@@ -173,7 +184,7 @@ void ParkingGear::move_in_step(double sign) {
     const bool in_step = std::ranges::all_of(feet_, [](const Foot& foot) {
         return std::abs(foot.axis.following_error()) <= kFeetInStep_m;
     });
-    double way_m = in_step ? parking_.speed_mps / 2 * ServoAxis::kCycle_s : 0;
+    double way_m = in_step ? parking_.speed_mps / 2 * cycle_s_ : 0;
     if (sign > 0) way_m = std::min(way_m, std::max(0.0, parking_.lift_m - lifted_m_));
     const bool presses =
         std::ranges::any_of(feet_, [](const Foot& foot) { return foot.force_n >= kFootTouches_n; });
@@ -186,9 +197,14 @@ void ParkingGear::move_in_step(double sign) {
 
 void ParkingGear::retract() {
     for (std::size_t i = 0; i < feet_.size(); ++i) {
-        const double way_m = takes_part(i) ? parking_.speed_mps * ServoAxis::kCycle_s : 0;
+        const double way_m = takes_part(i) ? parking_.speed_mps * cycle_s_ : 0;
         move(feet_[i], std::max(0.0, feet_[i].commanded_m - way_m));
     }
+}
+
+std::optional<double> ParkingGear::floor_under(std::size_t foot) const {
+    if (feet_[foot].over_pit) return std::nullopt;
+    return floor_under_(parking_.feet[foot].position);
 }
 
 /// The vehicle on its wheels and on those feet that reach the floor.
@@ -200,7 +216,7 @@ void ParkingGear::settle() {
     }
     std::vector<std::optional<std::size_t>> of_foot(feet_.size());
     for (std::size_t i = 0; i < feet_.size(); ++i) {
-        const auto floor_m = floor_under_(parking_.feet[i].position);
+        const auto floor_m = floor_under(i);
         if (!floor_m) continue;
         of_foot[i] = supports.size();
         supports.push_back({parking_.feet[i].position,

@@ -33,6 +33,9 @@ public:
     /// Its load: mass and centre in the body frame.
     void set_load(double load_kg, geometry::Point2 centre);
 
+    /// The floor below that foot gives way. False: there is no such foot.
+    bool dig(const std::string& foot);
+
     /// `foot`: that one alone. REQUIRES: it is below count(), and of raise that it does not carry.
     void lower(std::optional<std::size_t> foot = std::nullopt);
     void raise(std::optional<std::size_t> foot = std::nullopt);
@@ -66,6 +69,7 @@ private:
         double commanded_m = 0;
         double force_n = 0;
         bool touches = false;
+        bool over_pit = false;
     };
 
     bool takes_part(std::size_t foot) const { return !alone_ || *alone_ == foot; }
@@ -76,11 +80,13 @@ private:
     void move_in_step(double sign);
     void retract();
     void move(Foot& foot, double to_m);
+    std::optional<double> floor_under(std::size_t foot) const;
     void settle();
     bool check();
     void fail(Reason cause, Phase next);
 
     plant::ParkingGear parking_;
+    double cycle_s_;
     std::vector<geometry::Point2> wheels_;
     double mass_kg_;  // of the vehicle alone
     FloorUnder floor_under_;

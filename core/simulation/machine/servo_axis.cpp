@@ -6,7 +6,6 @@
 namespace pulseline::simulation {
 namespace {
 
-constexpr int kDriveSteps = static_cast<int>(ServoAxis::kCycle_s / ServoAxis::kDriveStep_s + 0.5);
 // The drive's filter of its measured velocity: counts of 1 ms alone would make the motor rattle.
 constexpr double kVelocityFilter = 0.4;
 
@@ -14,6 +13,7 @@ constexpr double kVelocityFilter = 0.4;
 
 ServoAxis::ServoAxis(const ServoParameters& parameters, std::uint64_t seed)
     : parameters_(parameters),
+      drive_steps_(static_cast<int>(std::lround(parameters.cycle_s / kDriveStep_s))),
       random_(seed),
       current_lag_(std::exp(-parameters.current_loop_radps * kDriveStep_s)),
       inertia_(parameters.rotor_inertia) {
@@ -39,7 +39,7 @@ void ServoAxis::cycle(double position, double velocity) {
         std::clamp(parameters_.feedforward * command.velocity +
                        parameters_.position_gain_per_s * (command.position - measured_),
                    -parameters_.speed_limit, parameters_.speed_limit);
-    for (int i = 0; i < kDriveSteps; ++i) drive_step(wanted);
+    for (int i = 0; i < drive_steps_; ++i) drive_step(wanted);
 }
 
 void ServoAxis::drive_step(double wanted_velocity) {

@@ -29,17 +29,17 @@ struct ServoParameters {
     double increment = 1e-6;      // u of one count: 17 bit behind the gear
     double noise_increments = 1;  // half width of its uniform noise
     int dead_cycles = 2;          // between the PLC's command and the drive: field bus
+    double cycle_s = 0.01;        // of the PLC
 };
 
 /// One axis: position loop P in the PLC, velocity PI and current PI in the servo drive (Tang 2020,
-/// section 2.1, figure 2), motor and load. cycle() is one cycle of the PLC, kCycle_s; inside, the
+/// section 2.1, figure 2), motor and load. cycle() is one cycle of the PLC; inside, the
 /// drive runs at kDriveStep_s. The current lag is integrated exactly, friction implicitly (Coulomb
 /// friction as a projection that never reverses the motion), so it is stable for any parameters
 /// whose velocity loop is slower than 1 / (4 kDriveStep_s).
 /// Bandwidths of the defaults: current 160 Hz, velocity 10 Hz, position 0.56 Hz.
 class ServoAxis {
 public:
-    static constexpr double kCycle_s = 0.01;
     static constexpr double kRounding_s = 1e-9;  // so little less of time is a whole cycle
     static constexpr double kDriveStep_s = 0.001;
 
@@ -82,6 +82,7 @@ private:
     void drive_step(double wanted_velocity);
 
     ServoParameters parameters_;
+    int drive_steps_;  // of a cycle
     std::mt19937_64 random_;
     std::deque<Command> on_the_way_;
     double current_lag_;  // what is left of a current's error after a step

@@ -61,6 +61,8 @@ public:
     std::optional<Reason> stop_cause() const override { return drive_.stop_cause(); }
     void acknowledge() override { drive_.acknowledge(); }
 
+    void set_hot(std::size_t wheel, bool hot) { wheels_.set_hot(wheel, hot); }
+
     // Faults and floor, from outside. False: there is no such wheel.
     bool break_wheel(const std::string& name) { return wheels_.break_wheel(name); }
     bool kill_encoder(const std::string& name) { return wheels_.kill_encoder(name); }

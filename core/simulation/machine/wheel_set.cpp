@@ -20,7 +20,6 @@ constexpr double kCountsPerRim = 30.0 * (1 << 17);  // gear x 17 bit
 constexpr double kScrubArm_m = 0.01;                // friction x lever of a tyre turned on the spot
 constexpr double kSteeringInertia = 20;             // kg m2, motor through its gear
 constexpr double kSteeringCount_rad = 1e-5;
-constexpr double kSteeringGain_per_s = 8;
 constexpr double kSettled_mps = 5e-4;
 constexpr double kSettled_m = 1e-4;
 constexpr double kBrakeShare = 2;  // a faulty wheel's brake against the usual deceleration
@@ -40,6 +39,8 @@ ServoParameters rolling(const plant::VehicleType& type, const plant::Wheel& whee
     p.viscous_friction = 0.1 * p.coulomb_friction;
     p.tuned_inertia = p.rotor_inertia + (empty_kg + full_kg) / 2;
     p.speed_limit = 1.15 * type.max_speed_mps;
+    p.position_gain_per_s = type.control.drive_gain_per_s;
+    p.cycle_s = type.control.cycle_s;
     p.dead_cycles = WheelSet::kDeadCycles;
     p.increment = kPi * wheel.diameter_m / kCountsPerRim;
     return p;
@@ -55,7 +56,8 @@ ServoParameters steering(const plant::VehicleType& type, double load_kg) {
     p.rotor_inertia = kSteeringInertia;
     p.viscous_friction = 20;
     p.tuned_inertia = kSteeringInertia;
-    p.position_gain_per_s = kSteeringGain_per_s;
+    p.position_gain_per_s = type.control.steering_gain_per_s;
+    p.cycle_s = type.control.cycle_s;
     p.speed_limit = 1.5 * type.max_steering_rate_radps;
     p.dead_cycles = WheelSet::kDeadCycles;
     p.increment = kSteeringCount_rad;
@@ -134,21 +136,21 @@ void WheelSet::cycle(std::span<const WheelMotion> wanted, bool standing,
 
 void WheelSet::steer(Wheel& wheel, double wanted_rad) {
     if (!wheel.steer) return;
-    if (wheel.broken) return;  // its motor is off, the gear blocks itself
-    const double most = steering_rate_radps_ * ServoAxis::kCycle_s;
+    if (wheel.broken || wheel.hot) return;  // its motor is off, the gear blocks itself
+    const double most = steering_rate_radps_ * type_.control.cycle_s;
     const double step = std::clamp(wanted_rad - wheel.steer_rad, -most, most);
     wheel.steer_rad += step;
-    wheel.steer->cycle(wheel.steer_rad, step / ServoAxis::kCycle_s);
+    wheel.steer->cycle(wheel.steer_rad, step / type_.control.cycle_s);
 }
 
 /// The speed that the encoder tells.
 double WheelSet::roll(Wheel& wheel, double wanted_mps, double grade_force_n) {
-    constexpr double h = ServoAxis::kCycle_s;
+    const double h = type_.control.cycle_s;
     const double before_mps = wheel.speed_mps;
     wheel.wanted_mps = wanted_mps;
     double measured_mps = wanted_mps;
     double rim_mps = wanted_mps;
-    if (wheel.roll && (wheel.broken || wheel.blind)) {
+    if (wheel.roll && (wheel.broken || wheel.blind || wheel.hot)) {
         // Its motor is off, its brake takes it along with the others.
         const double most = kBrakeShare * max_accel_mps2_ * h;
         wheel.faulty_mps += std::clamp(wanted_mps - wheel.faulty_mps, -most, most);
@@ -188,7 +190,7 @@ void WheelSet::brake() {
 bool WheelSet::aligned(std::span<const WheelMotion> wanted, double limit_rad) const {
     for (std::size_t i = 0; i < wheels_.size(); ++i) {
         const Wheel& wheel = wheels_[i];
-        if (!wheel.steer || wheel.broken) continue;
+        if (!wheel.steer || wheel.broken || wheel.hot) continue;
         if (std::abs(wheel.steer->measured_position() - wanted[i].angle_rad) > limit_rad) {
             return false;
         }
@@ -198,7 +200,8 @@ bool WheelSet::aligned(std::span<const WheelMotion> wanted, double limit_rad) co
 
 bool WheelSet::settled() const {
     return std::all_of(wheels_.begin(), wheels_.end(), [](const Wheel& wheel) {
-        if (!wheel.roll || wheel.broken || wheel.blind) return std::abs(wheel.faulty_mps) == 0;
+        if (!wheel.roll || wheel.broken || wheel.blind || wheel.hot)
+            return std::abs(wheel.faulty_mps) == 0;
         return std::abs(wheel.roll->velocity()) < kSettled_mps &&
                std::abs(wheel.roll->following_error()) < kSettled_m;
     });
@@ -208,7 +211,7 @@ std::optional<std::string> WheelSet::fault() const {
     for (const Wheel& wheel : wheels_) {
         const bool astray =
             wheel.steer && std::abs(wheel.steer->following_error()) > limits_.steering_rad;
-        if (wheel.broken || wheel.blind || astray) return wheel.plan.name;
+        if (wheel.broken || wheel.blind || wheel.hot || astray) return wheel.plan.name;
     }
     return std::nullopt;
 }
@@ -226,6 +229,8 @@ std::optional<std::string> WheelSet::lagging() const {
 void WheelSet::switch_off(const std::string& name) {
     for (Wheel& wheel : wheels_) wheel.blind |= wheel.plan.name == name;
 }
+
+void WheelSet::set_hot(std::size_t wheel, bool hot) { wheels_[wheel].hot = hot; }
 
 bool WheelSet::break_wheel(const std::string& name) {
     for (Wheel& wheel : wheels_) {

@@ -17,7 +17,8 @@ namespace pulseline::simulation {
 /// The wheels of a vehicle with their servo axes: one rolls a driven wheel, one steers a steered
 /// one (Tang 2020, section 2.1: two motors a drive wheel, one a wheel for steering). Wheels neither
 /// driven nor steered follow. What the encoders tell and what the wheels truly do differ by the
-/// budget's constants. All in the vehicle's own time, cycle by cycle of ServoAxis::kCycle_s.
+/// budget's constants. All in the vehicle's own time, cycle by cycle of the
+/// type's control.
 class WheelSet {
 public:
     /// Between a command and what the drives do with it.
@@ -56,6 +57,9 @@ public:
     /// Switches such a wheel's motor off until brake().
     void switch_off(const std::string& name);
 
+    /// Too hot, its motors are off until it is not any more.
+    void set_hot(std::size_t wheel, bool hot);
+
     // Faults from outside; false: there is no such wheel (or it has no motor to lose).
     bool break_wheel(const std::string& name);
     bool kill_encoder(const std::string& name);
@@ -76,6 +80,7 @@ private:
         double accel_mps2 = 0;
         bool broken = false;
         bool blind = false;
+        bool hot = false;
     };
 
     void steer(Wheel& wheel, double wanted_rad);

@@ -5,14 +5,11 @@
 #include <utility>
 
 #include "core/kinematics/rolling_wheels.hpp"
-#include "core/simulation/machine/servo_axis.hpp"
 
 namespace pulseline::simulation {
 namespace {
 
 using kinematics::WheelMotion;
-
-static_assert(onboard::Wheels::kCycle_s == ServoAxis::kCycle_s);
 
 constexpr double kScrubTurn_rad = 0.1;  // turned further, standing, wheels push the vehicle aside
 
@@ -22,6 +19,7 @@ WheelsOnFloor::WheelsOnFloor(const plant::VehicleType& type, const Pose2& true_p
                              std::uint64_t seed, double load_kg,
                              const localisation::ErrorBudget& errors)
     : max_speed_mps_(type.max_speed_mps),
+      cycle_s_(type.control.cycle_s),
       errors_(errors.drive),
       random_(seed),
       wheels_(type, load_kg, errors.drive, random_),
@@ -46,11 +44,11 @@ void WheelsOnFloor::roll(std::span<const WheelMotion> wanted) {
     contact_.grade_forces(wheels_.rolled(), true_, grade_n_);
     wheels_.cycle(wanted, false, grade_n_);
     for (std::size_t i = 0; i < accel_mps2_.size(); ++i) accel_mps2_[i] = wheels_.accel_mps2(i);
-    true_twist_ = contact_.body_twist(wheels_.rolled(), accel_mps2_, true_, kCycle_s, random_);
-    true_ = kinematics::moved(true_, true_twist_, kCycle_s);
+    true_twist_ = contact_.body_twist(wheels_.rolled(), accel_mps2_, true_, cycle_s_, random_);
+    true_ = kinematics::moved(true_, true_twist_, cycle_s_);
     peak_mps_ = std::max(peak_mps_, std::hypot(true_twist_.vx_mps, true_twist_.vy_mps));
     slip_share_ = measuring_.slip_share(wheels_.measured(), contact_.rolling(), true_twist_,
-                                        kCycle_s, random_);
+                                        cycle_s_, random_);
 }
 
 void WheelsOnFloor::brake() {

@@ -53,6 +53,8 @@ public:
         contact_.set_load(load_kg);
     }
 
+    void set_hot(std::size_t wheel, bool hot) { wheels_.set_hot(wheel, hot); }
+
     // Faults and floor, from outside. False: there is no such wheel.
     bool break_wheel(const std::string& name) { return wheels_.break_wheel(name); }
     bool kill_encoder(const std::string& name) { return wheels_.kill_encoder(name); }
@@ -67,6 +69,7 @@ private:
     double normal(double sigma) { return sigma * normal_(random_); }
 
     double max_speed_mps_;
+    double cycle_s_;
     localisation::DriveErrors errors_;
     std::mt19937_64 random_;
     std::normal_distribution<double> normal_;

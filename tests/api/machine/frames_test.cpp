@@ -18,13 +18,16 @@ std::vector<Frame> one_of_each() {
     feedback.settled = true;
     feedback.slip_share = 0.02;
     feedback.battery_percent = 81.5;
-    feedback.wheels = {{0.49, -0.1, -0.09, 31.5, false, true}, {-0.25, 1.5, 1.5, 22, true, false}};
+    feedback.wheels = {{0.49, -0.1, -0.09, 31.5, "", true},
+                       {-0.25, 1.5, 1.5, 22, "servo_overtemperature", false}};
     feedback.brackets = {{0.05, 22500, 22400}};
     feedback.feet = {{0.12, 70000}};
     Feedback silent = feedback;
     silent.slip_share.reset();
     Picture picture{3, 1, 0.02, 4, 2, std::string("\0\1\2\3\4\5\6\xff", 8)};
     return {Hello{},
+            Hello{kVersion, 0.02, 0.2, {{"FL/steering", 8}, {"front drive/drive", 3.5}}},
+            Hello{kVersion + 1, 0.01, 0.1, {}},
             description,
             points,
             SetPoints{},
@@ -85,7 +88,7 @@ TEST(MachineFrames, WithNumbersThatAreNoneOrUnknownKindsAreRefused) {
     for (const double wrong :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
         EXPECT_EQ(reason(encode(SetPoints{1, Mode::kRoll, {{wrong, 0}}})), "machine_frame_broken");
-        EXPECT_EQ(reason(encode(Hello{1, wrong, 0.05})), "machine_frame_broken");
+        EXPECT_EQ(reason(encode(Hello{kVersion, wrong, 0.05, {}})), "machine_frame_broken");
     }
     Feedback feedback;
     feedback.slip_share = std::numeric_limits<double>::infinity();

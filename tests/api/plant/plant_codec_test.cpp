@@ -343,7 +343,8 @@ TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
     sound["vehicle_types"][0]["scanners"] = Json::array({kLaserScanner});
     const Json others = document(kPlants + "/pulse-line.json");
     sound["markers"] = others["markers"];
-    for (const char* parts : {"cameras", "brackets", "load_rules", "bracket_lift", "parking"})
+    for (const char* parts : {"cameras", "brackets", "load_rules", "bracket_lift", "parking",
+                              "casters", "control", "drive_temperatures"})
         sound["vehicle_types"][0][parts] = others["vehicle_types"][0][parts];
     const Json schema = document(kPlants + "/../../api/plant.schema.json");
     const std::pair<const char*, const char*> places[] = {
@@ -364,6 +365,9 @@ TEST(PlantSchema, EveryRequiredFieldIsRequiredByTheCodecToo) {
         {"/$defs/bracket", "/vehicle_types/0/brackets/0"},
         {"/$defs/load_rules", "/vehicle_types/0/load_rules"},
         {"/$defs/bracket_lift", "/vehicle_types/0/bracket_lift"},
+        {"/$defs/caster", "/vehicle_types/0/casters/0"},
+        {"/$defs/control", "/vehicle_types/0/control"},
+        {"/$defs/drive_temperatures", "/vehicle_types/0/drive_temperatures"},
         {"/$defs/parking", "/vehicle_types/0/parking"},
         {"/$defs/parking_foot", "/vehicle_types/0/parking/feet/0"},
         {"/$defs/vehicle", "/vehicles/0"},

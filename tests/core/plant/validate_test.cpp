@@ -362,6 +362,38 @@ const Case kCases[] = {
      "/vehicle_types/0/load_rules/most_unbalance", "not_positive"},
     {"BracketsWithoutStroke", [](Plant& p) { p.vehicle_types[0].bracket_lift.stroke_m = 0; },
      "/vehicle_types/0/bracket_lift/stroke_m", "not_positive"},
+    {"CasterWithoutSize",
+     [](Plant& p) {
+         p.vehicle_types[0].casters = {{"middle", {0, 0}, 0}};
+     },
+     "/vehicle_types/0/casters/0/diameter_m", "not_positive"},
+    {"CastersOfOneName",
+     [](Plant& p) {
+         p.vehicle_types[0].casters = {{"middle", {0, 0}, 0.2}, {"middle", {1, 0}, 0.2}};
+     },
+     "/vehicle_types/0/casters/1/name", "duplicate_caster"},
+    {"BracketsOfOneName",
+     [](Plant& p) {
+         auto& brackets = p.vehicle_types[0].brackets;
+         brackets = {{"front", {0.1, 0}}, {"front", {0, 0}}};
+     },
+     "/vehicle_types/0/brackets/1/name", "duplicate_bracket"},
+    {"CycleOfNoController", [](Plant& p) { p.vehicle_types[0].control.cycle_s = 0.2; },
+     "/vehicle_types/0/control/cycle_s", "cycle"},
+    {"CycleOfHalfMilliseconds", [](Plant& p) { p.vehicle_types[0].control.cycle_s = 0.0105; },
+     "/vehicle_types/0/control/cycle_s", "cycle"},
+    {"AxesWithoutGain", [](Plant& p) { p.vehicle_types[0].control.drive_gain_per_s = 0; },
+     "/vehicle_types/0/control/drive_gain_per_s", "not_positive"},
+    {"GainThatSwings", [](Plant& p) { p.vehicle_types[0].control.steering_gain_per_s = 26; },
+     "/vehicle_types/0/control/steering_gain_per_s", "gain_too_high"},
+    {"GainThatSwingsAtItsCycle",
+     [](Plant& p) { p.vehicle_types[0].control.cycle_s = 0.03; },  // lifts: 10 /s
+     "/vehicle_types/0/control/lift_gain_per_s", "gain_too_high"},
+    {"HotBelowWarm",
+     [](Plant& p) {
+         p.vehicle_types[0].drive_temperatures = {80, 70};
+     },
+     "/vehicle_types/0/drive_temperatures/hot_c", "temperature_limits"},
     {"HomeOfAnotherType",
      [](Plant& p) {
          VehicleType other = p.vehicle_types[0];

@@ -123,6 +123,19 @@ TEST_F(Parking, FloorThatGivesWayUnderAFootIsToldAndAllComeDown) {
     EXPECT_FALSE(feet.extended());
 }
 
+TEST_F(Parking, WhatStandsFeelsALoadThatComesAndAFloorThatGoes) {
+    ParkingGear feet = gear(even, 0, {});
+    feet.lower();
+    run(feet);
+    const double empty_n = sum_n(feet);
+    feet.set_load(kLoad_kg, {-0.3, 0});
+    EXPECT_NEAR(sum_n(feet), empty_n + kLoad_kg * kGravity_mps2, 0.02 * weight_n);
+    EXPECT_FALSE(feet.dig("fifth"));
+    ASSERT_TRUE(feet.dig("back right"));
+    EXPECT_EQ(feet.force_n(*feet.find("back right")), 0);
+    EXPECT_NEAR(sum_n(feet), weight_n, 0.05 * weight_n) << "on the others, and the wheels there";
+}
+
 TEST_F(Parking, LoweredTwiceOrStoppedInBetweenItIsRaisedAsFarAsOnce) {
     ParkingGear once = gear(even);
     once.lower();

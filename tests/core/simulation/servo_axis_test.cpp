@@ -8,7 +8,7 @@
 namespace pulseline::simulation {
 namespace {
 
-constexpr double kCycle_s = ServoAxis::kCycle_s;
+constexpr double kCycle_s = ServoParameters{}.cycle_s;
 
 ServoAxis loaded_axis(const ServoParameters& parameters, double load = 470) {
     ServoAxis axis(parameters, 1);

@@ -290,5 +290,56 @@ TEST(ServoDrive, ASlopeAcrossThePathDrawsTheTrueVehicleDownhillUnnoticed) {
     }
 }
 
+TEST(ServoDrive, AControllerOfAnotherCycleAndOtherGainsDrivesAsWell) {
+    for (auto type : families()) {
+        type.control = {0.02, 2.5, 6, 8};
+        ServoDrive drive(type, {}, 3);
+        drive.append(straight({}, 20));
+        drive_to_end(drive);
+        EXPECT_TRUE(drive.idle()) << type.name;
+        EXPECT_FALSE(drive.stop_cause()) << type.name;
+        EXPECT_NEAR(drive.true_pose().x_m, 20, 0.03) << type.name;
+        EXPECT_LT(norm(lost(drive).position()), 0.03) << type.name;
+    }
+}
+
+TEST(ServoDrive, SetsItsWheelsAsOftenAsTheCycleOfItsControl) {
+    for (const double cycle_s : {0.005, 0.01, 0.02}) {
+        auto type = platform();
+        type.control.cycle_s = cycle_s;
+        ServoDrive drive(type, {}, 3);
+        drive.append(straight({}, 2));
+        int moved = 0;
+        geometry::Pose2 last = drive.true_pose();
+        for (int ms = 0; ms < 5000; ++ms) {
+            drive.step(0.001);
+            if (!(drive.true_pose() == last)) ++moved;
+            last = drive.true_pose();
+        }
+        // From when its wheels have been steered on, once a cycle.
+        EXPECT_LE(moved, 5 / cycle_s + 1);
+        EXPECT_GT(moved, 2.5 / cycle_s);
+    }
+}
+
+TEST(ServoDrive, AWheelThatIsTooHotStopsItOnItsPathUntilItHasCooled) {
+    const auto type = platform();
+    ServoDrive drive(type, {}, 3);
+    drive.append(straight({}, 20));
+    for (int i = 0; i < 200; ++i) drive.step(kStep_s);
+    drive.set_hot(4, true);
+    drive_to_end(drive, 20);
+    ASSERT_TRUE(drive.stop_cause());
+    EXPECT_EQ(drive.stop_cause()->code, onboard::stop_causes::kWheelFault);
+    EXPECT_NEAR(drive.true_pose().y_m, 0, 0.05);
+    drive.acknowledge();
+    EXPECT_TRUE(drive.stop_cause()) << "it is still hot";
+    drive.set_hot(4, false);
+    drive.acknowledge();
+    ASSERT_FALSE(drive.stop_cause());
+    drive_to_end(drive);
+    EXPECT_NEAR(drive.true_pose().x_m, 20, 0.05);
+}
+
 }  // namespace
 }  // namespace pulseline::simulation

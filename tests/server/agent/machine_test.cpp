@@ -55,6 +55,13 @@ protected:
         const auto* refused = answers.empty() ? nullptr : std::get_if<Refused>(&answers.back());
         return refused ? refused->why.substr(0, refused->why.find(':')) : "";
     }
+    Hello hello() const {
+        Hello hello;
+        for (const auto& axis : plant::axes_of(type)) {
+            hello.axes.push_back({axis.name, axis.position_gain_per_s});
+        }
+        return hello;
+    }
     SetPoints points(Mode mode, double speed_mps = 0) {
         SetPoints points;
         points.cycle = ++cycle;
@@ -76,9 +83,20 @@ protected:
 
 TEST_F(ControllerTest, WantsToKnowWhoItIsAndSaysWhatItHas) {
     EXPECT_EQ(refusal(points(Mode::kBraked)), "hello_first");
-    EXPECT_EQ(refusal(Hello{kVersion + 1, 0.01, 0.1}), "unknown_version");
-    EXPECT_EQ(refusal(Hello{kVersion, 0.02, 0.1}), "unknown_cycle");
-    const auto answers = controller.handle(Hello{});
+    EXPECT_EQ(refusal(Hello{kVersion + 1, 0.01, 0.1, {}}), "unknown_version");
+    auto other = hello();
+    other.cycle_s = 0.02;
+    EXPECT_EQ(refusal(other), "unknown_cycle");
+    other = hello();
+    other.axes.pop_back();
+    EXPECT_EQ(refusal(other), "wrong_axes");
+    other = hello();
+    other.axes[3].name = "fifth/steering";
+    EXPECT_EQ(refusal(other), "unknown_axis");
+    other = hello();
+    other.axes[0].position_gain_per_s = 4;
+    EXPECT_EQ(refusal(other), "other_gain");
+    const auto answers = controller.handle(hello());
     const auto& told = std::get<Description>(answers.at(0));
     ASSERT_EQ(told.wheels.size(), type.wheels.size());
     EXPECT_EQ(told.wheels[0], type.wheels[0].name);
@@ -88,7 +106,7 @@ TEST_F(ControllerTest, WantsToKnowWhoItIsAndSaysWhatItHas) {
 }
 
 TEST_F(ControllerTest, DrivesWhatItIsToldAndBrakesWhenNobodyTells) {
-    controller.handle(Hello{});
+    controller.handle(hello());
     for (int i = 0; i < 300; ++i) feedback(points(Mode::kRoll, 0.3));
     EXPECT_GT(controller.true_pose().x_m, 20.3);
     EXPECT_FALSE(controller.braked());
@@ -104,7 +122,7 @@ TEST_F(ControllerTest, DrivesWhatItIsToldAndBrakesWhenNobodyTells) {
 }
 
 TEST_F(ControllerTest, ShowsWhatItsScannersSeeAndWhatStandsInItsWay) {
-    controller.handle(Hello{});
+    controller.handle(hello());
     const auto before = std::get<Scans>(controller.handle(Look{1}).at(0));
     controller.apply_faults(0.5);
     const auto early = std::get<Scans>(controller.handle(Look{2}).at(0));
@@ -125,7 +143,7 @@ TEST_F(ControllerTest, ShowsWhatItsScannersSeeAndWhatStandsInItsWay) {
 }
 
 TEST_F(ControllerTest, SetPointsForOtherWheelsThanItHasMoveNothing) {
-    controller.handle(Hello{});
+    controller.handle(hello());
     auto wrong = points(Mode::kRoll, 0.3);
     wrong.wheels.pop_back();
     EXPECT_EQ(refusal(wrong), "wrong_wheels");
@@ -136,7 +154,7 @@ TEST_F(ControllerTest, SetPointsForOtherWheelsThanItHasMoveNothing) {
 }
 
 TEST_F(ControllerTest, LiftsOneThingAtATimeAndHoldsItWhenNobodyTells) {
-    controller.handle(Hello{});
+    controller.handle(hello());
     const auto ended = [&](const Frame& frame) {
         const auto answers = controller.handle(frame);
         return answers.empty() ? std::nullopt : std::optional(std::get<LiftEnded>(answers.front()));
@@ -419,12 +437,18 @@ TEST_F(TcpMachineTest, AControllerThatIsGoneStopsTheDriveUntilAPersonHasLooked) 
 
 TEST_F(TcpMachineTest, AMachineOfAnotherTypeIsNotDriven) {
     plant::VehicleType other = type;
-    other.wheels[0].name = "seventh";
+    other.cameras[0].name = "seventh";
     machine.reset();
-    const auto opened = TcpMachine::open(host.address(), other, {});
+    auto opened = TcpMachine::open(host.address(), other, {});
     ASSERT_FALSE(opened);
     EXPECT_EQ(opened.error().reason.code, "machine_not_of_type");
     EXPECT_NE(opened.error().what.find("seventh"), std::string::npos);
+    other = type;
+    other.control.drive_gain_per_s = 3;
+    opened = TcpMachine::open(host.address(), other, {});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().reason.code, "machine_refused");
+    EXPECT_NE(opened.error().what.find("other_gain"), std::string::npos);
     EXPECT_EQ(TcpMachine::open({"127.0.0.1", "1"}, type, {}).error().reason.code,
               "machine_not_reached");
     for (const char* wrong : {"127.0.0.1:80", "tcp://host", "tcp://:80", "tcp://host:", ""})

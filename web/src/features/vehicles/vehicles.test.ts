@@ -165,6 +165,7 @@ describe("why it stands", () => {
     steering_rad: 0,
     speed_mps: 0,
     temperature_c,
+    warm: temperature_c >= 65,
     fault,
   });
   it("puts what holds it on top", () => {

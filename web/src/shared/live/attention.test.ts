@@ -30,6 +30,7 @@ const wheel = (over: object) => ({
   steering_rad: 0,
   speed_mps: 0,
   temperature_c: 30,
+  warm: false,
   fault: "",
   ...over,
 });
@@ -87,7 +88,7 @@ it.each<[string, Partial<Vehicle>, string | undefined, string | undefined]>([
     undefined,
     undefined,
   ],
-  ["a warm wheel", { wheels: [wheel({ temperature_c: 71 })] }, "warm", "low"],
+  ["a warm wheel", { wheels: [wheel({ temperature_c: 71, warm: true })] }, "warm", "low"],
   ["late data", { link: "late" }, "late", "low"],
   ["waiting for floor", { activity: "waiting", ...because("floor_held") }, undefined, undefined],
 ])("has %s as an alarm, or none", (_, over, kind, priority) => {

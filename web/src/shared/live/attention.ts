@@ -49,8 +49,6 @@ export const inHand = (v: Vehicle) => v.operating_mode !== "AUTOMATIC";
 export const silent = (v: Vehicle) => v.link === "lost" || v.link === "gone";
 export const stale = (v: Vehicle) => v.link === "late" || silent(v);
 
-/** Temperature from which a wheel's servo is watched. */
-export const kWarm_c = 65;
 /** So many times aside in so long: it gets nowhere. */
 const kAsides = 3;
 const kAsidesMs = 300_000;
@@ -117,7 +115,7 @@ function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
     yield { kind: "blocked", priority: "high", ...(v.reason !== undefined && { reason: v.reason }) };
   const warning = v.errors.find((e) => !e.fatal && !kNoFault.has(e.type));
   if (warning !== undefined) yield { kind: "warning", priority: "low", fault: warning.type };
-  const warm = v.wheels.find((w) => w.temperature_c >= kWarm_c);
+  const warm = v.wheels.find((w) => w.warm);
   if (warm !== undefined)
     yield { kind: "warm", priority: "low", wheel: warm.name, temperature_c: warm.temperature_c };
   if (v.link === "late") yield { kind: "late", priority: "low" };

@@ -2,6 +2,8 @@ import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { footCorner, wheelHalf_m, wheelPlace, wheelRing_m, wheelState, type Sheet } from "./faceplate";
 import { kPinOffset_m } from "./loads";
 
+type Caster = NonNullable<VehicleType["casters"]>[number];
+
 // Shapes of the drawing, in metres of the body frame with y turned down.
 
 export function Body({ sheet: { halfLength: l, halfWidth: w, scale } }: { sheet: Sheet }) {
@@ -66,6 +68,19 @@ export function Wheel({
         transform={`translate(${at.position.x_m} ${-at.position.y_m}) rotate(${turn})`}
       />
     </>
+  );
+}
+
+/** It turns as it is pushed, and nobody is told where to. */
+export function Caster({ at, scale }: { at: Caster; scale: number }) {
+  const half = wheelHalf_m(at.diameter_m, scale);
+  const [x, y] = [at.position.x_m, -at.position.y_m];
+  return (
+    <g className="caster">
+      <circle cx={x} cy={y} r={half} />
+      <path d={`M${x - half} ${y}H${x + half}`} />
+      <title>{at.name}</title>
+    </g>
   );
 }
 

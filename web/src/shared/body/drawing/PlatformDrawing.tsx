@@ -1,6 +1,6 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
-import { Body, Bracket, Centre, Foot, Wheel } from "./DrawingShapes";
+import { Body, Bracket, Caster, Centre, Foot, Wheel } from "./DrawingShapes";
 import { sheetOf } from "./faceplate";
 import { ForceCards } from "./ForceCards";
 import { LoadLabels } from "./LoadLabels";
@@ -35,6 +35,9 @@ export function PlatformDrawing({ vehicle, type, stale }: PlatformDrawingProps) 
           <Body sheet={sheet} />
           {type?.brackets.map((b) => (
             <Bracket key={b.name} x={b.position.x_m} y={-b.position.y_m} edge={sheet.halfWidth} />
+          ))}
+          {type?.casters?.map((c) => (
+            <Caster key={c.name} at={c} scale={sheet.scale} />
           ))}
           {vehicle.wheels.map((w) => (
             <Wheel key={w.name} wheel={w} type={type} scale={sheet.scale} />

@@ -72,11 +72,10 @@ export function wheelHalf_m(diameter_m: number, scale: number): number {
 }
 
 export type WheelState = "ok" | "warm" | "fault";
-export const kWarm_c = 65;
 
 export function wheelState(wheel: Vehicle["wheels"][number]): WheelState {
   if (wheel.fault !== "") return "fault";
-  return wheel.temperature_c >= kWarm_c ? "warm" : "ok";
+  return wheel.warm ? "warm" : "ok";
 }
 
 /** Name of a bracket's corner for the texts: "front_left". */
