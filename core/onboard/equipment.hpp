@@ -26,6 +26,9 @@ public:
     virtual void abort() = 0;
     /// Plugged in or on its feet: it must not drive.
     virtual bool holds_vehicle() const = 0;
+    /// A load lies on its brackets in part, and in part on what held it: it must neither drive nor
+    /// be raised. Only going on with taking it over or setting it down ends that.
+    virtual bool half_transferred() { return false; }
     /// What the load cells of its brackets show now, and how high these are; empty: it has none.
     virtual std::vector<vda5050::BracketStatus> brackets() { return {}; }
 };

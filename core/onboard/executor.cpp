@@ -189,7 +189,8 @@ void Executor::take_traversals() {
 void Executor::queue_edges() {
     if (!waiting_.empty() || procedure_.running() || !cancel_id_.empty()) return;
     if (held_ && motion_.idle()) return;
-    if (equipment_ != nullptr && equipment_->holds_vehicle()) return;
+    if (equipment_ != nullptr && (equipment_->holds_vehicle() || equipment_->half_transferred()))
+        return;
     way_.hand_over();
 }
 

@@ -51,6 +51,10 @@ Status Executor::drive_by_hand(const kinematics::Twist& wanted) {
                     "The vehicle stands on its feet or is plugged in. Raise the feet, stop "
                     "charging.");
     }
+    if (equipment_ != nullptr && equipment_->half_transferred()) {
+        return fail(Errc::kConflict, "load_half_taken",
+                    "A part of the load still hangs or stands. Take it over or set it down first.");
+    }
     if (const auto cause = motion_.stop_cause()) {
         return fail(
             Errc::kConflict, cause->code,

@@ -44,7 +44,13 @@ LoadHandling::Cells LoadHandling::read_cells() {
 
 std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
     transfers_ = vda5050::is_transfer(action.type);
-    if (!transfers_) return machine_.begin(action);
+    if (!transfers_) {
+        // They would raise or lower the whole below what still hangs.
+        const bool feet =
+            action.type == vda5050::kLowerParking || action.type == vda5050::kRaiseParking;
+        if (feet && half_transferred()) return "load_half_taken";
+        return machine_.begin(action);
+    }
     failure_.reset();
     moved_ = false;
     if (busy()) return "lifts_moving";
@@ -54,15 +60,20 @@ std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
     before_n_ = 0;
     if (action.type == vda5050::kDrop) {
         if (!cells.feels) return "load_not_felt";
+        if (!begun_kg_) begun_kg_ = told_kg_ > 0 ? told_kg_ : cells.force_n / kGravity_mps2;
         phase_ = Phase::kSetsDown;
         return std::nullopt;
     }
+    begun_kg_ = told_kg_;
     // Of one that was broken off a part is on the brackets already.
     if (cells.feels) {
         phase_ = Phase::kTakes;
         return std::nullopt;
     }
-    if (!move_to(type_.bracket_lift.stroke_m, kFeel_mps)) return failure_;
+    if (!move_to(type_.bracket_lift.stroke_m, kFeel_mps)) {
+        begun_kg_.reset();
+        return failure_;
+    }
     phase_ = Phase::kFeels;
     return std::nullopt;
 }
@@ -91,9 +102,23 @@ bool LoadHandling::move_to(double height_m, double speed_mps) {
     return false;
 }
 
+/// All of the load on its brackets, or none of it, is no half.
+bool LoadHandling::half_transferred() {
+    if (!begun_kg_) return false;
+    const Cells cells = read_cells();
+    if (!cells.feels) return false;
+    const double measured_kg = cells.force_n / kGravity_mps2;
+    return *begun_kg_ == 0 || std::abs(measured_kg - *begun_kg_) > kUnlike * *begun_kg_;
+}
+
 void LoadHandling::step() {
-    if (phase_ == Phase::kRests) return;
     const bool moves = machine_.busy();
+    const bool came_to_rest = std::exchange(machine_moved_, moves) && !moves;
+    if (phase_ == Phase::kRests) {
+        // Brackets that were lowered by hand have given it back.
+        if (came_to_rest && begun_kg_ && !half_transferred()) begun_kg_.reset();
+        return;
+    }
     if (moves && phase_ != Phase::kFeels) return;
     const Cells cells = read_cells();
     if (moves) {
@@ -168,6 +193,9 @@ void LoadHandling::give_up(Reason why, Phase back) {
     if (!move_to(began_m_, kTransfer_mps)) end();
 }
 
-void LoadHandling::end() { phase_ = Phase::kRests; }
+void LoadHandling::end() {
+    phase_ = Phase::kRests;
+    if (!half_transferred()) begun_kg_.reset();
+}
 
 }  // namespace pulseline::onboard

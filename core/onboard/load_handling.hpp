@@ -14,8 +14,9 @@ namespace pulseline::onboard {
 /// go up in step until they feel the load, and then by small steps; after each it looks how the
 /// weight is spread, and gives back what breaks a rule of its type (plant/load_rules.hpp). The load
 /// is its own when a step brings no more weight. To set down (`drop`), the same the other way. What
-/// is broken off stays as it is; begun again it goes on from there. All other actions go through to
-/// the machine. Thread safety: none. No clock: what it waits for is seen in step().
+/// is broken off stays as it is; begun again it goes on from there, and until then the feet stay as
+/// they are (load_half_taken). All other actions go through to the machine. Thread safety: none. No
+/// clock: what it waits for is seen in step().
 class LoadHandling final : public Equipment {
 public:
     /// Both must outlive it.
@@ -30,10 +31,16 @@ public:
     std::optional<std::string> failure() const override;
     void abort() override;
     bool holds_vehicle() const override { return machine_.holds_vehicle(); }
+    bool half_transferred() override;
     std::vector<vda5050::BracketStatus> brackets() override { return machine_.brackets(); }
 
     /// Once a step of the machine.
     void step();
+    /// Of a transfer that was begun and has not come to its end: what the load weighs, kg, or 0
+    /// where nobody knows. To be kept, and told to the next program by begun_before().
+    const std::optional<double>& begun_kg() const { return begun_kg_; }
+    void begun_before(double load_kg) { begun_kg_ = load_kg; }
+
     /// What the load cells say; a vehicle without brackets does not know.
     bool carries() { return read_cells().feels; }
 
@@ -68,7 +75,9 @@ private:
     Phase phase_ = Phase::kRests;
     bool moved_ = false;      // the machine has, or does, for the transfer: its failure is its own
     bool transfers_ = false;  // what was begun last is a transfer
+    bool machine_moved_ = false;  // in the step before
     double told_kg_ = 0;
+    std::optional<double> begun_kg_;
     double began_m_ = 0;
     double before_n_ = 0;  // one step ago
     std::optional<std::string> failure_;

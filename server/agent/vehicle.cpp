@@ -53,6 +53,10 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
       watch_(cameras_, drive_, estimate_),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
+    if (learned_) {
+        kept_transfer_kg_ = learned_->begun_transfer_kg();
+        if (kept_transfer_kg_) handling_.begun_before(*kept_transfer_kg_);
+    }
     loaded_ = type_.brackets.empty() ? settings_.loaded : handling_.carries();
     if (!drive_.wheels().empty()) guard_.emplace(type_, loaded_);
     drive_.set_believed({});  // where it stands it is told, or its codes or receivers say
@@ -119,6 +123,7 @@ void Vehicle::drive(double dt_s) {
 /// Once brackets have come to rest it knows its body anew.
 void Vehicle::feel_load() {
     handling_.step();
+    keep_transfer();
     const bool rests = std::exchange(lifting_, handling_.busy()) && !lifting_;
     if (!rests || type_.brackets.empty()) return;
     const bool loaded = handling_.carries();
@@ -126,6 +131,16 @@ void Vehicle::feel_load() {
     if (guard_) guard_.emplace(type_, loaded);
     if (look_out_) look_out_->carry(loaded);
     if (going_round_) going_round_->carry(loaded);
+}
+
+/// Before it moves: a program that starts anew must know of what it has begun.
+void Vehicle::keep_transfer() {
+    if (!learned_ || kept_transfer_kg_ == handling_.begun_kg()) return;
+    kept_transfer_kg_ = handling_.begun_kg();
+    if (const auto kept = learned_->keep_transfer(kept_transfer_kg_); !kept) {
+        server::log::warn("transfer.not_kept",
+                          {{"vehicle", vehicle_.id.str()}, {"what", kept.error().what}});
+    }
 }
 
 void Vehicle::keep_learned() {

@@ -70,6 +70,7 @@ public:
 
     const plant::Vehicle& plant_vehicle() const { return vehicle_; }
 
+    const plant::VehicleType& type() const { return type_; }
     const onboard::Executor& executor() const { return executor_; }
     const onboard::PoseEstimate& estimate() const { return estimate_; }
 
@@ -85,6 +86,7 @@ private:
     void send_pictures(Steady::time_point now);
     void drive(double dt_s);
     void feel_load();
+    void keep_transfer();
     void know_pose(double dt_s);
     void lead_at_rest(double dt_s);
     void log_refused() const;
@@ -109,6 +111,7 @@ private:
     StopSenses stop_senses_;
     onboard::LoadHandling handling_;
     std::optional<LearnedMoves> learned_;
+    std::optional<double> kept_transfer_kg_;  // as its file has it
     onboard::Executor executor_;
     onboard::HandControls hands_;
     std::optional<onboard::LookOut> look_out_;        // with scanners

@@ -7,6 +7,7 @@
 #include "api/vda5050/order.hpp"
 #include "api/vda5050/state.hpp"
 #include "api/vda5050/visualization.hpp"
+#include "core/onboard/foot_faults.hpp"
 #include "server/agent/utc.hpp"
 #include "server/agent/vehicle.hpp"
 #include "server/base/log.hpp"
@@ -29,6 +30,11 @@ vda5050::StateMessage Vehicle::state() {
     executor_.write_state(state);
     if (executor_.in_hand()) state.in_hand_of = hands_.holder()->person;
     machine_.write_state(state);
+    if (!handling_.busy()) {
+        for (auto& fault : onboard::foot_faults(type_, state.parking_feet)) {
+            state.errors.push_back(std::move(fault));
+        }
+    }
     if (look_out_ && !executor_.in_hand()) {
         look_out_->write_state(state);
         going_round_->write_state(state);

@@ -14,6 +14,7 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/vehicle/attention.hpp"
+#include "core/fleet/vehicle/lifts.hpp"
 #include "core/fleet/vehicle/link.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -107,6 +108,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     handle_pose(fleet, live, before, now);
     watch_mode(fleet, live, before, now);
     handle_action_states(fleet, live, now);
+    recall_lift(live, now);
     settle_load(fleet, live, now);
     // What it has passed is where it says to be; on that nothing is freed or measured.
     if (live.has_leg() && !is_in_doubt(live)) handle_leg_progress(fleet, live, now);

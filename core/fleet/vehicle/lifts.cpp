@@ -18,6 +18,7 @@ namespace pulseline::fleet {
 namespace {
 
 constexpr std::string_view kAll = "all";  // of them
+constexpr const char* kLinkLost = "link_lost";
 
 /// Empty: it names none.
 std::string bracket_of(const StepAction& wanted) {
@@ -57,6 +58,27 @@ Status has_bracket(const LiveVehicle& live, const StepAction& wanted) {
     }
     return has_one_named(live, "unknown_bracket", "bracket", bracket_of(wanted),
                          live.type->brackets);
+}
+
+/// What hangs above it must not be taken over by its feet.
+Status may_rise_below(const FleetState& fleet, const LiveVehicle& live) {
+    const auto* station = plant::find_station(fleet.plant, live.record.at_station);
+    const auto* load = load_at(fleet, live.record.at_station);
+    if (load == nullptr || station == nullptr || !station->support || !live.type->parking)
+        return {};
+    const double most_m = station->support->height_m - live.type->parking->lift_m;
+    for (const auto& bracket : live.state.brackets) {
+        const double height_m = bracket.height_m.value_or(0);
+        if (height_m < most_m) continue;
+        const std::string& id = live.record.id.str();
+        return fail(
+            Errc::kConflict, "brackets_too_high",
+            "On its feet vehicle " + id + " would lift " + load->name +
+                " that hangs or stands above its brackets. Lower these first.",
+            {},
+            {{"vehicle", id}, {"load", load->name}, {"height_m", height_m}, {"most_m", most_m}});
+    }
+    return {};
 }
 
 bool is_under_way(const LiveVehicle& live) {
@@ -112,14 +134,22 @@ Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const St
                         "that has ended, or as a part of it.");
     }
     if (vda5050::is_transfer(wanted.type)) return may_transfer(fleet, live, wanted);
-    const bool all = wanted.type != vda5050::kSetBracketHeight || bracket_of(wanted) == kAll;
-    if (auto fault = rule_broken(live); fault && all) {
+    const bool feet = wanted.type != vda5050::kSetBracketHeight;
+    if (auto fault = rule_broken(live); fault && (feet || bracket_of(wanted) == kAll)) {
         return conflict(fault->code.c_str(),
                         " carries a load that breaks a rule of its type. Put "
                         "that right with single brackets first.",
                         fault->params);
     }
-    return {};
+    if (!feet) return {};
+    // On its feet the whole rises, also below what still hangs.
+    if (auto fault = load_view(fleet, live).fault) {
+        return conflict(fault->code.c_str(),
+                        " feels other weight on its brackets than it is said to carry. Go on "
+                        "with taking the load over or setting it down, or say where it is.",
+                        fault->params);
+    }
+    return wanted.type == vda5050::kLowerParking ? may_rise_below(fleet, live) : Status{};
 }
 
 void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::ActionState& answer,
@@ -132,13 +162,29 @@ void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::Action
     note_transferred(fleet, live, live.lift->what, {live.lift->actor}, now);
 }
 
+void recall_lift(LiveVehicle& live, Time now) {
+    if (live.lift || live.has_leg()) return;
+    const auto& told = live.state.action_states;
+    const auto broken = std::find_if(told.rbegin(), told.rend(), [](const auto& action) {
+        return vda5050::is_lift(action.type) || vda5050::is_transfer(action.type);
+    });
+    if (broken == told.rend() || broken->status != vda5050::ActionStatus::kFailed ||
+        broken->result_description != kLinkLost) {
+        return;
+    }
+    StepAction what;
+    what.type = broken->type;
+    live.lift = LiftMove{std::move(what),           broken->id, {}, now, LiftMove::State::kFailed,
+                         broken->result_description};
+}
+
 void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now) {
     std::erase_if(live.actions, [](const PendingAction& pending) {
         return vda5050::is_lift(pending.action.type) || pending.action.type == vda5050::kStopLifts;
     });
     if (!is_under_way(live)) return;
     live.lift->state = LiftMove::State::kFailed;
-    live.lift->why = "link_lost";
+    live.lift->why = kLinkLost;
     add_event(fleet, now, event::kVehicleAction, {}, {}, live.record.id, {},
               {{"action", live.lift->what.type},
                {"action_id", live.lift->action_id},

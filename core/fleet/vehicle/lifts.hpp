@@ -13,13 +13,17 @@ namespace pulseline::fleet {
 /// unknown_bracket and out_of_stroke of what the vehicle does not have; needs_person,
 /// vehicle_paused, vehicle_busy and lifts_moving; and what is wrong with a load that all brackets
 /// would raise or lower (codes of plant::load_fault): one alone may be moved, to put that right.
-/// What only differs from what is known may be: a load that was half set down is raised again so.
-/// Of a load to be taken over or set down: those of may_transfer (loads.hpp).
+/// What only differs from what is known may be, by brackets: a load that was half set down is
+/// raised again so. By feet it may not, nor what hangs above (brackets_too_high {height_m,
+/// most_m}). Of a load to be taken over or set down: those of may_transfer (loads.hpp).
 Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted);
 /// The vehicle has answered what was asked for: a load that it has taken over or set down is where
 /// that has put it.
 void note_lift_ended(FleetState& fleet, LiveVehicle& live, const vda5050::ActionState& answer,
                      Time now);
+/// What the vehicle says of a movement that it broke off when the line was cut, and that a server
+/// that starts anew knows nothing of.
+void recall_lift(LiveVehicle& live, Time now);
 /// The line is cut: what has not ended is not asked for again, since nobody looks at it any more.
 void give_up_lift(FleetState& fleet, LiveVehicle& live, Time now);
 

@@ -43,6 +43,7 @@ WheelDrive::WheelDrive(plant::VehicleType type, Wheels& wheels, const Pose2& bel
     : type_(std::move(type)),
       wheels_(wheels),
       time_factor_(time_factor),
+      cycle_s_(type_.control.cycle_s),
       odometry_(type_),
       reference_(type_, 1),
       believed_(believed),
@@ -122,11 +123,11 @@ std::vector<WheelMotion> WheelDrive::wheels() const {
 
 void WheelDrive::step(double dt_s) {
     pending_s_ += dt_s * time_factor_;
-    for (; pending_s_ >= Wheels::kCycle_s - kRounding_s; pending_s_ -= Wheels::kCycle_s) cycle();
+    for (; pending_s_ >= cycle_s_ - kRounding_s; pending_s_ -= cycle_s_) cycle();
 }
 
 void WheelDrive::cycle() {
-    in_phase_s_ += Wheels::kCycle_s;
+    in_phase_s_ += cycle_s_;
     if (wheels_.lost()) lose_machine();
     if (!cause_) {
         if (auto wheel = wheels_.fault()) stop_for({stop_causes::kWheelFault, {{"wheel", *wheel}}});
@@ -235,7 +236,7 @@ double WheelDrive::reference_pace() const {
 void WheelDrive::drive() {
     due_.push_back(goal_);
     due_.pop_front();
-    for (const auto& passed : reference_.step(reference_pace() * Wheels::kCycle_s)) {
+    for (const auto& passed : reference_.step(reference_pace() * cycle_s_)) {
         goal_ = passed.to;
         steerable_ -= passed.way;
     }
@@ -285,7 +286,7 @@ void WheelDrive::follow(const Twist& twist) {
     }
     wheels_.roll(wanted_);
     told_ = odometry_.body_of(wheels_.measured());
-    believed_ = kinematics::moved(believed_, told_.twist, Wheels::kCycle_s);
+    believed_ = kinematics::moved(believed_, told_.twist, cycle_s_);
     watch_path();
     watch_slip();
 }
@@ -302,7 +303,7 @@ void WheelDrive::watch_slip() {
     double share = wheels_.slip_share().value_or(0);
     const double pace = std::hypot(told_.twist.vx_mps, told_.twist.vy_mps);
     if (pace > limits_.slip_speed_mps) share = std::max(share, told_.slip_mps / pace);
-    slipping_s_ = share > limits_.slip ? slipping_s_ + Wheels::kCycle_s : 0;
+    slipping_s_ = share > limits_.slip ? slipping_s_ + cycle_s_ : 0;
     if (slipping_s_ <= limits_.slip_time_s) return;
     if (auto wheel = wheels_.lagging()) {
         wheels_.switch_off(*wheel);

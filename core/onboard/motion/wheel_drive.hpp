@@ -19,7 +19,7 @@ namespace pulseline::onboard {
 /// from rest in a new direction it steers its wheels standing. When a wheel fails, wheels and floor
 /// disagree, or it leaves its path, it brakes on the path and stays (stop_cause()). Encoders alone
 /// cannot see a wheel that slips at the commanded speed: measuring wheels show it, where the type
-/// has them. All in the vehicle's own time, in cycles of Wheels::kCycle_s.
+/// has them. All in the vehicle's own time, in the cycles of the type's control.
 class WheelDrive final : public Drive {
 public:
     /// `wheels` must outlive it. REQUIRES: `type` has a driven wheel. With a time factor, which
@@ -84,6 +84,7 @@ private:
     plant::VehicleType type_;
     Wheels& wheels_;
     double time_factor_;
+    double cycle_s_;
     DriveLimits limits_;
     kinematics::RollingWheels odometry_;
     PathReference reference_;  // in the vehicle's own time

@@ -10,12 +10,10 @@
 namespace pulseline::onboard {
 
 /// Port: the wheels of a machine under the set points of its drive, one a wheel of the type in its
-/// order, cycle by cycle (Tang 2020, section 2.1: the industrial computer commands, the PLC closes
-/// the position loops), and what their encoders tell. Thread safety: none. No clock.
+/// order, in the cycles of its control (Tang 2020, section 2.1: the industrial computer commands,
+/// the PLC closes the position loops), and what their encoders tell. Thread safety: none. No clock.
 class Wheels {
 public:
-    static constexpr double kCycle_s = 0.01;  // of the set points
-
     virtual ~Wheels() = default;
 
     /// One cycle, driving.

@@ -230,5 +230,31 @@ TEST_F(Lifts, OfAVehicleTakenOffTheFloorAreGivenUp) {
     EXPECT_EQ(lift().state, LiftMove::State::kFailed);
 }
 
+TEST_F(Lifts, WhoeverWaitsForAPersonMovesNothing) {
+    ASSERT_TRUE(move(kAllUp));
+    v1().end_lifts();
+    v1().state.errors = {{"x", true, "broken", {}}};
+    world.run(1);
+    v1().state.errors.clear();
+    world.run(1);
+    EXPECT_EQ(refusal(kAllUp), "needs_person");
+    EXPECT_EQ(refusal(kFeetDown), "needs_person");
+    EXPECT_EQ(told("setBracketHeight"), 1);
+}
+
+// The server dies, and the vehicle broke off what it had begun: the next server says so.
+TEST_F(Lifts, ThatWereBrokenOffWhileNoServerListenedAreToldByTheVehicle) {
+    ASSERT_TRUE(move(kAllUp));
+    world.run(1);
+    v1().end_lifts("link_lost");
+    world.crash_server();
+    world.connect_all();
+    world.run(1);
+    ASSERT_TRUE(world.fleet->vehicle(kV1, world.now)->lift);
+    EXPECT_EQ(lift().state, LiftMove::State::kFailed);
+    EXPECT_EQ(lift().why, "link_lost");
+    EXPECT_EQ(lift().what.type, "setBracketHeight");
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing

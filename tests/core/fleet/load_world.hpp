@@ -21,6 +21,7 @@ inline plant::Plant with_load() {
     auto& type = plant.vehicle_types.front();
     type.brackets = plant::builders::four_brackets();
     type.wheels = {};
+    type.parking = plant::usual_parking(type.footprint);
     type.load_footprint = geometry::rectangle(3.4, 3);
     for (auto& station : plant.stations) {
         if (station.number == 1 || station.number == 3) station.support = plant::Support{};

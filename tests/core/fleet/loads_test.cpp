@@ -12,11 +12,14 @@
 namespace pulseline::fleet::testing {
 namespace {
 
+const plant::LoadId kOther("J-2");
+
 class Loads : public ::testing::Test {
 protected:
-    Loads() : world(with_load()) {
+    explicit Loads(const plant::Plant& plant = with_load()) : world(plant) {
         world.connect_all();
-        world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+        world.announce(
+            {"setBracketHeight", "lowerParking", "raiseParking", "stopLifts", "pick", "drop"});
         weigh("V1", 0, 0);
         weigh("V2", 0, 0);
         v1().lifts_end = false;
@@ -154,6 +157,41 @@ TEST_F(Loads, AWeightThatIsNotThatOfTheLoadBarsTheDrive) {
     world.run(1);
     ASSERT_TRUE(view().load.fault);
     EXPECT_EQ(view().load.fault->code, "load_differs");
+    ASSERT_TRUE(world.order("V1", {3}));
+    world.run(10);
+    EXPECT_NE(world.only_order().state, JobState::kRunning);
+    EXPECT_FALSE(v1().state.driving);
+    weigh("V1", kMass_kg, 0.15);
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded);
+}
+
+// On its feet the whole rises below what still hangs.
+TEST_F(Loads, WithAWeightThatNobodyKnowsItsFeetStayWhereTheyAre) {
+    const StepAction down{"lowerParking", {}}, up{"raiseParking", {}};
+    weigh("V1", 0.4 * kMass_kg, 0.13);
+    world.run(1);
+    EXPECT_EQ(refusal(down), "load_unknown");
+    EXPECT_EQ(refusal(up), "load_unknown");
+    weigh("V1", 0, 0);
+    take_over();
+    weigh("V1", 0.4 * kMass_kg, 0.13);
+    world.run(1);
+    EXPECT_EQ(refusal(down), "load_differs");
+    weigh("V1", kMass_kg, 0.15);
+    world.run(1);
+    EXPECT_EQ(refusal(down), "");
+}
+
+TEST_F(Loads, BelowOneThatHangsItGoesOnItsFeetOnlyWithItsBracketsLow) {
+    const double support_m = world.plant.stations.front().support->height_m;
+    const double lift_m = world.plant.vehicle_types.front().parking->lift_m;
+    weigh("V1", 0, support_m - lift_m / 2);
+    world.run(1);
+    EXPECT_EQ(refusal({"lowerParking", {}}), "brackets_too_high");
+    weigh("V1", 0, support_m - 2 * lift_m);
+    world.run(1);
+    EXPECT_EQ(refusal({"lowerParking", {}}), "");
 }
 
 // A part of the weight is on the support: all brackets together take it back, or give it back.
@@ -173,6 +211,57 @@ TEST_F(Loads, NobodyTakesOverWhatIsElsewhereUnknownOrNotForIt) {
     EXPECT_EQ(refusal(kDrop), "vehicle_empty");
     EXPECT_EQ(refusal(LoadPlace{{}, plant::StationId("s3")}), "");
     EXPECT_EQ(refusal(kPick), "load_elsewhere");
+}
+
+/// A second load, which is nowhere.
+plant::Plant with_two_loads() {
+    plant::Plant plant = with_load();
+    plant.loads.push_back(plant.loads.front());
+    plant.loads.back().id = kOther;
+    plant.loads.back().name = "Other";
+    plant.loads.back().station = {};
+    return plant;
+}
+
+class TwoLoads : public Loads {
+protected:
+    TwoLoads() : Loads(with_two_loads()) {}
+    std::string refusal_of_other(const LoadPlace& place) {
+        const auto placed = world.fleet->place_load(kOther, place, "op", world.now);
+        world.settle();
+        return placed ? "" : placed.error().reason.code;
+    }
+};
+
+TEST_F(TwoLoads, NothingIsSetDownOrSaidToBeWhereAnotherOneIs) {
+    EXPECT_EQ(refusal_of_other({{}, kS1}), "support_taken");
+    take_over();
+    EXPECT_EQ(refusal(kPick), "vehicle_loaded");
+    EXPECT_EQ(refusal_of_other({kV1, {}}), "vehicle_loaded");
+    EXPECT_EQ(refusal_of_other({{}, kS1}), "");
+    EXPECT_EQ(refusal(kDrop), "support_taken");
+    EXPECT_EQ(jig().vehicle, kV1);
+    EXPECT_EQ(refusal_of_other({}), "");
+    EXPECT_EQ(refusal(kDrop), "");
+}
+
+TEST(LoadsOfTypes, WhatIsNotForTheTypeOrTooLargeIsNotPutOnIt) {
+    plant::Plant plant = with_load();
+    auto other = plant.vehicle_types.front();
+    other.id = plant::VehicleTypeId("other");
+    plant.vehicle_types.push_back(other);
+    plant.loads.front().vehicle_types = {other.id};
+    World world(plant);
+    world.connect_all();
+    world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+    for (const char* id : {"V1", "V2"}) testing::weigh(world.vehicle(id), world.plant, 0, 0);
+    world.run(1);
+    const auto placed = world.fleet->place_load(kJig, {kV2, {}}, "op", world.now);
+    ASSERT_FALSE(placed);
+    EXPECT_EQ(placed.error().reason.code, "load_not_for_type");
+    const auto picked = world.fleet->move_lifts(kV1, kPick, "op", world.now);
+    ASSERT_FALSE(picked);
+    EXPECT_EQ(picked.error().reason.code, "load_not_for_type");
 }
 
 TEST_F(Loads, APersonSaysWhereOneIsAndIsToldWhatForbidsIt) {

@@ -175,7 +175,7 @@ TEST_F(HandControlsTest, APauseBrakesItAndOnlyWhoLetsGoAndPressesAgainMovesIt) {
     EXPECT_GT(driven_m(), stood_at_m + 0.05);
 }
 
-TEST_F(HandControlsTest, StandingOnItsFeetOrMovingItIsRefused) {
+TEST_F(HandControlsTest, WhileItMovesItIsNotGivenBack) {
     ASSERT_TRUE(hands.take(kAnn, now_s));
     ASSERT_TRUE(drive(kAnn));
     pass(0.2);

@@ -22,9 +22,12 @@ public:
     bool busy() const override { return moving; }
     std::optional<std::string> failure() const override { return cause; }
     void abort() override { moving = false; }
-    bool holds_vehicle() const override { return moving; }
+    bool holds_vehicle() const override { return moving || down; }
+    bool half_transferred() override { return half; }
 
     bool moving = false;
+    bool down = false;  // the feet
+    bool half = false;  // of a load is on its brackets
     std::string refuses;
     std::optional<std::string> cause;
     std::vector<std::string> begun;
@@ -226,6 +229,35 @@ TEST_F(LiftsTest, AVehicleWithoutThemKnowsNoSuchAction) {
     instant("stopLifts", "stop");
     EXPECT_EQ(status("stop"), ActionStatus::kFailed);
     EXPECT_EQ(last_error(), "instantActionError");
+}
+
+TEST_F(LiftsTest, OnItsFeetOrWithHalfALoadNobodyDrivesItByHand) {
+    fitted.take_by_hand();
+    const auto refused = [&] {
+        const auto driven = fitted.drive_by_hand({0.2, 0, 0});
+        pass(1);
+        return driven ? "" : driven.error().reason.code;
+    };
+    lifts.down = true;
+    EXPECT_EQ(refused(), "held");
+    lifts.down = false;
+    lifts.half = true;
+    EXPECT_EQ(refused(), "load_half_taken");
+    EXPECT_TRUE(fitted.drive_by_hand({})) << "to let go is never refused";
+    EXPECT_EQ(motion.true_pose().x_m, 0);
+    lifts.half = false;
+    EXPECT_EQ(refused(), "");
+    EXPECT_GT(motion.true_pose().x_m, 0.005);
+}
+
+TEST_F(LiftsTest, WithHalfALoadAnOrderWaits) {
+    lifts.half = true;
+    fitted.handle(order("o1", 2, 2));
+    pass(5);
+    EXPECT_EQ(motion.true_pose().x_m, 0);
+    lifts.half = false;
+    pass(30);
+    EXPECT_NEAR(motion.true_pose().x_m, 2, 0.05);
 }
 
 }  // namespace

@@ -85,6 +85,28 @@ protected:
         run();
         ASSERT_FALSE(handling->failure());
     }
+    static vda5050::Action act(const char* type) {
+        vda5050::Action action;
+        action.type = type;
+        return action;
+    }
+    void pass() {
+        machine->step(kStep_s, 0);
+        handling->step();
+    }
+    void break_off_pick() {
+        ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+        for (double t_s = 0; force_n() < 0.4 * kMass_kg * kGravity_mps2 && t_s < 300;
+             t_s += kStep_s)
+            pass();
+        handling->abort();
+        pass();
+    }
+    void run_until_below(double share) {
+        for (double t_s = 0; force_n() > share * kMass_kg * kGravity_mps2 && t_s < 300;
+             t_s += kStep_s)
+            pass();
+    }
     double force_n() {
         double sum_n = 0;
         for (const auto& one : machine->brackets()) sum_n += one.force_a_n + one.force_b_n;
@@ -223,6 +245,82 @@ TEST_F(LoadHandlingTest, HeldInTheMiddleGoesOnFromThere) {
     run();
     EXPECT_FALSE(handling->failure()) << *handling->failure();
     EXPECT_FALSE(hoist().load);
+}
+
+TEST_F(LoadHandlingTest, HalfTakenItNeitherDrivesNorRisesUntilItIsTakenOrGivenBack) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    EXPECT_FALSE(handling->half_transferred());
+    break_off_pick();
+    EXPECT_TRUE(handling->half_transferred());
+    EXPECT_EQ(*handling->begun_kg(), kMass_kg);
+    EXPECT_EQ(handling->begin(act("lowerParking")), "load_half_taken");
+    EXPECT_EQ(handling->begin(act("raiseParking")), "load_half_taken");
+
+    ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+    run();
+    EXPECT_FALSE(handling->half_transferred()) << "it has all of it";
+    EXPECT_FALSE(handling->begun_kg());
+
+    ASSERT_FALSE(handling->begin(drop()));
+    run_until_below(0.6);
+    handling->abort();
+    EXPECT_TRUE(handling->half_transferred());
+    raise_to(0);
+    EXPECT_FALSE(handling->half_transferred()) << "it has given all of it back";
+    EXPECT_FALSE(handling->begun_kg());
+}
+
+TEST_F(LoadHandlingTest, AProgramThatStartsAnewIsToldOfWhatHadBeenBegun) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    break_off_pick();
+    LoadHandling anew(*machine, type);
+    EXPECT_FALSE(anew.half_transferred()) << "weight alone says nothing";
+    anew.begun_before(*handling->begun_kg());
+    EXPECT_TRUE(anew.half_transferred());
+    anew.begun_before(0);
+    EXPECT_TRUE(anew.half_transferred()) << "of a load that nobody knows any weight may be a part";
+}
+
+TEST_F(LoadHandlingTest, ACornerThatRisesAheadIsGivenBackBeforeItBearsMuch) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    ASSERT_TRUE(machine->displace_bracket("front left", 0.004));
+    EXPECT_FALSE(machine->displace_bracket("middle", 0.004));
+    ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+    run();
+    ASSERT_TRUE(handling->failure());
+    EXPECT_EQ(handling->failure()->substr(0, 15), "load_unbalanced");
+    EXPECT_NE(handling->failure()->find("front left"), std::string::npos) << *handling->failure();
+    EXPECT_TRUE(hoist().load) << "it hangs as before";
+    EXPECT_FALSE(handling->carries());
+    EXPECT_EQ(machine->load_kg(), 0);
+    EXPECT_LT(most_n, 0.5 * kMass_kg * kGravity_mps2);
+    EXPECT_FALSE(handling->half_transferred());
+}
+
+TEST_F(LoadHandlingTest, OnItsFeetItsBracketsReachHigherAndTakeOverLower) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    ASSERT_FALSE(handling->begin(act("lowerParking")));
+    run();
+    ASSERT_FALSE(handling->failure());
+    ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+    run();
+    EXPECT_FALSE(handling->failure()) << *handling->failure();
+    EXPECT_FALSE(hoist().load);
+    EXPECT_LT(height_m(), kHoist_m + 0.02 + 0.008) << "the feet have raised it by 20 mm";
+    double feet_n = 0;
+    vda5050::StateMessage state;
+    machine->write_state(state);
+    for (const auto& foot : state.parking_feet) feet_n += *foot.force_n;
+    EXPECT_NEAR(feet_n, (type.mass_kg + kMass_kg) * kGravity_mps2, 8e3);
+}
+
+TEST_F(LoadHandlingTest, FeetThatRaiseItBelowALoadTakeThatOver) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    raise_to(kHoist_m - 0.002);
+    EXPECT_FALSE(handling->carries());
+    ASSERT_FALSE(handling->begin(act("lowerParking")));
+    run();
+    EXPECT_TRUE(handling->carries()) << "that is why the server forbids it";
 }
 
 }  // namespace
