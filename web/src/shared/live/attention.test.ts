@@ -88,6 +88,13 @@ it.each<[string, Partial<Vehicle>, string | undefined, string | undefined]>([
     undefined,
     undefined,
   ],
+  ["a wheel too hot", { wheels: [wheel({ warm: true, fault: "servo_overtemperature" })] }, "hot", "high"],
+  [
+    "a foot in the air",
+    { errors: [{ type: "footLostContact", fatal: false, description: "" }] },
+    "foot",
+    "high",
+  ],
   ["a warm wheel", { wheels: [wheel({ temperature_c: 71, warm: true })] }, "warm", "low"],
   ["late data", { link: "late" }, "late", "low"],
   ["waiting for floor", { activity: "waiting", ...because("floor_held") }, undefined, undefined],

@@ -12,6 +12,8 @@ export type AlarmKind =
   | "silent"
   | "field"
   | "wheel"
+  | "hot"
+  | "foot"
   | "bracket"
   | "load"
   | "doubt"
@@ -52,6 +54,10 @@ export const stale = (v: Vehicle) => v.link === "late" || silent(v);
 /** So many times aside in so long: it gets nowhere. */
 const kAsides = 3;
 const kAsidesMs = 300_000;
+/** It stands on its feet, and one of them does not hold as it should. */
+const kFootFaults = new Set(["footLostContact", "footOverloaded"]);
+/** Of a wheel's drive that has switched itself off until it has cooled. */
+const kTooHot = "servo_overtemperature";
 /** What is told as an error and needs nobody. */
 const kNoFault = new Set(["going_round", "obstacle"]);
 /** Why it does not know its place: nothing to clear at the vehicle, it only has to be told. */
@@ -91,7 +97,12 @@ function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
   if (silent(v)) yield { kind: "silent", priority: "high" };
   if (v.field_violation === true) yield { kind: "field", priority: "high" };
   const wheel = v.wheels.find((w) => w.fault !== "");
-  if (wheel !== undefined) yield { kind: "wheel", priority: "high", wheel: wheel.name, fault: wheel.fault };
+  if (wheel?.fault === kTooHot)
+    yield { kind: "hot", priority: "high", wheel: wheel.name, temperature_c: wheel.temperature_c };
+  else if (wheel !== undefined)
+    yield { kind: "wheel", priority: "high", wheel: wheel.name, fault: wheel.fault };
+  const foot = v.errors.find((e) => kFootFaults.has(e.type));
+  if (foot !== undefined) yield { kind: "foot", priority: "high", fault: foot.type };
   const bracket = bracketFault(v);
   const load = v.load_fault;
   if (bracket !== undefined) yield { kind: "bracket", priority: "high", ...bracket };
@@ -113,7 +124,7 @@ function* causes(v: Vehicle, nowMs: number): Generator<Cause> {
   }
   if (v.activity === "blocked")
     yield { kind: "blocked", priority: "high", ...(v.reason !== undefined && { reason: v.reason }) };
-  const warning = v.errors.find((e) => !e.fatal && !kNoFault.has(e.type));
+  const warning = v.errors.find((e) => !e.fatal && !kNoFault.has(e.type) && !kFootFaults.has(e.type));
   if (warning !== undefined) yield { kind: "warning", priority: "low", fault: warning.type };
   const warm = v.wheels.find((w) => w.warm);
   if (warm !== undefined)
