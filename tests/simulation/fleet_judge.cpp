@@ -46,7 +46,11 @@ constexpr const char* kFaults[] = {"message late, others overtake it",
                                    "floor closed",
                                    "order paused",
                                    "order cancelled",
-                                   "answer lost, order asked again"};
+                                   "answer lost, order asked again",
+                                   "person: lowerParking",
+                                   "person: pick",
+                                   "person: drop",
+                                   "order: a load moved"};
 
 struct Arguments {
     std::uint64_t first = 1;

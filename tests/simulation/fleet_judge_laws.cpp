@@ -68,9 +68,7 @@ void World::check_bodies() {
 /// a person's word only.
 void World::check_movement() {
     for (const auto& [id, vehicle] : vehicles_) {
-        if (vehicle.lifts_begun() > lifts_asked_) {
-            violate(id.str() + " moves its feet without a person's word");
-        }
+        check_lifts(id, vehicle);
         if (!vehicle.moved()) continue;
         if (vehicle.on_feet()) violate(id.str() + " drives on its feet");
         check_load(id, vehicle);
@@ -90,6 +88,23 @@ void World::check_movement() {
                     std::to_string(executor.base_end_sequence_id()) + ", the store one up to " +
                     std::to_string(released));
         }
+    }
+}
+
+/// Brackets and feet move outside orders when a person has said so, and once for each word.
+void World::check_lifts(const plant::VehicleId& id, const Vehicle& vehicle) {
+    const auto& begun = vehicle.lifts_begun();
+    for (auto& told = watch_[id].lifts_seen; told < begun.size(); ++told) {
+        if (lifts_asked_.erase(begun[told]) == 0)
+            violate(id.str() + " moves its brackets or feet without a person's word");
+    }
+}
+
+/// A load is on one vehicle or at one station, in the store as in the hall.
+void World::check_place_of_load() {
+    for (const auto& [id, record] : store_.loads) {
+        if (record.vehicle.empty() == record.station.empty())
+            violate("load " + id.str() + " is in no one place");
     }
 }
 
@@ -341,10 +356,7 @@ bool World::all_over() const {
 }
 
 void World::check_end() {
-    for (const auto& record : fleet_->loads()) {
-        if (record.vehicle.empty() == record.station.empty()) violate("a load is in no one place");
-        if (!load_is_known()) violate("a load is elsewhere than the server has it");
-    }
+    if (!load_is_known()) violate("a load is elsewhere than the server has it");
     for (const auto& asked : asked_) {
         if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");
     }

@@ -161,8 +161,9 @@ void World::work_platform() {
         }
     }
     if (!wanted) return;
-    const bool taken = fleet_->move_lifts(id, *wanted, "fitter", now()).has_value();
-    lifts_asked_ += taken ? 1 : 0;
+    const auto moves = fleet_->move_lifts(id, *wanted, "fitter", now());
+    const bool taken = moves.has_value();
+    if (taken) lifts_asked_.insert(moves->lift->action_id);
     if (taken) ++outcome_.faults["person: " + wanted->type];
     const int wait_s = taken ? fleet_judge::pick(foot_random_, 10, 60) : 5;
     next_feet_s_ = now_s_ + (taken && !stands_on_them ? wait_s : 2 * wait_s);

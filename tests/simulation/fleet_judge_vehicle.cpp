@@ -92,10 +92,10 @@ void Vehicle::misread(const Pose2& by, int reports) {
 
 void Vehicle::receive(const fleet::VehicleMessage& message) {
     if (message.instant_actions) {
-        const bool moved_feet = equipment_ && equipment_->busy();
-        executor_->handle(*message.instant_actions);
-        lifts_begun_ += equipment_ && equipment_->busy() && !moved_feet ? 1 : 0;
         for (const auto& action : message.instant_actions->actions) {
+            const bool moved = equipment_ && equipment_->busy();
+            executor_->handle(vda5050::InstantActionsMessage{{action}});
+            if (equipment_ && equipment_->busy() && !moved) lifts_begun_.push_back(action.id);
             if (action.type == "initPosition") misread_reports_ = 0;
         }
     }

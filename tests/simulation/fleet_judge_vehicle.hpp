@@ -2,6 +2,8 @@
 
 #include <memory>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "core/fleet/state/ports.hpp"
 #include "core/onboard/executor.hpp"
@@ -46,7 +48,8 @@ public:
     const onboard::Executor& executor() const { return *executor_; }
     /// Stands on its feet, or moves them.
     bool on_feet() const { return equipment_ && equipment_->holds_vehicle(); }
-    int lifts_begun() const { return lifts_begun_; }
+    /// The ids of the actions, outside orders, that have moved its brackets or feet.
+    const std::vector<std::string>& lifts_begun() const { return lifts_begun_; }
     /// What truly weighs on its brackets.
     double load_kg() const { return equipment_ ? equipment_->load_kg() : 0; }
 
@@ -71,7 +74,7 @@ private:
     std::unique_ptr<onboard::LoadHandling> handling_;          // of one with brackets
     std::unique_ptr<onboard::Executor> executor_;
     Pose2 stands_;  // as its feet know it
-    int lifts_begun_ = 0;
+    std::vector<std::string> lifts_begun_;
     std::int64_t header_id_ = 0;
     Pose2 misread_;
     int misread_reports_ = 0;

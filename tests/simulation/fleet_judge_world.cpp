@@ -78,6 +78,7 @@ void World::step(double dt_s) {
     move_vehicles(dt_s);
     check_bodies();
     check_movement();
+    check_place_of_load();
     if (unstored_) {
         retry_store();
         if (!unstored_ && now_s_ >= stalled_until_s_) listen(dt_s);

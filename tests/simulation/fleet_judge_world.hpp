@@ -67,9 +67,10 @@ private:
         double dead_until_s = 0;
         double manual_until_s = 0;
         double broken_until_s = 0;
-        double person_at_s = 0;     // when the person has time for it
-        double safety_until_s = 0;  // its safety stop is pulled
-        bool needs_person = false;  // since a restart of the server or a pause
+        double person_at_s = 0;      // when the person has time for it
+        double safety_until_s = 0;   // its safety stop is pulled
+        bool needs_person = false;   // since a restart of the server or a pause
+        std::size_t lifts_seen = 0;  // of those that it has begun
         /// What the server has been told of it, and of that what its present outputs know.
         struct Told {
             bool unfit = false;
@@ -148,6 +149,8 @@ private:
     void note_told(const plant::VehicleId& id, const vda5050::StateMessage& state);
     void check_sent(const fleet::VehicleMessage& message);
     void check_movement();
+    void check_lifts(const plant::VehicleId& id, const Vehicle& vehicle);
+    void check_place_of_load();
     void check_load(const plant::VehicleId& id, const Vehicle& vehicle);
     void check_records(const fleet::Records& records);
     void check_one_order_each(const fleet::Records& records);
@@ -210,9 +213,9 @@ private:
     double retry_s_ = 0;
     double next_order_s_ = 0;
     double next_person_s_ = 0;
-    std::mt19937_64 foot_random_;  // of its own, so that the seeds stay what they were
-    double next_feet_s_ = 0;       // when somebody lowers or raises the platform's feet
-    int lifts_asked_ = 0;
+    std::mt19937_64 foot_random_;        // of its own, so that the seeds stay what they were
+    double next_feet_s_ = 0;             // when somebody lowers or raises the platform's feet
+    std::set<std::string> lifts_asked_;  // by a person, and not yet begun: ids of actions
     int wanted_orders_ = 0;
     std::uint64_t servers_ = 0;
     std::int64_t last_seq_ = 0;
