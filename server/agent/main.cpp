@@ -91,7 +91,8 @@ Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& w
     settings.time_factor = options.time_factor;
     settings.errors = world.errors;
     settings.watchdog_s = options.machine_watchdog_s;
-    auto opened = TcpVehicle::open(*address, world.plant, vehicle, settings, std::move(known));
+    auto opened = TcpVehicle::open(*address, world.plant, vehicle, std::move(settings),
+                                   options.cameras, std::move(known));
     if (!opened) return fail(opened.error());
     return Unit{std::move(*opened), nullptr, nullptr};
 }

@@ -8,6 +8,7 @@ Result<std::unique_ptr<TcpVehicle>> TcpVehicle::open(const MachineAddress& addre
                                                      const plant::Plant& plant,
                                                      const plant::Vehicle& vehicle,
                                                      TcpMachine::Settings settings,
+                                                     const std::vector<CameraSource>& cameras,
                                                      VehicleSettings known) {
     const auto* type = plant::find_vehicle_type(plant, vehicle.type);
     if (type == nullptr) {
@@ -18,12 +19,15 @@ Result<std::unique_ptr<TcpVehicle>> TcpVehicle::open(const MachineAddress& addre
     settings.loaded = plant::first_load(plant, vehicle.id) != nullptr;
     opened->type_ = *type;
     opened->type_.cameras = plant::cameras_of(*type, settings.loaded);
-    auto machine = TcpMachine::open(address, opened->type_, settings);
-    if (!machine) return fail(machine.error());
-    opened->machine_ = std::move(*machine);
     known.errors = settings.errors;
     known.loaded = settings.loaded;
     known.odometry = localisation::odometry_noise(settings.errors.drive, opened->type_);
+    auto sources = open_sources(cameras, opened->type_.cameras);
+    if (!sources) return fail(sources.error());
+    settings.sources = std::move(*sources);
+    auto machine = TcpMachine::open(address, opened->type_, std::move(settings));
+    if (!machine) return fail(machine.error());
+    opened->machine_ = std::move(*machine);
     opened->program_ = std::make_unique<Vehicle>(vehicle, opened->type_, *opened->machine_, known);
     return opened;
 }

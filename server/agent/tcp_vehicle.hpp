@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "server/agent/picture_sources.hpp"
 #include "server/agent/running_vehicle.hpp"
 #include "server/agent/tcp_machine.hpp"
 
@@ -12,11 +13,12 @@ namespace pulseline::agent {
 class TcpVehicle final : public RunningVehicle {
 public:
     /// `vehicle` must outlive it; whether it is `loaded` its plant knows. Errors: those of
-    /// TcpMachine::open; unknown_vehicle.
+    /// TcpMachine::open and of open_sources for `cameras`; unknown_vehicle.
     static Result<std::unique_ptr<TcpVehicle>> open(const MachineAddress& address,
                                                     const plant::Plant& plant,
                                                     const plant::Vehicle& vehicle,
                                                     TcpMachine::Settings settings,
+                                                    const std::vector<CameraSource>& cameras,
                                                     VehicleSettings known);
 
     void step(double dt_s, Vehicle::Steady::time_point now) override { program_->step(dt_s, now); }
