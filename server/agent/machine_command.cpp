@@ -102,11 +102,15 @@ private:
                     break;
                 }
                 read.erase(0, **size);
-                if (std::holds_alternative<machine::SetPoints>(*frame)) placed_at_ = utc_now();
+                if (const auto* points = std::get_if<machine::SetPoints>(&*frame)) {
+                    cycle_ = points->cycle;
+                    placed_at_ = utc_now();
+                }
                 for (const auto& answer : controller_.handle(*frame)) {
                     answers += machine::encode(answer);
                     ends |= std::holds_alternative<machine::Refused>(answer);
                 }
+                if (moving_told() == controller_.braked()) tell_truth(Steady::now());
                 if (ends) break;
             }
             error_code ec;
@@ -128,12 +132,17 @@ private:
         line.vehicle = vehicle_;
         line.pose = controller_.true_pose();
         line.moving = !controller_.braked();
-        const bool known = told_ && line.pose == told_->pose && line.moving == told_->moving;
-        if (!truth_ || known || now - told_at_ < kTruthEvery) return;
+        line.cycle = cycle_;
+        // In which cycle it has moved off or come to rest is told by a line of that cycle.
+        const bool soon = line.moving != moving_told();
+        const bool known = told_ && line.pose == told_->pose && !soon;
+        if (!truth_ || known || (!soon && now - told_at_ < kTruthEvery)) return;
         told_ = line;
         told_at_ = now;
         truth_->write(line, to_ns(shown_at()) / 1'000'000);
     }
+
+    bool moving_told() const { return told_ && told_->moving; }
 
     /// Since when it is where it is: between two set points its place is that of the first.
     Time shown_at() const { return controller_.braked() ? utc_now() : placed_at_; }
@@ -152,6 +161,7 @@ private:
     std::optional<PictureFolder> pictures_;
     std::optional<TruthLine> told_;
     Time placed_at_ = utc_now();
+    std::uint32_t cycle_ = 0;  // of the newest set points
     Steady::time_point told_at_{};
     bool taken_ = false;
 };

@@ -337,6 +337,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "NAME=v4l2:/dev/video0, or NAME=file:PATH of an image that a camera's own "
                    "program keeps replacing: where the pictures of one of the vehicle's cameras "
                    "come from; those of the others its controller takes");
+    app.add_option("--belief-log", options.belief_log,
+                   "file for what a vehicle with --machine knows of itself (JSON lines)");
     app.add_option("--maps", options.maps,
                    "folder with maps of the halls (HALL.yaml, as `pulseline-agent map` makes "
                    "them), by which vehicles know from walls and things where they are");

@@ -187,6 +187,7 @@ public:
     bool lost() const { return !link_; }
     const Feedback& told() const { return told_; }
     int dead_cycles() const { return dead_cycles_; }
+    std::uint32_t cycle() const { return number_; }
     /// Exchanged since the last call.
     int take_cycles() { return std::exchange(cycles_, 0); }
     std::vector<LiftEnded> take_ended() { return std::exchange(ended_, {}); }
@@ -507,6 +508,8 @@ onboard::Drive& TcpMachine::drive() { return drive_; }
 Cameras& TcpMachine::cameras() { return cameras_; }
 onboard::Equipment& TcpMachine::equipment() { return *equipment_; }
 onboard::Scanners* TcpMachine::scanners() { return scanners_.get(); }
+
+std::uint32_t TcpMachine::cycle() const { return controller_->cycle(); }
 
 /// A drive that has exchanged nothing stands with its brakes on; what lifts goes on by cycles all
 /// the same. Between the set points of one that moves, brakes would fall in.

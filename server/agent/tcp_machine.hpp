@@ -41,6 +41,8 @@ public:
     onboard::NavigationScanner* navigation_scanner() override { return nullptr; }
     void step(double dt_s) override;
     void write_state(vda5050::StateMessage& state) override;
+    /// Of its set points, the newest.
+    std::uint32_t cycle() const;
 
 private:
     class Controller;
