@@ -12,6 +12,7 @@
 
 #include "api/plant/plant_file.hpp"
 #include "server/agent/machine_link.hpp"
+#include "server/agent/picture_folder.hpp"
 #include "server/agent/simulated_controller.hpp"
 #include "server/agent/truth_log.hpp"
 #include "server/agent/utc.hpp"
@@ -35,15 +36,21 @@ struct MachineOptions {
     std::string listen = "tcp://127.0.0.1:0";
     std::string errors = "nominal";
     std::string truth_log;
+    std::string pictures;  // folder for those of its cameras; empty: none
     std::uint64_t seed = 1;
     std::vector<std::string> faults;
 };
 
-/// The controller with its one program, and the truth for those who judge.
+/// The controller with its one program, the truth for those who judge, and what writes the
+/// pictures of its cameras, if anybody does.
 class Host {
 public:
-    Host(SimulatedController& controller, std::string vehicle, std::optional<TruthLog> truth)
-        : controller_(controller), vehicle_(std::move(vehicle)), truth_(std::move(truth)) {}
+    Host(SimulatedController& controller, std::string vehicle, std::optional<TruthLog> truth,
+         std::optional<PictureFolder> pictures)
+        : controller_(controller),
+          vehicle_(std::move(vehicle)),
+          truth_(std::move(truth)),
+          pictures_(std::move(pictures)) {}
 
     /// Talks with one program until it goes or is refused.
     net::awaitable<void> serve(tcp::socket socket) {
@@ -73,6 +80,7 @@ public:
             controller_.apply_faults(passed_s);
             last = now;
             tell_truth(now);
+            take_picture(now);
         }
     }
 
@@ -94,10 +102,15 @@ private:
                     break;
                 }
                 read.erase(0, **size);
+                if (const auto* points = std::get_if<machine::SetPoints>(&*frame)) {
+                    cycle_ = points->cycle;
+                    placed_at_ = utc_now();
+                }
                 for (const auto& answer : controller_.handle(*frame)) {
                     answers += machine::encode(answer);
                     ends |= std::holds_alternative<machine::Refused>(answer);
                 }
+                if (moving_told() == controller_.braked()) tell_truth(Steady::now());
                 if (ends) break;
             }
             error_code ec;
@@ -119,17 +132,36 @@ private:
         line.vehicle = vehicle_;
         line.pose = controller_.true_pose();
         line.moving = !controller_.braked();
-        const bool known = told_ && line.pose == told_->pose && line.moving == told_->moving;
-        if (!truth_ || known || now - told_at_ < kTruthEvery) return;
+        line.cycle = cycle_;
+        // In which cycle it has moved off or come to rest is told by a line of that cycle.
+        const bool soon = line.moving != moving_told();
+        const bool known = told_ && line.pose == told_->pose && !soon;
+        if (!truth_ || known || (!soon && now - told_at_ < kTruthEvery)) return;
         told_ = line;
         told_at_ = now;
-        truth_->write(line, to_ns(utc_now()) / 1'000'000);
+        truth_->write(line, to_ns(shown_at()) / 1'000'000);
+    }
+
+    bool moving_told() const { return told_ && told_->moving; }
+
+    /// Since when it is where it is: between two set points its place is that of the first.
+    Time shown_at() const { return controller_.braked() ? utc_now() : placed_at_; }
+
+    void take_picture(Steady::time_point now) {
+        const auto camera =
+            pictures_ ? pictures_->due(now, !controller_.braked()) : std::optional<std::size_t>();
+        if (!camera) return;
+        const auto exposed = shown_at();
+        pictures_->write(*camera, controller_.render(*camera), exposed);
     }
 
     SimulatedController& controller_;
     std::string vehicle_;
     std::optional<TruthLog> truth_;
+    std::optional<PictureFolder> pictures_;
     std::optional<TruthLine> told_;
+    Time placed_at_ = utc_now();
+    std::uint32_t cycle_ = 0;  // of the newest set points
     Steady::time_point told_at_{};
     bool taken_ = false;
 };
@@ -187,7 +219,13 @@ Status run(const MachineOptions& options) {
         settings.faults.push_back(std::move(*fault));
     }
     SimulatedController controller(world, *vehicle, loaded, *pose, settings);
-    Host host(controller, options.vehicle, std::move(truth));
+    std::optional<PictureFolder> pictures;
+    if (!options.pictures.empty()) {
+        auto folder = PictureFolder::open(options.pictures, loaded.cameras);
+        if (!folder) return fail(folder.error());
+        pictures.emplace(std::move(*folder));
+    }
+    Host host(controller, options.vehicle, std::move(truth), std::move(pictures));
     net::io_context io(1);
     error_code ec;
     const auto ip = net::ip::make_address(address->host, ec);
@@ -232,6 +270,8 @@ int machine_command(int argc, char** argv) {
         "bracket-off=NAME:METRES or pit=FOOT, each with "
         "@SECONDS or without, and behind driving: or not");
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
+    app.add_option("--pictures", options.pictures,
+                   "folder for its cameras' pictures, NAME.pgm, for --camera NAME=file:...");
     CLI11_PARSE(app, argc, argv);
     try {
         const auto ran = run(options);

@@ -78,7 +78,7 @@ Result<geometry::Pose2> start_pose(const Options& options, const simulation::Wor
 /// Its machine is behind a controller.
 Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& world,
                               const plant::Vehicle& vehicle,
-                              std::shared_ptr<const mapping::MatchedMap> map) {
+                              std::shared_ptr<const mapping::MatchedMap> map, BeliefLog* belief) {
     const auto address = parse_machine(options.machine);
     if (!address) return fail(address.error());
     VehicleSettings known;
@@ -90,13 +90,15 @@ Result<Unit> make_tcp_vehicle(const Options& options, const simulation::World& w
     settings.time_factor = options.time_factor;
     settings.errors = world.errors;
     settings.watchdog_s = options.machine_watchdog_s;
-    auto opened = TcpVehicle::open(*address, world.plant, vehicle, settings, std::move(known));
+    auto opened = TcpVehicle::open(*address, world.plant, vehicle, std::move(settings),
+                                   options.cameras, std::move(known), belief);
     if (!opened) return fail(opened.error());
     return Unit{std::move(*opened), nullptr, nullptr};
 }
 
 Result<Unit> make_vehicle(const Options& options, const simulation::World& world,
-                          const Identity& identity, HallMaps& maps, TruthLog* truth) {
+                          const Identity& identity, HallMaps& maps, TruthLog* truth,
+                          BeliefLog* belief) {
     const auto* vehicle =
         plant::find_vehicle(world.plant, identity.manufacturer, identity.serial_number);
     if (vehicle == nullptr) {
@@ -114,7 +116,7 @@ Result<Unit> make_vehicle(const Options& options, const simulation::World& world
     auto map = maps.of(plant::find_station(world.plant, vehicle->home)->hall);
     if (!map) return fail(map.error());
     if (!options.machine.empty())
-        return make_tcp_vehicle(options, world, *vehicle, std::move(*map));
+        return make_tcp_vehicle(options, world, *vehicle, std::move(*map), belief);
     SimulationSettings settings;
     settings.seed = options.seed;
     settings.time_factor = options.time_factor;
@@ -209,8 +211,15 @@ Result<int> run(const Options& options) {
         if (!log) return fail(log.error());
         truth.emplace(std::move(*log));
     }
+    std::optional<BeliefLog> belief;
+    if (!options.belief_log.empty()) {
+        auto log = BeliefLog::open(options.belief_log);
+        if (!log) return fail(log.error());
+        belief.emplace(std::move(*log));
+    }
     for (const auto& identity : options.vehicles) {
-        auto unit = make_vehicle(options, world, identity, maps, truth ? &*truth : nullptr);
+        auto unit = make_vehicle(options, world, identity, maps, truth ? &*truth : nullptr,
+                                 belief ? &*belief : nullptr);
         if (!unit) return fail(unit.error());
         unit->link = std::make_unique<LinkClient>(
             io, tls, options.server, identity, !options.insecure, unit->vehicle->program(),

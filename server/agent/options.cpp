@@ -1,6 +1,7 @@
 #include "server/agent/options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <fstream>
@@ -46,6 +47,7 @@ struct Raw {
     std::string drive;  // empty: as fits the sensing
     int count = 0;
     std::vector<std::string> faults;
+    std::vector<std::string> cameras;
 };
 
 Result<std::vector<Identity>> identities(const Raw& raw) {
@@ -83,6 +85,32 @@ Result<std::vector<Identity>> identities(const Raw& raw) {
     return std::vector<Identity>{std::move(*identity)};
 }
 
+/// What only a vehicle with a machine behind a controller has.
+Status with_machine(const Raw& raw, Options& options) {
+    const auto alone = [](const std::string& option, const std::string& instead) {
+        return fail(Errc::kInvalid, "no_machine",
+                    option + " needs --machine tcp://HOST:PORT; " + instead);
+    };
+    for (const auto& text : raw.cameras) {
+        if (options.machine.empty()) {
+            return alone("--camera " + text, "a simulated vehicle's cameras are simulated with it");
+        }
+        auto camera = parse_camera(text);
+        if (!camera) return fail(camera.error());
+        if (std::ranges::find(options.cameras, camera->camera, &CameraSource::camera) !=
+            options.cameras.end()) {
+            return fail(Errc::kInvalid, "camera_twice",
+                        "--camera " + text + ": camera " + camera->camera +
+                            " has a source already; name one for each camera");
+        }
+        options.cameras.push_back(std::move(*camera));
+    }
+    if (options.machine.empty() && !options.belief_log.empty()) {
+        return alone("--belief-log", "a simulated vehicle's --truth-log has what it believes");
+    }
+    return {};
+}
+
 Status complete(const Raw& raw, Options& options) {
     auto server = parse_server(raw.server);
     if (!server) return fail(server.error());
@@ -103,7 +131,7 @@ Status complete(const Raw& raw, Options& options) {
         }
         options.faults.push_back(std::move(*fault));
     }
-    return {};
+    return with_machine(raw, options);
 }
 
 /// "1,-2.5,90": as many numbers as asked for; none of them where the text is something else.
@@ -227,6 +255,23 @@ Result<Fault> parse_fault(const std::string& text) {
     return fault;
 }
 
+Result<CameraSource> parse_camera(const std::string& text) {
+    // A path may have both signs in it, and a camera's name has none.
+    const auto equals = text.find('=');
+    const auto colon = text.find(':', equals == std::string::npos ? 0 : equals);
+    const std::string kind = colon == std::string::npos || equals == std::string::npos
+                                 ? std::string()
+                                 : text.substr(equals + 1, colon - equals - 1);
+    const bool whole = (kind == "v4l2" || kind == "file") && equals > 0 && colon + 1 < text.size();
+    if (!whole) {
+        return fail(Errc::kInvalid, "bad_camera",
+                    "--camera " + text + " must be NAME=v4l2:/dev/video0 or NAME=file:PATH");
+    }
+    return CameraSource{text.substr(0, equals),
+                        kind == "v4l2" ? CameraSource::Kind::kV4l2 : CameraSource::Kind::kFile,
+                        text.substr(colon + 1)};
+}
+
 Result<std::vector<Identity>> parse_vehicle_list(const std::string& text) {
     std::vector<Identity> list;
     std::istringstream lines(text);
@@ -293,6 +338,12 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "how long its controller may hear nothing before it brakes, and be silent "
                    "before it counts as lost")
         ->check(CLI::Range(0.02, 5.0));
+    app.add_option("--camera", raw.cameras,
+                   "NAME=v4l2:/dev/video0, or NAME=file:PATH of an image that a camera's own "
+                   "program keeps replacing: where the pictures of one of the vehicle's cameras "
+                   "come from; those of the others its controller takes");
+    app.add_option("--belief-log", options.belief_log,
+                   "file for what a vehicle with --machine knows of itself (JSON lines)");
     app.add_option("--maps", options.maps,
                    "folder with maps of the halls (HALL.yaml, as `pulseline-agent map` makes "
                    "them), by which vehicles know from walls and things where they are");

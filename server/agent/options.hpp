@@ -49,6 +49,14 @@ struct Fault {
     double by_m = 0;               // that the bracket is higher than it tells
 };
 
+/// Where the pictures of one of a vehicle's cameras come from.
+struct CameraSource {
+    enum class Kind { kV4l2, kFile };
+    std::string camera;
+    Kind kind = Kind::kFile;
+    std::string where;  // device or path
+};
+
 struct Options {
     ServerAddress server;
     std::vector<Identity> vehicles;
@@ -59,6 +67,8 @@ struct Options {
     std::string hand_held;  // socket of a hand-held control; empty: none
     std::string machine;    // tcp://HOST:PORT of its controller; empty: simulated
     double machine_watchdog_s = 0.1;
+    std::vector<CameraSource> cameras;  // of which its controller takes no pictures
+    std::string belief_log;             // what a program with a controller knows; empty: none
     std::uint64_t seed = 1;
     std::string errors = "nominal";  // how well machines and floor are kept: nominal, kind, harsh
     double time_factor = 1;
@@ -77,6 +87,8 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code);
 [[nodiscard]] Result<ServerAddress> parse_server(const std::string& url);
 /// "wheel=FL@20", "slip=FL:0.2@20", "encoder=FL@20" or "marker-lost@5"; "@SECONDS" is optional.
 [[nodiscard]] Result<Fault> parse_fault(const std::string& text);
+/// "NAME=v4l2:DEVICE" or "NAME=file:PATH".
+[[nodiscard]] Result<CameraSource> parse_camera(const std::string& text);
 /// Lines "MAKER/SERIAL TOKEN"; empty ones and # comments are skipped.
 [[nodiscard]] Result<std::vector<Identity>> parse_vehicle_list(const std::string& text);
 

@@ -15,7 +15,6 @@ namespace {
 using geometry::Pose2;
 using vda5050::SurveyedMarker;
 
-constexpr double kStampSigma_s = 5e-4;  // of the camera's stamps against the wheels' clock
 // Nothing is exposed for a code that would be cut by more than this at the picture's border.
 constexpr double kCutMost_m = 0.01;
 
@@ -70,27 +69,34 @@ PictureCameras::PictureCameras(const plant::VehicleType& type, const onboard::Dr
       loaded_(loaded),
       since_frame_s_(type.cameras.size()) {}
 
-void PictureCameras::look_expecting(std::span<const SurveyedMarker> expected) {
+/// Creeping along a stop it may not wait for a picture: its brakes would fall in.
+std::optional<Error> PictureCameras::look_expecting(std::span<const SurveyedMarker> expected) {
     readings_.clear();
     images_.clear();
+    std::optional<Error> none;
+    const auto wish = drive_.standing() ? Shutter::Wish::kFromNow : Shutter::Wish::kNewest;
     const Pose2& at = drive_.believed_pose();
     for (std::size_t i = 0; i < type_.cameras.size(); ++i) {
         const plant::Camera& camera = type_.cameras[i];
         const auto* below = code_below(camera, at, expected);
         const auto look = look_of(type_, below);
-        auto picture = shutter_.expose(i);
+        auto picture = shutter_.expose(i, wish);
+        if (!picture) none = picture.error();
         images_.push_back(picture ? std::move(picture->grey) : cv::Mat());
         readings_.push_back(
             picture ? read_code(images_.back(), camera, look, below, at, errors_, loaded_)
                     : onboard::no_code(camera, picture.error().reason.code));
     }
     fresh_ = true;
+    return none;
 }
 
 Result<vda5050::StopMeasurement> PictureCameras::measure(const vda5050::StopTarget& target) {
-    look_expecting(target.markers);
+    const auto none = look_expecting(target.markers);
     const auto fix = onboard::locate_stop(readings_, target, errors_);
-    if (!fix) return fail(fix.error());
+    // Whoever has seen nothing for want of pictures is not helped by cleaning codes.
+    const bool seen = std::ranges::any_of(readings_, &vda5050::CameraReading::found);
+    if (!fix) return fail(none && !seen ? *none : fix.error());
     fix_ = *fix;
     return onboard::measurement_of(*fix);
 }
@@ -107,7 +113,7 @@ std::vector<onboard::WayReading> PictureCameras::look_below(
         if (below == nullptr) continue;
         const double within_m = localisation::view_radius_m(camera, below->size_m) + kCutMost_m;
         if (beside_m(camera, hall_from_body, *below) > within_m) continue;
-        const auto picture = shutter_.expose(i);
+        const auto picture = shutter_.expose(i, Shutter::Wish::kNewest);
         if (!picture) continue;
         const auto seen = read_code(picture->grey, camera, look_of(type_, below), below,
                                     hall_from_body, errors_, loaded_);
@@ -116,12 +122,12 @@ std::vector<onboard::WayReading> PictureCameras::look_below(
         const auto foot = camera.body_from_camera.position();
         const double speed_mps = std::hypot(twist.vx_mps - twist.turn_radps * foot.y_m,
                                             twist.vy_mps + twist.turn_radps * foot.x_m);
-        const double smear_m = speed_mps * std::hypot(camera.exposure_s, kStampSigma_s);
+        const double smear_m = speed_mps * std::hypot(camera.exposure_s, picture->sigma_s);
         onboard::WayReading reading;
         reading.marker = *below;
         reading.seen = {seen.payload, seen.code, seen.angle_rad, std::hypot(seen.sigma_m, smear_m),
                         localisation::code_sigma_rad(errors_, 0)};
-        reading.age_s = picture->age_s;
+        reading.age_s = picture->age_s * drive_.time_factor();
         ready.push_back(std::move(reading));
     }
     return ready;

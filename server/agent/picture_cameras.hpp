@@ -13,14 +13,21 @@ namespace pulseline::agent {
 /// Port: what takes pictures of the floor below a vehicle.
 class Shutter {
 public:
+    /// How new a picture has to be.
+    enum class Wish {
+        kFromNow,  // exposed since it was asked for, so that it shows where the vehicle stands
+        kNewest,   // not given before, at once: whoever drives knows by its age where it was
+    };
     struct Picture {
-        cv::Mat grey;      // 8 bit
-        double age_s = 0;  // since it was exposed
+        cv::Mat grey;           // 8 bit
+        double age_s = 0;       // since it was exposed
+        double sigma_s = 5e-4;  // of its age: of the camera's stamps against the wheels' clock
     };
 
     virtual ~Shutter() = default;
-    /// A picture of one of the type's cameras, now. Errors: whatever keeps it from taking one.
-    virtual Result<Picture> expose(std::size_t camera) = 0;
+    /// A picture of one of the type's cameras. `kFromNow` may wait for it, a second at most.
+    /// Errors: whatever keeps it from taking one.
+    virtual Result<Picture> expose(std::size_t camera, Wish wish) = 0;
 };
 
 /// Cameras whose pictures somebody else takes: the codes in them, standing and under way.
@@ -35,7 +42,7 @@ public:
     std::vector<onboard::WayReading> look_below(std::span<const vda5050::SurveyedMarker> expected,
                                                 const geometry::Pose2& hall_from_body,
                                                 double own_s) override;
-    void look() override { look_expecting({}); }
+    void look() override { (void)look_expecting({}); }
     const std::vector<vda5050::CameraReading>& readings() const override { return readings_; }
     std::optional<localisation::PoseFix> take_fix() override {
         return std::exchange(fix_, std::nullopt);
@@ -45,7 +52,8 @@ public:
     void forget() override { readings_.clear(); }
 
 private:
-    void look_expecting(std::span<const vda5050::SurveyedMarker> expected);
+    /// Why a camera gave no picture, the last of those that gave none.
+    std::optional<Error> look_expecting(std::span<const vda5050::SurveyedMarker> expected);
 
     const plant::VehicleType& type_;
     const onboard::Drive& drive_;

@@ -250,13 +250,16 @@ void SimulatedController::end_lift(std::vector<Frame>& answers) {
         failure ? LiftEnded::Outcome::kFailed : LiftEnded::Outcome::kDone, failure.value_or("")});
 }
 
-Frame SimulatedController::picture(const Expose& expose) {
-    if (expose.camera >= cameras_.size()) return Refused{"unknown_camera: it has fewer"};
+cv::Mat SimulatedController::render(std::size_t camera) {
     const auto codes = codes_around(world_, hall_, true_pose(), !covered_);
     auto conditions = simulation::ImageConditions::nominal(random_);
     if (settings_.dark) conditions.exposure = 0;
-    const auto& camera = cameras_[expose.camera];
-    const auto image = simulation::render_floor(camera, true_pose(), codes, conditions);
+    return simulation::render_floor(cameras_[camera], true_pose(), codes, conditions);
+}
+
+Frame SimulatedController::picture(const Expose& expose) {
+    if (expose.camera >= cameras_.size()) return Refused{"unknown_camera: it has fewer"};
+    const auto image = render(expose.camera);
     Picture picture;
     picture.id = expose.id;
     picture.camera = expose.camera;

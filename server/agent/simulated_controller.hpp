@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <random>
 #include <string>
@@ -46,6 +47,8 @@ public:
     /// The program has gone: what it had begun ends, and the next one says hello again.
     void part();
 
+    /// What one of its cameras sees now. REQUIRES: it has it.
+    cv::Mat render(std::size_t camera);
     const geometry::Pose2& true_pose() const { return wheels_.true_pose(); }
     bool braked() const { return braked_; }
 

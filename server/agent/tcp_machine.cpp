@@ -53,12 +53,16 @@ std::vector<std::string> feet_of(const plant::VehicleType& type) {
     return type.parking ? names_of(type.parking->feet) : std::vector<std::string>{};
 }
 
-Status is_of_type(const Description& told, const plant::VehicleType& type) {
+/// `pictured`: the cameras that the machine takes pictures of; it may name the others, too.
+Status is_of_type(const Description& told, const plant::VehicleType& type,
+                  const std::vector<std::string>& pictured) {
     if (auto same = same_names("wheels", told.wheels, names_of(type.wheels)); !same) return same;
     if (auto same = same_names("brackets", told.brackets, names_of(type.brackets)); !same)
         return same;
     if (auto same = same_names("feet", told.feet, feet_of(type)); !same) return same;
-    if (auto same = same_names("cameras", told.cameras, names_of(type.cameras)); !same) return same;
+    const auto all = names_of(type.cameras);
+    const auto& cameras = told.cameras == pictured ? pictured : all;
+    if (auto same = same_names("cameras", told.cameras, cameras); !same) return same;
     return same_names("scanners", told.scanners, names_of(type.scanners));
 }
 
@@ -67,8 +71,15 @@ Status is_of_type(const Description& told, const plant::VehicleType& type) {
 /// The line to the machine with what it has told last, and its coming back.
 class TcpMachine::Controller {
 public:
-    Controller(MachineAddress address, const plant::VehicleType& type, double watchdog_s)
-        : address_(std::move(address)), type_(type), watchdog_s_(watchdog_s) {}
+    Controller(MachineAddress address, const plant::VehicleType& type, const Settings& settings)
+        : address_(std::move(address)),
+          type_(type),
+          watchdog_s_(settings.watchdog_s),
+          pictured_(names_of(type.cameras)) {
+        for (std::size_t i = 0; i < settings.sources.size(); ++i) {
+            if (settings.sources[i]) std::erase(pictured_, type.cameras[i].name);
+        }
+    }
 
     Status reach() {
         auto link = MachineLink::open(address_, kReach);
@@ -96,7 +107,8 @@ public:
             return fail(Errc::kConflict, "machine_refused", "The machine refuses: " + why + ".", {},
                         {{"why", why}});
         }
-        if (auto same = is_of_type(*description, type_); !same) return same;
+        if (auto same = is_of_type(*description, type_, pictured_); !same) return same;
+        cameras_ = description->cameras;
         dead_cycles_ = description->dead_cycles;
         link_.emplace(std::move(*link));
         exchange(Mode::kBraked, {});
@@ -138,9 +150,10 @@ public:
         return sent.has_value();
     }
 
-    Result<Picture> expose(std::uint8_t camera) {
+    Result<Picture> expose(const std::string& camera) {
         const std::uint32_t id = ++pictures_;
-        if (!say(Expose{id, camera})) {
+        const auto number = std::ranges::find(cameras_, camera) - cameras_.begin();
+        if (!say(Expose{id, static_cast<std::uint8_t>(number)})) {
             return fail(Errc::kConflict, "machine_silent", "The machine does not answer.");
         }
         for (;;) {
@@ -183,6 +196,7 @@ public:
     bool lost() const { return !link_; }
     const Feedback& told() const { return told_; }
     int dead_cycles() const { return dead_cycles_; }
+    std::uint32_t cycle() const { return number_; }
     /// Exchanged since the last call.
     int take_cycles() { return std::exchange(cycles_, 0); }
     std::vector<LiftEnded> take_ended() { return std::exchange(ended_, {}); }
@@ -249,6 +263,8 @@ private:
     MachineAddress address_;
     const plant::VehicleType& type_;
     double watchdog_s_;
+    std::vector<std::string> pictured_;  // cameras without a source of their own
+    std::vector<std::string> cameras_;   // as it counts them
     std::optional<MachineLink> link_;
     Feedback told_;
     std::vector<LiftEnded> ended_;
@@ -428,10 +444,11 @@ private:
 
 class TcpMachine::TcpShutter final : public Shutter {
 public:
-    explicit TcpShutter(Controller& controller) : controller_(controller) {}
+    TcpShutter(Controller& controller, const plant::VehicleType& type)
+        : controller_(controller), type_(type) {}
 
-    Result<Shutter::Picture> expose(std::size_t camera) override {
-        auto told = controller_.expose(static_cast<std::uint8_t>(camera));
+    Result<Shutter::Picture> expose(std::size_t camera, Wish) override {
+        auto told = controller_.expose(type_.cameras[camera].name);
         if (!told) return fail(told.error());
         const cv::Mat bytes(told->height_px, told->width_px, CV_8UC1, told->grey.data());
         return Shutter::Picture{bytes.clone(), told->age_s};
@@ -439,6 +456,7 @@ public:
 
 private:
     Controller& controller_;
+    const plant::VehicleType& type_;
 };
 
 class TcpMachine::TcpScanners final : public onboard::Scanners {
@@ -468,23 +486,30 @@ private:
 
 Result<std::unique_ptr<TcpMachine>> TcpMachine::open(const MachineAddress& address,
                                                      const plant::VehicleType& type,
-                                                     const Settings& settings) {
-    auto controller = std::make_unique<Controller>(address, type, settings.watchdog_s);
+                                                     Settings settings) {
+    auto controller = std::make_unique<Controller>(address, type, settings);
     if (auto reached = controller->reach(); !reached) return fail(reached.error());
-    return std::unique_ptr<TcpMachine>(new TcpMachine(std::move(controller), type, settings));
+    return std::unique_ptr<TcpMachine>(
+        new TcpMachine(std::move(controller), type, std::move(settings)));
 }
 
 TcpMachine::TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
-                       const Settings& settings)
+                       Settings settings)
     : type_(type),
       controller_(std::move(controller)),
       wheels_(std::make_unique<TcpWheels>(*controller_, type)),
       equipment_(std::make_unique<TcpEquipment>(*controller_, type)),
-      shutter_(std::make_unique<TcpShutter>(*controller_)),
+      own_shutter_(std::make_unique<TcpShutter>(*controller_, type)),
+      // It waits for pictures standing. What lifts meanwhile would stop if the machine heard
+      // nothing.
+      shutter_(type, std::move(settings.sources), *own_shutter_,
+               [this] {
+                   if (drive_.braked()) controller_->exchange(Mode::kBraked, {});
+               }),
       scanners_(type.scanners.empty() ? nullptr
                                       : std::make_unique<TcpScanners>(*controller_, type)),
       drive_(type, *wheels_, geometry::Pose2{}, settings.time_factor),
-      cameras_(type, drive_, *shutter_, settings.errors, settings.loaded) {}
+      cameras_(type, drive_, shutter_, settings.errors, settings.loaded) {}
 
 TcpMachine::~TcpMachine() = default;
 
@@ -492,6 +517,8 @@ onboard::Drive& TcpMachine::drive() { return drive_; }
 Cameras& TcpMachine::cameras() { return cameras_; }
 onboard::Equipment& TcpMachine::equipment() { return *equipment_; }
 onboard::Scanners* TcpMachine::scanners() { return scanners_.get(); }
+
+std::uint32_t TcpMachine::cycle() const { return controller_->cycle(); }
 
 /// A drive that has exchanged nothing stands with its brakes on; what lifts goes on by cycles all
 /// the same. Between the set points of one that moves, brakes would fall in.

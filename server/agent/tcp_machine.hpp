@@ -9,7 +9,7 @@
 #include "core/onboard/motion/wheel_drive.hpp"
 #include "server/agent/machine.hpp"
 #include "server/agent/machine_link.hpp"
-#include "server/agent/picture_cameras.hpp"
+#include "server/agent/source_shutter.hpp"
 
 namespace pulseline::agent {
 
@@ -23,13 +23,14 @@ public:
         bool loaded = false;
         localisation::ErrorBudget errors = localisation::ErrorBudget::nominal();
         double watchdog_s = machine::Hello{}.watchdog_s;  // silent for longer: the machine brakes
+        PictureSources sources = {};  // of cameras that the machine takes no pictures of
     };
 
     /// `type`: with its cameras as they hang under its load; must outlive it. Errors: those of
     /// MachineLink, machine_refused {why}, machine_not_of_type {part, told, wanted}.
     static Result<std::unique_ptr<TcpMachine>> open(const MachineAddress& address,
                                                     const plant::VehicleType& type,
-                                                    const Settings& settings);
+                                                    Settings settings);
     ~TcpMachine() override;
 
     onboard::Drive& drive() override;
@@ -40,6 +41,8 @@ public:
     onboard::NavigationScanner* navigation_scanner() override { return nullptr; }
     void step(double dt_s) override;
     void write_state(vda5050::StateMessage& state) override;
+    /// Of its set points, the newest.
+    std::uint32_t cycle() const;
 
 private:
     class Controller;
@@ -49,13 +52,14 @@ private:
     class TcpScanners;
 
     TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
-               const Settings& settings);
+               Settings settings);
 
     const plant::VehicleType& type_;
     std::unique_ptr<Controller> controller_;
     std::unique_ptr<TcpWheels> wheels_;
     std::unique_ptr<TcpEquipment> equipment_;
-    std::unique_ptr<TcpShutter> shutter_;
+    std::unique_ptr<TcpShutter> own_shutter_;
+    SourceShutter shutter_;
     std::unique_ptr<TcpScanners> scanners_;  // of a type that has some
     onboard::WheelDrive drive_;
     PictureCameras cameras_;

@@ -5,8 +5,10 @@
 #include "api/json/object_reader.hpp"
 
 namespace pulseline::agent {
+namespace {
 
-Result<TruthLog> TruthLog::open(const std::string& path) {
+/// Empty: it cannot be written.
+std::optional<std::ofstream> append_to(const std::string& path) {
     bool torn = false;  // the last line was cut off by a kill
     {
         std::ifstream old(path, std::ios::binary | std::ios::ate);
@@ -16,30 +18,59 @@ Result<TruthLog> TruthLog::open(const std::string& path) {
         }
     }
     std::ofstream file(path, std::ios::app | std::ios::binary);
-    if (!file) {
-        return fail(Errc::kUnavailable, "truth_log_unwritable",
-                    "cannot write the truth log " + path + "; check the folder and its rights");
-    }
+    if (!file) return std::nullopt;
     if (torn) file << '\n';
-    return TruthLog(std::move(file));
+    return file;
 }
 
-void TruthLog::write(const TruthLine& line, std::int64_t t_ms) {
+json::Json encode(const BelievedPose& believed) {
+    return {{"x_m", believed.pose.x_m},
+            {"y_m", believed.pose.y_m},
+            {"heading_rad", believed.pose.heading_rad},
+            {"sigma_m", believed.sigma_m},
+            {"sigma_rad", believed.sigma_rad}};
+}
+
+}  // namespace
+
+Result<TruthLog> TruthLog::open(const std::string& path) {
+    auto file = append_to(path);
+    if (file) return TruthLog(std::move(*file));
+    return fail(Errc::kUnavailable, "truth_log_unwritable",
+                "cannot write the truth log " + path + "; check the folder and its rights");
+}
+
+Result<BeliefLog> BeliefLog::open(const std::string& path) {
+    auto file = append_to(path);
+    if (file) return BeliefLog(std::move(*file));
+    return fail(Errc::kUnavailable, "belief_log_unwritable",
+                "cannot write --belief-log " + path + "; check the folder and its rights");
+}
+
+void BeliefLog::write(const BeliefLine& line, std::int64_t t_ms) {
     const json::Json object{{"t_ms", t_ms},
                             {"vehicle", line.vehicle},
-                            {"x_m", line.pose.x_m},
-                            {"y_m", line.pose.y_m},
-                            {"heading_rad", line.pose.heading_rad},
-                            {"believed",
-                             {{"x_m", line.believed.pose.x_m},
-                              {"y_m", line.believed.pose.y_m},
-                              {"heading_rad", line.believed.pose.heading_rad},
-                              {"sigma_m", line.believed.sigma_m},
-                              {"sigma_rad", line.believed.sigma_rad}}},
+                            {"believed", encode(line.believed)},
                             {"moving", line.moving},
                             {"order_id", line.order_id},
                             {"last_node_seq", line.last_node_seq},
-                            {"base_end_seq", line.base_end_seq}};
+                            {"base_end_seq", line.base_end_seq},
+                            {"cycle", line.cycle}};
+    file_ << object.dump() + "\n" << std::flush;
+}
+
+void TruthLog::write(const TruthLine& line, std::int64_t t_ms) {
+    json::Json object{{"t_ms", t_ms},
+                      {"vehicle", line.vehicle},
+                      {"x_m", line.pose.x_m},
+                      {"y_m", line.pose.y_m},
+                      {"heading_rad", line.pose.heading_rad},
+                      {"believed", encode(line.believed)},
+                      {"moving", line.moving},
+                      {"order_id", line.order_id},
+                      {"last_node_seq", line.last_node_seq},
+                      {"base_end_seq", line.base_end_seq}};
+    if (line.cycle) object["cycle"] = *line.cycle;
     file_ << object.dump() + "\n" << std::flush;
 }
 

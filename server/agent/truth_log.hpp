@@ -26,11 +26,12 @@ struct TruthLine {
     std::int64_t last_node_seq = 0;
     std::int64_t base_end_seq = 0;
     BelievedPose believed{};
+    std::optional<std::uint32_t> cycle = {};  // of set points, of a machine behind its controller
 };
 
 /// Appends JSON lines {t_ms, vehicle, x_m, y_m, heading_rad, believed {x_m, y_m, heading_rad,
-/// sigma_m, sigma_rad}, moving, order_id, last_node_seq, base_end_seq}, each flushed, so that a
-/// killed process leaves all it knew.
+/// sigma_m, sigma_rad}, moving, order_id, last_node_seq, base_end_seq} and cycle where there is
+/// one, each flushed, so that a killed process leaves all it knew.
 class TruthLog {
 public:
     [[nodiscard]] static Result<TruthLog> open(const std::string& path);
@@ -38,6 +39,30 @@ public:
 
 private:
     explicit TruthLog(std::ofstream file) : file_(std::move(file)) {}
+    std::ofstream file_;
+};
+
+/// What a vehicle's program knows of itself.
+struct BeliefLine {
+    std::string vehicle;
+    BelievedPose believed{};
+    bool moving = false;
+    std::string order_id;
+    std::int64_t last_node_seq = 0;
+    std::int64_t base_end_seq = 0;
+    std::uint32_t cycle = 0;  // of its set points, the newest that was answered
+};
+
+/// The same without the truth, which the program of a vehicle does not know: JSON lines {t_ms,
+/// vehicle, believed, moving, order_id, last_node_seq, base_end_seq, cycle}. By its cycle a line
+/// finds the machine's own, whatever clocks and computers do.
+class BeliefLog {
+public:
+    [[nodiscard]] static Result<BeliefLog> open(const std::string& path);
+    void write(const BeliefLine& line, std::int64_t t_ms);
+
+private:
+    explicit BeliefLog(std::ofstream file) : file_(std::move(file)) {}
     std::ofstream file_;
 };
 

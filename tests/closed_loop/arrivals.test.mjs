@@ -1,4 +1,4 @@
-// What a drive missed its station by, in a plant whose lanes have lost their codes: over codes it misses by too little to tell
+// What a drive of a machine over TCP missed its station by, in a plant whose lanes have lost their codes: over codes it misses by too little to tell
 // where it had ended from where it was adjusted to.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -18,7 +18,7 @@ before(async () => {
     const ofStations = new Set(plant.stations.flatMap((station) => station.markers ?? []));
     plant.markers = plant.markers.filter((marker) => ofStations.has(marker.id));
   });
-  system.startAgent("TP-01", { seed: 7, world });
+  await system.startOverTcp("TP-01", { seed: 7, world });
   await client.untilReady("TP-01");
 });
 after(() => system?.stop());
@@ -30,7 +30,7 @@ test("what each drive missed its station by is kept, was true, and the next prev
   }
   const stops = (await client.get("/api/v1/stop-records?vehicle=TP-01&limit=100")).items.filter((s) => s.attempt === 1 && s.arrival);
   assert.ok(stops.length >= 8, `only ${stops.length} stops tell where their drive had ended`);
-  const truth = system.truth("TP-01");
+  const truth = system.truthWithBelief("TP-01");
   let adjusted = 0;
   for (const stop of stops) {
     const { pose } = system.plant.station(stop.number);

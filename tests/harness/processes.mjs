@@ -4,6 +4,7 @@ import { closeSync, existsSync, fstatSync, mkdtempSync, openSync, readFileSync, 
 import { createServer } from "node:net";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
+import { angleBetween } from "./client.mjs";
 
 export const ROOT = resolve(import.meta.dirname, "../..");
 export const BUILD = process.env.PULSELINE_BUILD ?? join(ROOT, "build");
@@ -42,6 +43,8 @@ export class Plant {
     return this.model.stations.find((s) => s.number === number);
   }
 }
+
+const linesOf = (file) => existsSync(file) ? readFileSync(file, "utf8").split("\n").filter((line) => line.endsWith("}")).map((line) => JSON.parse(line)) : [];
 
 /** One server with its database, users and vehicle tokens, and any number of agents. */
 export class System {
@@ -121,12 +124,12 @@ export class System {
     return agent;
   }
 
-  /** The simulated machine of a vehicle behind the protocol of server/agent/MACHINE.md; for an agent's `--machine`. */
-  async startMachine(id, { seed = 1, port = 0, faults = [] } = {}) {
+  /** The simulated machine of a vehicle behind the protocol of server/agent/MACHINE.md; for an agent's `--machine`. `pictures`: a folder for its cameras'. */
+  async startMachine(id, { seed = 1, port = 0, world = this.plant.file, faults = [], pictures } = {}) {
     const name = `machine-${id}`, listening = /machine\.listening .*port="?(\d+)/g;
     const before = [...this.log(name).matchAll(listening)].length;
-    const machine = this.start(AGENT, ["machine", "--world", this.plant.file, "--vehicle", id, "--listen", `tcp://127.0.0.1:${port}`, "--seed", String(seed),
-      "--truth-log", `${this.truthLog}.${id}`, ...faults.flatMap((fault) => ["--fault", fault])], name);
+    const machine = this.start(AGENT, ["machine", "--world", world, "--vehicle", id, "--listen", `tcp://127.0.0.1:${port}`, "--seed", String(seed),
+      "--truth-log", `${this.truthLog}.${id}`, ...faults.flatMap((fault) => ["--fault", fault]), ...(pictures ? ["--pictures", pictures] : [])], name);
     machine.port = await until(() => `machine ready; its log:\n${this.log(name)}`, () => {
       if (machine.over) throw new Error(`the machine ended: ${this.log(name)}`);
       return Number([...this.log(name).matchAll(listening)][before]?.[1]);
@@ -135,10 +138,11 @@ export class System {
   }
 
   /** A vehicle's program that knows no simulated world, driving its machine over TCP. */
-  async startOverTcp(id, { seed = 1, timeFactor = 10, extra = [], faults = [] } = {}) {
-    const machine = await this.startMachine(id, { seed, faults });
+  async startOverTcp(id, { seed = 1, timeFactor = 10, world, extra = [], faults = [], pictures } = {}) {
+    const machine = await this.startMachine(id, { seed, world, faults, pictures });
     // The host of a test lets nobody run every 10 ms; how late a cycle may be is the bench's.
-    this.startAgent(id, { seed, timeFactor, extra: ["--machine", `tcp://${this.host}:${machine.port}`, "--machine-watchdog-s", "3", ...extra] });
+    this.startAgent(id, { seed, timeFactor, world, extra: ["--machine", `tcp://${this.host}:${machine.port}`, "--machine-watchdog-s", "3",
+      "--belief-log", this.beliefLog(id), ...extra] });
     return machine;
   }
 
@@ -154,9 +158,25 @@ export class System {
 
   /** The true movement of a vehicle, as the simulated world wrote it down. */
   truth(id) {
-    const file = `${this.truthLog}.${id}`;
-    if (!existsSync(file)) return [];
-    return readFileSync(file, "utf8").split("\n").filter((line) => line.endsWith("}")).map((line) => JSON.parse(line));
+    return linesOf(`${this.truthLog}.${id}`);
+  }
+  /** Of a vehicle over TCP: what its program believed, line by line, with where it truly was then, of which only its machine knows. Both name the cycle of
+   *  set points that they speak of, so that no clock and no delay comes between them; from one line of the machine to the next it went straight on. */
+  truthWithBelief(id) {
+    const truth = this.truth(id);
+    let next = 0;
+    return linesOf(this.beliefLog(id)).flatMap((line) => {
+      while (next < truth.length && truth[next].cycle <= line.cycle) ++next;
+      const [a, b] = [truth[next - 1], truth[next]];
+      if (!a) return [];
+      const share = a.moving && b ? (line.cycle - a.cycle) / (b.cycle - a.cycle) : 0; // the machine tells at once that it moves off
+      const between = (from, to) => from + share * (to - from);
+      const turned = share && share * angleBetween(b.heading_rad, a.heading_rad);
+      return [{ ...line, x_m: between(a.x_m, b?.x_m ?? a.x_m), y_m: between(a.y_m, b?.y_m ?? a.y_m), heading_rad: a.heading_rad + turned }];
+    });
+  }
+  beliefLog(id) {
+    return join(this.directory, `belief.jsonl.${id}`);
   }
   /** Its newest whole line; tests ask every few milliseconds, so only the end of the file is read. */
   lastTruth(id) {

@@ -51,6 +51,62 @@ TEST(TruthLog, LastLineOfTheVehicleSurvivesATornEnd) {
     EXPECT_EQ(TruthLog::open("/nonexistent/truth").error().reason.code, "truth_log_unwritable");
 }
 
+TEST(BeliefLog, HasNoTruthInIt) {
+    const auto path = std::filesystem::temp_directory_path() /
+                      ("belief-" + std::to_string(::getpid()) + ".jsonl");
+    std::filesystem::remove(path);
+    {
+        auto log = BeliefLog::open(path);
+        ASSERT_TRUE(log);
+        log->write({"TP-01", {{1, 2, 0.5}, 0.01, 0.001}, true, "o", 2, 4, 77}, 1000);
+    }
+    std::ifstream file(path);
+    std::string line;
+    std::getline(file, line);
+    EXPECT_EQ(
+        line,
+        R"({"base_end_seq":4,"believed":{"heading_rad":0.5,"sigma_m":0.01,)"
+        R"("sigma_rad":0.001,"x_m":1.0,"y_m":2.0},"cycle":77,"last_node_seq":2,"moving":true,)"
+        R"("order_id":"o","t_ms":1000,"vehicle":"TP-01"})");
+    std::filesystem::remove(path);
+    EXPECT_EQ(BeliefLog::open("/nonexistent/belief").error().reason.code, "belief_log_unwritable");
+}
+
+TEST(Options, ACamerasSourceIsReadOrRefused) {
+    const auto device = parse_camera("front=v4l2:/dev/v4l/by-id/usb-1:2=3");
+    ASSERT_TRUE(device);
+    EXPECT_EQ(device->camera, "front");
+    EXPECT_EQ(device->kind, CameraSource::Kind::kV4l2);
+    EXPECT_EQ(device->where, "/dev/v4l/by-id/usb-1:2=3");
+    const auto file = parse_camera("front left=file:/run/cameras/left.png");
+    ASSERT_TRUE(file);
+    EXPECT_EQ(file->camera, "front left");
+    EXPECT_EQ(file->kind, CameraSource::Kind::kFile);
+    for (const char* bad : {"front", "front=", "front=/dev/video0", "front=file:", "=file:a",
+                            "front=rtsp:a", ":file=a", "file:a"}) {
+        EXPECT_FALSE(parse_camera(bad)) << bad;
+    }
+}
+
+TEST(Options, CamerasAndBeliefNeedAMachine) {
+    const auto exit_of = [](std::vector<std::string> more) {
+        std::vector<std::string> words{"pulseline-agent", "--server", "ws://h",  "--vehicle", "m/s",
+                                       "--token",         "t",        "--world", "w"};
+        words.insert(words.end(), more.begin(), more.end());
+        std::vector<char*> argv;
+        for (auto& word : words) argv.push_back(word.data());
+        int exit_code = 0;
+        return read_options(static_cast<int>(argv.size()), argv.data(), exit_code) ? 0 : exit_code;
+    };
+    const std::string machine = "--machine=tcp://h:1";
+    EXPECT_EQ(exit_of({machine, "--camera", "a=file:b", "--camera", "c=v4l2:d"}), 0);
+    EXPECT_EQ(exit_of({"--camera", "a=file:b"}), 2);
+    EXPECT_EQ(exit_of({machine, "--camera", "a=file:b", "--camera", "a=v4l2:d"}), 2);
+    EXPECT_EQ(exit_of({machine, "--camera", "a:b"}), 2);
+    EXPECT_EQ(exit_of({machine, "--belief-log", "b"}), 0);
+    EXPECT_EQ(exit_of({"--belief-log", "b"}), 2);
+}
+
 TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(parse_server("wss://host:8443/")->port, "8443");
     EXPECT_EQ(parse_server("ws://host")->port, "80");
