@@ -128,7 +128,10 @@ void StopProcedure::look_on_the_way() {
 std::optional<StopProcedure::Outcome> StopProcedure::take_measurement() {
     const auto measured = sensing_.measure(target_);
     if (!measured) {
-        const bool goes_on = correct_ && !last_ && (look_where_it_should_be() || search());
+        // Without pictures it would look about in vain.
+        const bool can_look = measured.error().code != Errc::kUnavailable;
+        const bool goes_on =
+            can_look && correct_ && !last_ && (look_where_it_should_be() || search());
         if (goes_on) {
             moved_unseen_ = true;
             return std::nullopt;

@@ -10,7 +10,8 @@ class StopSensing {
 public:
     virtual ~StopSensing() = default;
     /// Pose of the body in the hall frame from the codes of `target` now in view. Reason codes:
-    /// no_marker_in_view, and those of the localisation.
+    /// no_marker_in_view, and those of the localisation; of Errc::kUnavailable where it cannot look
+    /// at all.
     virtual Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget& target) = 0;
 };
 

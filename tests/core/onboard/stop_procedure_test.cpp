@@ -48,6 +48,23 @@ StopProcedure::Outcome adjusted(StopProcedure& procedure, SimulatedDrive& motion
     return {};
 }
 
+class Blind : public StopSensing {
+public:
+    Result<vda5050::StopMeasurement> measure(const vda5050::StopTarget&) override {
+        return fail(Errc::kUnavailable, "camera_silent", "It gives no picture.");
+    }
+};
+
+TEST(StopProcedure, WithoutPicturesItDoesNotLookAbout) {
+    VehicleMotion motion(differential(), {}, 1, 1, simulation::testing::exact());
+    Blind sensing;
+    StopProcedure procedure(motion, sensing);
+    const auto outcome = adjusted(procedure, motion, target_at({0.004, 0.006, 0}), [](auto&) {});
+    EXPECT_FALSE(outcome.succeeded);
+    EXPECT_EQ(outcome.why_not.substr(0, 13), "camera_silent");
+    EXPECT_EQ(motion.true_pose(), Pose2{});
+}
+
 TEST(StopProcedure, ADifferentialVehicleIsAdjustedWithoutMovingSideways) {
     const auto type = differential();
     VehicleMotion motion(type, {}, 1, 1, simulation::testing::exact());
