@@ -11,6 +11,12 @@ const armed = (button) => async (page) => {
   await page.locator("[data-state=armed], .is-armed").first().waitFor();
 };
 
+/** The same where something has to be chosen before. */
+const armedAt = (choice, button) => async (page) => {
+  if ((await page.locator(`${choice}[aria-pressed=true]`).count()) === 0) await press(page, choice);
+  await armed(button)(page);
+};
+
 const vehicle = (id, more = {}) => ({ name: `vehicle ${id}`, path: `/vehicles/${id}`, ready: ".pcard, .whyl, .card .pin", ...more });
 /** One tab of a vehicle's page, where it has tabs. */
 const tab = (id, which) =>
@@ -60,6 +66,10 @@ export function screensOf({ orders, stop }) {
     },
     { name: "stations", path: "/stations", ready: ".board, .rows" },
     { name: "vehicles", path: "/vehicles", ready: ".rows" },
+    { name: "loads", path: "/loads", ready: ".rows" },
+    { name: "load", path: "/loads/A-102", ready: ".lplan .load" },
+    { name: "load, elsewhere", path: "/loads/A-102", ready: ".lplan .load", open: (page) => press(page, ".lsay"), keep: armedAt(".lplaces .btn", ".lform .cmd") },
+    { name: "no such load", path: "/loads/A-999", ready: ".card" },
     vehicle("TP-01"),
     ...kTabs.slice(1).map((which) => tab("TP-01", which)),
     vehicle("TP-02"),

@@ -92,6 +92,12 @@ export function VehicleCard({ vehicle: v, numberOf, takesFocus, onSelect, onClos
           <Link className="btn" to={`/vehicles/${to}`}>
             {t("card.open")}
           </Link>
+          {v.load !== undefined && (
+            <Link className="btn" to={`/loads/${encodeURIComponent(v.load)}`}>
+              <Icon name="load" />
+              {v.load_name}
+            </Link>
+          )}
           {may && (
             <Link className="btn" to={`/map?place=${to}`}>
               {t("place.link")}

@@ -1,5 +1,6 @@
-import { useTranslation } from "react-i18next";
+import { Trans, useTranslation } from "react-i18next";
 import type { Plant, Vehicle } from "@/shared/api/types";
+import { LoadLink } from "@/shared/body/LoadLink";
 import { symbolOf, useLive } from "@/shared/live";
 import { StatusSymbol, VehicleMini } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
@@ -39,17 +40,22 @@ export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onS
   const ready = useLive((s) => s.ready);
   if (vehicles.length === 0) return ready ? <p className="lab">{t("vehicle.none")}</p> : null;
   if (selected && !choosing) {
-    const load =
-      selected.load_name || selected.load_kg > 0
-        ? t("vehicle.on_board", { name: selected.load_name, mass: mass(selected.load_kg) })
-        : t("vehicle.no_load");
     return (
       <div className="vrow">
         <VehicleMini type={plant?.vehicle_types.find((type) => type.id === selected.type)} selected />
         <div className="grow">
           <b className="big">{selected.name}</b>
           <span className="lab">
-            {load}
+            {selected.load ? (
+              <Trans
+                t={t}
+                i18nKey="vehicle.on_board"
+                values={{ name: selected.load_name, mass: mass(selected.load_kg) }}
+                components={{ load: <LoadLink id={selected.load} /> }}
+              />
+            ) : (
+              t("vehicle.no_load")
+            )}
             {t("words.join")}
             {place(selected)}
           </span>
