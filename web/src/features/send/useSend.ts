@@ -12,7 +12,7 @@ import {
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
 import { feetPlan, moveActions, previewWithFeet } from "./steps/feet";
-import { codesCheck, floorCheck } from "./steps/wayChecks";
+import { codesCheck, floorCheck, withHands } from "./steps/wayChecks";
 import { transferAt } from "./steps/transfer";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
@@ -84,7 +84,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
   const floor = floorCheck(option, closures);
   const codes = codesCheck(option);
-  const checks = data && [...data.checks, ...(floor ? [floor] : []), ...(codes ? [codes] : [])];
+  const checks = data && [...withHands(data.checks, vehicle), ...(floor ? [floor] : []), ...(codes ? [codes] : [])];
   const ready = readiness({
     vehicle,
     entry,

@@ -27,11 +27,8 @@ export function VehicleChips({ vehicle, stale }: { vehicle: Vehicle; stale: bool
       {vehicle.link !== "never" && (
         <>
           <Chip>
-            {vehicle.in_hand_of === undefined
-              ? t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })
-              : vehicle.in_hand_of === ""
-                ? t("chip.in_hand_beside")
-                : t("chip.in_hand", { person: words.actor(vehicle.in_hand_of) })}
+            {words.inHand(vehicle) ??
+              t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
           </Chip>
           <Chip>
             <LoadOf vehicle={vehicle} />

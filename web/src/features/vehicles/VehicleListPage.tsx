@@ -60,6 +60,7 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
   const words = useWords();
   const answer = useAnswer();
   const { heard_s } = useHeard(v);
+  const hand = words.inHand(v);
   const lost = useLinkLost();
   const silent = lost || v.link !== "live";
   const to = `/vehicles/${encodeURIComponent(v.id)}`;
@@ -75,6 +76,7 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
           <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
           {silent ? t(`words:link.${lost ? "lost" : v.link}`) : t(`words:activity.${v.activity}`)}
         </span>
+        {hand !== undefined && <span className="hand">{hand}</span>}
       </td>
       <td>
         {v.at_station ? t("list.at", { number: words.stationNumber(v.at_station) }) : t("list.between")}

@@ -36,6 +36,7 @@ export interface VehicleStepProps {
 
 export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
   const { t } = useTranslation("send");
+  const words = useWords();
   const place = usePlace();
   const ready = useLive((s) => s.ready);
   if (vehicles.length === 0) return ready ? <p className="lab">{t("vehicle.none")}</p> : null;
@@ -59,6 +60,7 @@ export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onS
             {t("words.join")}
             {place(selected)}
           </span>
+          {words.inHand(selected) !== undefined && <b className="hand">{words.inHand(selected)}</b>}
         </div>
         {vehicles.length > 1 && (
           <button type="button" className="btn" onClick={onChoose}>
@@ -92,6 +94,7 @@ function VehicleRow({
   onSelect: (id: string) => void;
 }) {
   const { t } = useTranslation(["send", "words"]);
+  const words = useWords();
   const place = usePlace();
   return (
     <button
@@ -103,7 +106,7 @@ function VehicleRow({
     >
       <StatusSymbol name={symbolOf(vehicle)} />
       <span className="id">{vehicle.name}</span>
-      <span className="what">{place(vehicle)}</span>
+      <span className="what">{words.inHand(vehicle) ?? place(vehicle)}</span>
       <span className="when">
         {vehicle.link !== "live" ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
       </span>
