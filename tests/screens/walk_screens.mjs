@@ -23,6 +23,12 @@ const tab = (id, which) =>
   vehicle(id, { name: `vehicle ${id}, ${which}`, only: isNarrow, open: (page) => page.getByRole("tab").nth(kTabs.indexOf(which)).click() });
 const order = (name, one) => ({ name: `order ${name}`, path: `/orders/${one.id}`, ready: ".odetail" });
 
+/** Brackets that are to move on arrival, as high as no bracket reaches. */
+const bracketsTo = (height) => async (page) => {
+  await page.locator(".arrivalrow", { hasText: /Set brackets|升降支架/ }).click();
+  await page.locator(".bheight input").fill(height);
+};
+
 /** `open`: what is pressed there; `keep`: what is pressed again when it has fallen back; `only`: where there is such a screen. */
 export function screensOf({ orders, stop }) {
   return [
@@ -35,6 +41,7 @@ export function screensOf({ orders, stop }) {
     { name: "place tool, armed", path: "/map?place=OM-01", ready: ".tool", open: (page) => page.locator(".tool").getByRole("button", { name: /^(One step east|向东一步)/ }).click(), keep: armed(".tool .cmd") },
     { name: "send", path: "/send", ready: ".card" },
     { name: "send, a vehicle", path: "/send?vehicle=OM-01", ready: ".card" },
+    { name: "send, brackets on arrival", path: "/send?vehicle=TP-01&station=7", ready: ".checks .chk", only: (page) => !isNarrow(page), open: bracketsTo("400") },
     { name: "send, closed floor", path: "/send?vehicle=TP-01&station=3", ready: ".checks .chk" },
     { name: "send, chosen", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks" },
     { name: "send, armed", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks", keep: armed(".confirm .armed") },
