@@ -80,6 +80,12 @@ std::span<const Route> routes() {
 
         {"GET", "/api/v1/loads", "listLoads", kViewer, {}, list_loads},
         {"GET", "/api/v1/loads/{id}", "getLoad", kViewer, {}, get_load},
+        {"GET",
+         "/api/v1/loads/{id}/moves",
+         "listLoadMoves",
+         kViewer,
+         {"limit", "cursor"},
+         list_load_moves},
         {"PUT", "/api/v1/loads/{id}/place", "placeLoad", kOperator, {}, place_load},
 
         {"GET", "/api/v1/fleet", "getFleet", kViewer, {}, get_fleet},

@@ -206,6 +206,14 @@ fleet::LoadRecord LoadPlaceRow::get() const {
             time_from_ns(at_ns), actor};
 }
 
+fleet::LoadMove LoadMoveRow::get() const {
+    return {id,
+            {plant::VehicleId(from_vehicle), plant::StationId(from_station)},
+            {plant::VehicleId(to_vehicle), plant::StationId(to_station)},
+            time_from_ns(at_ns),
+            actor};
+}
+
 void VehicleRow::set(const fleet::VehicleRecord& v) {
     id = v.id.str();
     pose_known = v.pose_known;

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/fleet/state/job_order.hpp"
+#include "core/fleet/state/ports.hpp"
 
 /// Rows of the fleet's tables as plain columns, shared by the store that writes and the history
 /// that reads. `columns` and `fields()` list the same names in the same order.
@@ -102,6 +103,19 @@ struct LoadPlaceRow {
     auto fields() { return std::tie(id, vehicle, station, at_ns, actor); }
     void set(const fleet::LoadRecord& load);
     fleet::LoadRecord get() const;
+};
+
+/// Where it had been before. Only read: the store writes it from what it knew and a LoadPlaceRow.
+struct LoadMoveRow {
+    static constexpr const char* kColumns =
+        "id, from_vehicle, from_station, to_vehicle, to_station, at_ns, actor";
+    std::string from_vehicle, from_station, to_vehicle, to_station, actor;
+    std::int64_t id = 0, at_ns = 0;
+
+    auto fields() {
+        return std::tie(id, from_vehicle, from_station, to_vehicle, to_station, at_ns, actor);
+    }
+    fleet::LoadMove get() const;
 };
 
 struct VehicleRow {

@@ -56,6 +56,16 @@ struct ClosureRow {
 };
 
 constexpr const char* kDropClosure = "DELETE FROM closures WHERE id = :id";
+// Before the load's row is: from where it stands there, or, nothing stored yet, from where the
+// plant has it at first. Whoever is put where it is has not moved.
+constexpr const char* kPutMove =
+    "INSERT INTO load_moves (load, to_vehicle, to_station, at_ns, actor, from_vehicle, "
+    "from_station) SELECT new.id, new.vehicle, new.station, new.at_ns, new.actor, "
+    "COALESCE(known.vehicle, first.vehicle, '') AS left_vehicle, "
+    "COALESCE(known.station, first.station, '') AS left_station FROM (SELECT :id AS id, :vehicle "
+    "AS vehicle, :station AS station, :at_ns AS at_ns, :actor AS actor) AS new LEFT JOIN "
+    "loads_state AS known ON known.id = new.id LEFT JOIN loads AS first ON first.id = new.id WHERE "
+    "new.vehicle <> left_vehicle OR new.station <> left_station";
 constexpr const char* kDropSteps =
     "DELETE FROM job_order_steps WHERE order_id = :order_id AND position >= :count";
 constexpr const char* kDropEvents = "DELETE FROM events WHERE seq <= :upto";
@@ -160,6 +170,7 @@ struct FleetStore::Statements {
           drop_events(sql, kDropEvents, std::tie(events_upto)),
           put_vehicle(sql, upsert_into("vehicles_state", VehicleRow::kColumns, "id"),
                       vehicle.fields()),
+          put_move(sql, kPutMove, load.fields()),
           put_load(sql, upsert_into("loads_state", LoadPlaceRow::kColumns, "id"), load.fields()),
           put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
                   key.fields()),
@@ -189,8 +200,8 @@ struct FleetStore::Statements {
     std::int64_t keys_before = 0;
     std::int64_t events_upto = 0;
     Statement put_order, put_step, drop_steps, put_stop, put_event, drop_events, put_vehicle,
-        put_load, put_key, drop_keys, put_closure, drop_closure, put_schedule, drop_schedule,
-        put_template, drop_template;
+        put_move, put_load, put_key, drop_keys, put_closure, drop_closure, put_schedule,
+        drop_schedule, put_template, drop_template;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -262,6 +273,7 @@ void FleetStore::commit(const fleet::Records& records) {
         }
         for (const auto& load : records.loads) {
             s.load.set(load);
+            s.put_move.run();
             s.put_load.run();
         }
         for (const auto& stop : records.stops) {

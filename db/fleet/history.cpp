@@ -113,6 +113,19 @@ std::vector<fleet::Event> History::unmeasured_stops(const fleet::UnmeasuredQuery
     });
 }
 
+std::vector<fleet::LoadMove> History::load_moves(const fleet::LoadMoveQuery& query) {
+    return reading(connection_.path(), [&] {
+        Select select(connection_.sql());
+        select.where("load = ?", {query.load.str()});
+        if (query.before) select.where_number("id < ?", *query.before);
+        LoadMoveRow row;
+        std::vector<fleet::LoadMove> result;
+        select.each(row, "load_moves", "id DESC", std::max(0, query.limit),
+                    [&] { result.push_back(row.get()); });
+        return result;
+    });
+}
+
 std::vector<fleet::JobOrder> History::orders(const fleet::OrderQuery& query) {
     return reading(connection_.path(), [&] {
         Select select(connection_.sql());

@@ -23,6 +23,10 @@ public:
         const std::lock_guard lock(mutex_);
         return history_.unmeasured_stops(query);
     }
+    std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery& query) override {
+        const std::lock_guard lock(mutex_);
+        return history_.load_moves(query);
+    }
     std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override {
         const std::lock_guard lock(mutex_);
         return history_.orders(query);

@@ -6,6 +6,7 @@
 
 #include "db/fleet/fleet_rows.hpp"
 #include "db/fleet/fleet_store.hpp"
+#include "db/plant/plant_store.hpp"
 #include "tests/db/fleet_samples.hpp"
 #include "tests/db/temp_folder.hpp"
 
@@ -174,6 +175,42 @@ TEST_F(HistoryTest, TextFromOutsideIsNeverSql) {
     query.vehicle = plant::VehicleId("x' OR '1'='1");
 
     EXPECT_TRUE(history_.stops(query).empty());
+}
+
+TEST_F(HistoryTest, MovesOfALoadAreKeptWithTheirPlacesBefore) {
+    const plant::LoadId load("A-101");
+    plant::Plant plant;
+    plant.loads.push_back({});
+    plant.loads[0].id = load;
+    plant.loads[0].station = plant::StationId("st00");
+    PlantStore(database_).import(plant);
+    const auto put = [&](const char* vehicle, const char* station, int ms) {
+        fleet::Records records;
+        records.loads = {
+            {load, plant::VehicleId(vehicle), plant::StationId(station), samples_.at(ms), "ann"},
+            {plant::LoadId("A-102"), plant::VehicleId("TP-02"), {}, samples_.at(ms), "ben"}};
+        store_.commit(records);
+    };
+    put("TP-01", "", 1);
+    put("", "st07", 2);
+    put("", "st07", 3);
+    put("", "", 4);
+    const auto moves = history_.load_moves({load});
+    fleet::LoadMoveQuery older{load, 1, moves.at(0).seq};
+
+    ASSERT_EQ(moves.size(), 3u) << "who is where it was has not moved";
+    EXPECT_EQ(moves[2].from.station, plant::StationId("st00")) << "where the plant has it at first";
+    EXPECT_TRUE(moves[2].from.vehicle.empty());
+    EXPECT_EQ(moves[2].to.vehicle, plant::VehicleId("TP-01"));
+    EXPECT_EQ(moves[1].from.vehicle, plant::VehicleId("TP-01"));
+    EXPECT_EQ(moves[1].to.station, plant::StationId("st07"));
+    EXPECT_EQ(moves[1].at, samples_.at(2));
+    EXPECT_EQ(moves[1].actor, "ann");
+    EXPECT_TRUE(moves[0].to.station.empty() && moves[0].to.vehicle.empty());
+    ASSERT_EQ(history_.load_moves(older).size(), 1u);
+    EXPECT_EQ(history_.load_moves(older)[0].seq, moves[1].seq);
+    EXPECT_EQ(history_.load_moves({plant::LoadId("A-102")}).size(), 1u);
+    EXPECT_TRUE(history_.load_moves({plant::LoadId("none")}).empty());
 }
 
 }  // namespace

@@ -109,6 +109,44 @@ test("with two fingers on a tablet; another finger than the hold's leaves it sta
   await page.context().close();
 });
 
+test("who has it in hand is told on the map, in the list of vehicles and where it is to be sent", async () => {
+  const ann = await open("operator"), bob = await open("engineer", { path: "/map" });
+  const says = (where, words = "In the hands of operator") => bob.locator(where, { hasText: words }).first().waitFor();
+  const goTo = (path, lang = "en") => bob.goto(`${system.url}${path}${path.includes("?") ? "&" : "?"}lang=${lang}`);
+  await goTo("/map?vehicle=TP-01");
+  await bob.locator(".vcard").waitFor();
+  assert.equal(await bob.getByText("In the hands of").count(), 0);
+  await take(ann);
+  await says(".vcard .hands");
+  await says(".veh[data-vehicle=TP-01] .what");
+  await picture(bob, "in_hand-map-1920-en");
+  assert.deepEqual(await overlapsOf(bob), []);
+  assert.deepEqual(await reachFaultsOf(bob), []);
+  await goTo("/vehicles");
+  await says(".vrows .hand");
+  await picture(bob, "in_hand-list-1920-en");
+  assert.deepEqual(await reachFaultsOf(bob), []);
+  await goTo("/send?vehicle=TP-01&station=2");
+  await says(".vrow .hand");
+  await says(".checks .chk", "Driven by hand by operator");
+  await picture(bob, "in_hand-send-1920-en");
+  assert.deepEqual(await overlapsOf(bob), []);
+  await bob.setViewportSize({ width: 1024, height: 768 });
+  await goTo("/map?vehicle=TP-01", "zh");
+  await says(".vcard .hands", "由 operator 手动控制");
+  await picture(bob, "in_hand-map-1024-zh");
+  assert.deepEqual(await overlapsOf(bob), []);
+  assert.deepEqual(await reachFaultsOf(bob), []);
+  await goTo("/vehicles", "zh");
+  await says(".vrows .hand", "由 operator 手动控制");
+  await giveBack(ann);
+  await letGoOn(ann);
+  await until("nobody has it any more", async () => (await bob.locator(".vrows .hand").count()) === 0);
+  assert.deepEqual([...ann.errors, ...bob.errors], []);
+  await ann.context().close();
+  await bob.context().close();
+});
+
 test("two people at once: the second reads who has it, moves nothing, and has it when the first has gone", async () => {
   const ann = await open("operator"), bob = await open("engineer");
   await take(ann);

@@ -168,3 +168,59 @@ test("sent back from its feet, it sets the aircraft down where it came from", as
   assert.deepEqual(page.errors, []);
   await page.context().close();
 });
+
+const kBrackets = {
+  en: { move: "Set brackets on arrival", wrong: "0 to 300 mm", off: "Its brackets do not reach that height", says: "On arrival: Brackets to 40 mm." },
+  zh: { move: "到站后升降支架", wrong: "0 至 300 mm", off: "支架达不到该高度", says: "到站后：支架升降至 40 mm。" },
+};
+for (const { width, height, lang, theme } of kWays) {
+  test(`how high its brackets go on arrival is written and said in Send at ${width} x ${height}`, async () => {
+    const words = kBrackets[lang];
+    const page = await signedIn(browser, system, "operator", { path: "/send", width, height, lang, theme, bypassCSP: true });
+    await page.goto(`${system.url}/send?vehicle=${kId}&station=2`);
+    if (width < 1280) await page.locator(".s3 .chg").click({ timeout: 20_000 });
+    await page.getByLabel(words.move).check({ timeout: 20_000 });
+    const field = page.locator(".bheight input");
+    await field.fill("301");
+    await page.locator(".bheight [role=alert]", { hasText: words.wrong }).waitFor();
+    await page.locator(".confirm", { hasText: words.off }).waitFor();
+    await looksRight(page, `step-actions-brackets-wrong-${width}-${lang}`);
+    await field.fill("40");
+    await page.locator(".say", { hasText: words.says }).waitFor({ timeout: 20_000 });
+    assert.equal(await page.locator(".bheight [role=alert]").count(), 0);
+    await looksRight(page, `step-actions-brackets-${width}-${lang}`);
+    assert.deepEqual(page.errors, []);
+    await page.context().close();
+  });
+}
+
+test("a tour whose brackets go to a height: the row says what is wrong, then what is done; and it is done", async () => {
+  const page = await signedIn(browser, system, "operator", { path: "/orders", bypassCSP: true });
+  await page.getByRole("button", { name: "New order" }).click();
+  const form = page.locator(".tour"), row = form.locator(".tourlist > li").first();
+  await form.getByRole("button", { name: kId, exact: true }).click();
+  await type(form, 2);
+  await form.getByRole("button", { name: "Move brackets" }).click();
+  await row.locator(".lab.bad", { hasText: "Say how high the brackets go" }).waitFor();
+  await form.locator(".bheight input").fill("400");
+  await row.locator(".lab.bad", { hasText: "The brackets do not reach that height" }).waitFor();
+  assert.equal(await form.locator("button.cmd").getAttribute("data-state"), "not_possible");
+  await form.locator(".bheight").getByRole("button", { name: "Front left" }).click();
+  await form.locator(".bheight input").fill("12.5");
+  await row.locator(".then", { hasText: "Bracket front left to 12.5 mm" }).waitFor();
+  await form.locator(".bheight").getByRole("button", { name: "All in step" }).click();
+  await form.locator(".bheight input").fill("40");
+  await row.locator(".then", { hasText: "Brackets to 40 mm" }).waitFor();
+  await form.getByText(/^About [\d:]+ min in all$/).waitFor({ timeout: 20_000 });
+  await looksRight(page, "step-actions-brackets-tour-1920-en");
+  await decide(page, form.locator("button.cmd"));
+  await page.waitForURL(/\/orders\/[0-9a-f-]{36}/);
+  const order = await newest();
+  assert.deepEqual(order.steps[0].after, [{ type: "setBracketHeight", parameters: { bracket: "all", height_m: 0.04 } }]);
+  const ended = await client.untilEnded(order.id, 240);
+  assert.equal(ended.state, "Ended", JSON.stringify(ended.reason));
+  for (const { name, height_m } of (await vehicle()).brackets) assert.ok(Math.abs(height_m - 0.04) < 0.001, `${name}: ${height_m} m`);
+  await page.getByText("After: Brackets to 40 mm").waitFor();
+  assert.deepEqual(page.errors, []);
+  await page.context().close();
+});

@@ -39,8 +39,9 @@ function allowedOf({ orders, system: { plant: { model } } }) {
   return [
     "Pulseline", kWalker,
     ...model.vehicles.flatMap((v) => [v.id, v.name]),
-    ...(model.loads ?? []).flatMap((load) => [load.id, load.name]),
+    ...(model.loads ?? []).flatMap((load) => [load.id, load.name, load.model ?? ""]),
     ...model.markers.map((marker) => marker.payload),
+    ...(model.transmitters ?? []).map(({ id }) => id), // painted where the map is close enough
     ...inNames,
     programOf(orders.done), // the beginning of a token's id
     /JO-\d+/, // orders are called so on the floor

@@ -11,11 +11,23 @@ const armed = (button) => async (page) => {
   await page.locator("[data-state=armed], .is-armed").first().waitFor();
 };
 
+/** The same where something has to be chosen before. */
+const armedAt = (choice, button) => async (page) => {
+  if ((await page.locator(`${choice}[aria-pressed=true]`).count()) === 0) await press(page, choice);
+  await armed(button)(page);
+};
+
 const vehicle = (id, more = {}) => ({ name: `vehicle ${id}`, path: `/vehicles/${id}`, ready: ".pcard, .whyl, .card .pin", ...more });
 /** One tab of a vehicle's page, where it has tabs. */
 const tab = (id, which) =>
   vehicle(id, { name: `vehicle ${id}, ${which}`, only: isNarrow, open: (page) => page.getByRole("tab").nth(kTabs.indexOf(which)).click() });
 const order = (name, one) => ({ name: `order ${name}`, path: `/orders/${one.id}`, ready: ".odetail" });
+
+/** Brackets that are to move on arrival, as high as no bracket reaches. */
+const bracketsTo = (height) => async (page) => {
+  await page.locator(".arrivalrow", { hasText: /Set brackets|升降支架/ }).click();
+  await page.locator(".bheight input").fill(height);
+};
 
 /** `open`: what is pressed there; `keep`: what is pressed again when it has fallen back; `only`: where there is such a screen. */
 export function screensOf({ orders, stop }) {
@@ -29,6 +41,7 @@ export function screensOf({ orders, stop }) {
     { name: "place tool, armed", path: "/map?place=OM-01", ready: ".tool", open: (page) => page.locator(".tool").getByRole("button", { name: /^(One step east|向东一步)/ }).click(), keep: armed(".tool .cmd") },
     { name: "send", path: "/send", ready: ".card" },
     { name: "send, a vehicle", path: "/send?vehicle=OM-01", ready: ".card" },
+    { name: "send, brackets on arrival", path: "/send?vehicle=TP-01&station=7", ready: ".checks .chk", only: (page) => !isNarrow(page), open: bracketsTo("400") },
     { name: "send, closed floor", path: "/send?vehicle=TP-01&station=3", ready: ".checks .chk" },
     { name: "send, chosen", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks" },
     { name: "send, armed", path: "/send?vehicle=OM-01&station=29", ready: ".mode[role=radio], .checks", keep: armed(".confirm .armed") },
@@ -60,6 +73,10 @@ export function screensOf({ orders, stop }) {
     },
     { name: "stations", path: "/stations", ready: ".board, .rows" },
     { name: "vehicles", path: "/vehicles", ready: ".rows" },
+    { name: "loads", path: "/loads", ready: ".rows" },
+    { name: "load", path: "/loads/A-102", ready: ".lplan .load" },
+    { name: "load, elsewhere", path: "/loads/A-102", ready: ".lplan .load", open: (page) => press(page, ".lsay"), keep: armedAt(".lplaces .btn", ".lform .cmd") },
+    { name: "no such load", path: "/loads/A-999", ready: ".card" },
     vehicle("TP-01"),
     ...kTabs.slice(1).map((which) => tab("TP-01", which)),
     vehicle("TP-02"),

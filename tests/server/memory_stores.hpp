@@ -119,6 +119,7 @@ public:
     std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery&) override {
         return {};
     }
+    std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery&) override { return {}; }
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override {
         const std::lock_guard lock(mutex_);
         std::vector<fleet::Event> page;

@@ -1,5 +1,6 @@
 #include "api/http/loads/load_handlers.hpp"
 
+#include <limits>
 #include <utility>
 
 #include "api/http/wire/body.hpp"
@@ -7,6 +8,7 @@
 #include "api/http/wire/etag.hpp"
 #include "api/http/wire/page.hpp"
 #include "api/http/wire/problem.hpp"
+#include "api/http/wire/query.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -32,6 +34,48 @@ Json load_json(const plant::Plant& plant, const fleet::LoadRecord& record) {
     }
     if (!record.actor.empty()) json["by"] = record.actor;
     return json;
+}
+
+/// Neither: outside the plant.
+Json place_json(const plant::Plant& plant, const fleet::LoadPlace& place) {
+    Json json = Json::object();
+    if (!place.vehicle.empty()) json["vehicle"] = place.vehicle.str();
+    if (place.station.empty()) return json;
+    if (const auto* station = plant::find_station(plant, place.station)) {
+        json["station"] = station->number;
+    } else {
+        json["former_station"] = place.station.str();
+    }
+    return json;
+}
+
+Json move_json(const plant::Plant& plant, const fleet::LoadMove& move) {
+    Json json = {{"seq", move.seq},
+                 {"from", place_json(plant, move.from)},
+                 {"to", place_json(plant, move.to)},
+                 {"at", rfc3339(move.at)}};
+    if (!move.actor.empty()) json["by"] = move.actor;
+    return json;
+}
+
+Response unknown_load(const Request& request) {
+    return problem({Errc::kNotFound,
+                    {"unknown_load", {{"load", request.param("id").substr(0, 64)}}},
+                    "There is no load of that id; GET /api/v1/loads lists them.",
+                    {}},
+                   request);
+}
+
+Result<fleet::LoadMoveQuery> read_move_query(const Request& request) {
+    fleet::LoadMoveQuery query{plant::LoadId(request.param("id"))};
+    const auto limit = read_limit(request);
+    if (!limit) return fail(limit.error());
+    query.limit = *limit;
+    if (const auto text = request.query_value("cursor")) {
+        query.before = parse_integer(*text, 0, std::numeric_limits<std::int64_t>::max());
+        if (!query.before) return bad_cursor();
+    }
+    return query;
 }
 
 struct PlaceBody {
@@ -66,16 +110,27 @@ FleetAnswer list_loads(FleetContext& context, const Request&) {
 
 FleetAnswer get_load(FleetContext& context, const Request& request) {
     const auto record = context.fleet.load(plant::LoadId(request.param("id")));
-    if (!record) {
-        return {problem({Errc::kNotFound,
-                         {"unknown_load", {{"load", request.param("id").substr(0, 64)}}},
-                         "There is no load of that id; GET /api/v1/loads lists them.",
-                         {}},
-                        request)};
-    }
+    if (!record) return {unknown_load(request)};
     Response response = json_response(200, load_json(context.plant, *record));
     response.headers.emplace_back("ETag", etag_of_content(response.body));
     return {std::move(response)};
+}
+
+Response list_load_moves(const HistoryContext& context, const Request& request) {
+    auto query = read_move_query(request);
+    if (!query) return problem(400, query.error(), request);
+    if (plant::find_load(context.plant, query->load) == nullptr) return unknown_load(request);
+    const auto limit = static_cast<std::size_t>(query->limit);
+    ++query->limit;
+    auto moves = context.history.load_moves(*query);
+    Json page = Json::object();
+    if (moves.size() > limit) {
+        moves.resize(limit);
+        page["next_cursor"] = std::to_string(moves.back().seq);
+    }
+    page["items"] = list_json(
+        moves, [&](const fleet::LoadMove& move) { return move_json(context.plant, move); });
+    return json_response(200, page);
 }
 
 FleetAnswer place_load(FleetContext& context, const Request& request) {

@@ -52,7 +52,7 @@ struct StoredJournal {
 struct Records {
     std::vector<JobOrder> orders;
     std::vector<VehicleRecord> vehicles;
-    std::vector<LoadRecord> loads;  // upserts by id
+    std::vector<LoadRecord> loads;  // upserts by id; the store keeps each move
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
@@ -117,6 +117,21 @@ struct UnmeasuredQuery {
     int limit = 50;
     std::optional<std::int64_t> before;  // page on: only events of a lower number
 };
+/// A load has got from one place to another; nothing at either end: outside the plant.
+struct LoadMove {
+    std::int64_t seq = 0;  // grows with time, among all loads
+    LoadPlace from;
+    LoadPlace to;
+    Time at;
+    std::string actor;  // empty: the plant forbade the place it had
+};
+
+struct LoadMoveQuery {
+    plant::LoadId load;
+    int limit = 50;
+    std::optional<std::int64_t> before = {};  // page on: only moves of a lower number
+};
+
 struct OrderQuery {
     std::vector<JobState> states;  // empty: all
     plant::VehicleId vehicle;
@@ -142,7 +157,8 @@ public:
     virtual std::optional<StopRecord> stop(StopRecordId id) = 0;
     /// The events stop.not_measured, newest first, as long as events are kept.
     virtual std::vector<Event> unmeasured_stops(const UnmeasuredQuery& query) = 0;
-    virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;  // newest first
+    virtual std::vector<LoadMove> load_moves(const LoadMoveQuery& query) = 0;  // newest first
+    virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;         // newest first
     virtual std::optional<JobOrder> order(JobOrderId id) = 0;
     virtual std::vector<Event> events_after(std::int64_t seq, int limit) = 0;
     virtual StopStatistics statistics(const std::vector<plant::VehicleId>& vehicles,

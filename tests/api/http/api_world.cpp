@@ -99,6 +99,16 @@ std::vector<fleet::Event> WorldHistory::unmeasured_stops(const fleet::Unmeasured
     return events;
 }
 
+std::vector<fleet::LoadMove> WorldHistory::load_moves(const fleet::LoadMoveQuery& query) {
+    std::vector<fleet::LoadMove> moves;
+    for (auto it = store_.load_moves.rbegin(); it != store_.load_moves.rend(); ++it) {
+        const auto& [load, move] = *it;
+        if (load != query.load || (query.before && move.seq >= *query.before)) continue;
+        if (moves.size() < static_cast<std::size_t>(query.limit)) moves.push_back(move);
+    }
+    return moves;
+}
+
 std::vector<fleet::Event> WorldHistory::events_after(std::int64_t seq, int limit) {
     std::vector<fleet::Event> events;
     for (const auto& event : store_.events) {

@@ -42,6 +42,7 @@ public:
     std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override;
     std::optional<fleet::JobOrder> order(fleet::JobOrderId id) override;
     std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery& query) override;
+    std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery& query) override;
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override;
     fleet::StopStatistics statistics(const std::vector<plant::VehicleId>& vehicles,
                                      plant::MotionMode mode, int newest) override;

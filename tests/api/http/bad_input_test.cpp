@@ -247,6 +247,9 @@ TEST(BadInput, QueriesNameTheParameterAtFault) {
         {"/api/v1/unmeasured-stops?station=two", "?station"},
         {"/api/v1/unmeasured-stops?limit=0", "?limit"},
         {"/api/v1/unmeasured-stops?cursor=-1", "?cursor"},
+        {"/api/v1/loads/J-1/moves?limit=0", "?limit"},
+        {"/api/v1/loads/J-1/moves?cursor=x", "?cursor"},
+        {"/api/v1/loads/J-1/moves?station=1", "?station"},
     };
     for (const auto& [target, field] : table) {
         const Answer answer = api.get(target);

@@ -59,6 +59,32 @@ TEST_F(Loads, APersonSaysWhereOneIs) {
     EXPECT_FALSE(nowhere.contains("station") || nowhere.contains("vehicle"));
 }
 
+TEST_F(Loads, EachMoveIsKeptNewestFirst) {
+    const std::string moves = kLoads + "/J-1/moves";
+    EXPECT_TRUE(api.get(moves).json()["items"].empty());
+    for (const char* place : {R"({"vehicle":"V2"})", R"({"station":3})", "{}"}) {
+        EXPECT_EQ(api.call("PUT", kLoads + "/J-1/place", place).status, 202);
+    }
+    const Json all = api.get(moves).json();
+    ASSERT_EQ(all["items"].size(), 3u);
+    EXPECT_FALSE(all.contains("next_cursor"));
+    EXPECT_EQ(all["items"][0]["from"], Json::parse(R"({"station":3})"));
+    EXPECT_EQ(all["items"][0]["to"], Json::object());
+    EXPECT_EQ(all["items"][1]["from"], Json::parse(R"({"vehicle":"V2"})"));
+    EXPECT_EQ(all["items"][1]["by"], "token:test");
+    EXPECT_TRUE(all["items"][1].contains("at"));
+
+    const Json first = api.get(moves + "?limit=2").json();
+    EXPECT_EQ(first["items"].size(), 2u);
+    const Json rest =
+        api.get(moves + "?limit=2&cursor=" + first["next_cursor"].get<std::string>()).json();
+    ASSERT_EQ(rest["items"].size(), 1u);
+    EXPECT_EQ(rest["items"][0]["seq"], all["items"][2]["seq"]);
+    EXPECT_FALSE(rest.contains("next_cursor"));
+    EXPECT_EQ(api.get(kLoads + "/none/moves").status, 404);
+    EXPECT_EQ(api.get(kLoads + "/none/moves").code(), "unknown_load");
+}
+
 TEST_F(Loads, WhatIsNoPlaceIsNamed) {
     const auto put = [&](const std::string& body) {
         return api.call("PUT", kLoads + "/J-1/place", body);

@@ -1,6 +1,7 @@
 #include "tests/core/fleet/fleet_world.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/vda5050/actions.hpp"
 
@@ -89,7 +90,15 @@ plant::Plant small_plant() {
 void MemoryStore::commit(const Records& records) {
     for (const auto& order : records.orders) orders[order.id] = order;
     for (const auto& vehicle : records.vehicles) vehicles[vehicle.id] = vehicle;
-    for (const auto& load : records.loads) loads[load.id] = load;
+    for (const auto& load : records.loads) {
+        const LoadRecord before = std::exchange(loads[load.id], load);
+        load_moves.push_back({load.id,
+                              {static_cast<std::int64_t>(load_moves.size() + 1),
+                               {before.vehicle, before.station},
+                               {load.vehicle, load.station},
+                               load.at,
+                               load.actor}});
+    }
     stops.insert(stops.end(), records.stops.begin(), records.stops.end());
     events.insert(events.end(), records.events.begin(), records.events.end());
     idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());

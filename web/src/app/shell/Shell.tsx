@@ -20,6 +20,7 @@ const kScreens: readonly { name: string; icon: IconName }[] = [
   { name: "orders", icon: "orders" },
   { name: "stations", icon: "stations" },
   { name: "vehicles", icon: "veh" },
+  { name: "loads", icon: "load" },
   { name: "records", icon: "rec" },
 ];
 

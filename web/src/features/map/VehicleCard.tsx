@@ -48,6 +48,7 @@ export function VehicleCard({ vehicle: v, numberOf, takesFocus, onSelect, onClos
   const lost = link.state.kind === "lost";
   const old = lost || stale(v);
   const alarm = alarmOf(v);
+  const hand = words.inHand(v);
   const card = useRef<HTMLElement>(null);
   useEffect(() => {
     if (takesFocus) card.current?.focus({ preventScroll: true });
@@ -79,6 +80,7 @@ export function VehicleCard({ vehicle: v, numberOf, takesFocus, onSelect, onClos
             <StatusSymbol name="s-stale" /> {t("card.old", { time: timeOfDay(asOf) })}
           </p>
         )}
+        {hand !== undefined && <p className="hands">{hand}</p>}
         <p className="does">{doing}</p>
         {why !== "" && (
           <p className="cause" data-alarm={alarm?.priority ?? "none"} role="status">
@@ -92,6 +94,12 @@ export function VehicleCard({ vehicle: v, numberOf, takesFocus, onSelect, onClos
           <Link className="btn" to={`/vehicles/${to}`}>
             {t("card.open")}
           </Link>
+          {v.load !== undefined && (
+            <Link className="btn" to={`/loads/${encodeURIComponent(v.load)}`}>
+              <Icon name="load" />
+              {v.load_name}
+            </Link>
+          )}
           {may && (
             <Link className="btn" to={`/map?place=${to}`}>
               {t("place.link")}

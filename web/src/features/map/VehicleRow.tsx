@@ -14,6 +14,7 @@ import {
 import { StatusSymbol } from "@/shared/ui";
 import { age } from "@/shared/words/format";
 import { useExpected } from "@/shared/words/useExpected";
+import { useWords } from "@/shared/words/useWords";
 import { useLasting, useVehicleWords } from "./vehicleWords";
 
 export interface VehicleRowProps {
@@ -28,6 +29,7 @@ export interface VehicleRowProps {
 /** One line of the list: shape, name, what it does, since or until when; and why, where a person is needed. */
 export function VehicleRow({ vehicle: v, vehicles, numberOf, selected, two, onSelect }: VehicleRowProps) {
   const { t } = useTranslation("map");
+  const words = useWords();
   const now = useServerNow(500);
   const order = useJobOrder(v.order);
   const { doing, why, todo } = useVehicleWords(numberOf, vehicles)(v, order);
@@ -38,7 +40,10 @@ export function VehicleRow({ vehicle: v, vehicles, numberOf, selected, two, onSe
   const lost = link.state.kind === "lost";
   const alarm = alarmOf(v);
   const waits = v.activity === "waiting" || v.activity === "paused" || v.activity === "moving";
-  const text = alarm !== undefined || (waits && why !== "" && haltOf(v) !== "stopping") ? why : doing;
+  // Who waits for a person because one drives it is told by whose hands it is in.
+  const hand = alarm === undefined || alarm.kind === "person" ? words.inHand(v) : undefined;
+  const text =
+    hand ?? (alarm !== undefined || (waits && why !== "" && haltOf(v) !== "stopping") ? why : doing);
   const silentS = v.last_heard_at === undefined ? undefined : (now - Date.parse(v.last_heard_at)) / 1000;
   const old = lost || stale(v);
   const when = (): string => {

@@ -1,4 +1,7 @@
 import { useTranslation } from "react-i18next";
+import { BracketFields } from "@/shared/body/BracketFields";
+import { emptyBrackets } from "@/shared/body/bracketStep";
+import { usePlant } from "@/shared/live";
 import { useWords } from "@/shared/words/useWords";
 import type { TourEvent } from "./tour";
 import { actionOf, isSame, type Arrival } from "./tourActions";
@@ -14,8 +17,9 @@ export interface TourArrivalProps {
 export function TourArrival({ id, index, arrival, dispatch }: TourArrivalProps) {
   const { t } = useTranslation("orders");
   const words = useWords();
-  const { feet, transfers, transfer } = arrival;
-  if (feet === undefined && transfers.length === 0) return null;
+  const { feet, transfers, transfer, lift, brackets } = arrival;
+  const types = usePlant().data?.vehicle_types ?? [];
+  if (feet === undefined && transfers.length === 0 && lift === undefined) return null;
   return (
     <div className="modes" role="group" aria-label={t("tour.arrival", { index })}>
       {transfers.map((one) => {
@@ -43,6 +47,26 @@ export function TourArrival({ id, index, arrival, dispatch }: TourArrivalProps) 
           {t("tour.feet")}
         </button>
       )}
+      {lift && (
+        <button
+          type="button"
+          className="btn"
+          aria-pressed={brackets !== undefined}
+          onClick={() =>
+            dispatch({ kind: "brackets", id, brackets: brackets === undefined ? emptyBrackets() : undefined })
+          }
+        >
+          {t("tour.brackets")}
+        </button>
+      )}
+      {lift && brackets && (
+        <BracketFields
+          draft={brackets}
+          lift={lift}
+          type={types.find((type) => type.brackets.some(({ name }) => lift.names.includes(name)))}
+          onChange={(next) => dispatch({ kind: "brackets", id, brackets: next })}
+        />
+      )}
     </div>
   );
 }
@@ -51,8 +75,9 @@ export function TourArrival({ id, index, arrival, dispatch }: TourArrivalProps) 
 export function useArrivalWords(): (arrival: Arrival) => string | undefined {
   const { t } = useTranslation("orders");
   const words = useWords();
-  return ({ feet, transfer }) => {
+  return ({ feet, transfer, raises }) => {
     const does = [
+      ...(raises ? [words.action(raises)] : []),
       ...(transfer ? [words.action(actionOf(transfer))] : []),
       ...(feet === true ? [t("tour.feet")] : []),
     ];

@@ -1,5 +1,6 @@
 import type { DryRun, MotionMode, NewJobOrder, Plant, StepPreview } from "@/shared/api/types";
-import { stepActions, type Scene, type Transfer } from "./tourActions";
+import { bracketsWanted, type BracketsDraft, type BracketsFault } from "@/shared/body/bracketStep";
+import { liftAt, stepActions, type Scene, type Transfer } from "./tourActions";
 
 /** A job order being written: stations in the order they will be visited. */
 export interface TourStep {
@@ -8,6 +9,7 @@ export interface TourStep {
   mode: MotionMode;
   feet?: boolean; // as a person wants it; absent: as the station is for
   transfer?: Transfer | undefined;
+  brackets?: BracketsDraft | undefined;
 }
 export interface Tour {
   vehicle: string; // empty: any that can
@@ -26,6 +28,7 @@ export type TourEvent =
   | { kind: "mode"; id: number; mode: MotionMode }
   | { kind: "feet"; id: number; feet: boolean }
   | { kind: "transfer"; id: number; transfer: Transfer | undefined }
+  | { kind: "brackets"; id: number; brackets: BracketsDraft | undefined }
   | { kind: "reset" };
 
 export const kMaxSteps = 100;
@@ -74,6 +77,8 @@ export function tour(state: Tour, event: TourEvent): Tour {
       return withStep(state, event.id, (s) => ({ ...s, feet: event.feet }));
     case "transfer":
       return withStep(state, event.id, (s) => ({ ...s, transfer: event.transfer }));
+    case "brackets":
+      return withStep(state, event.id, (s) => ({ ...s, brackets: event.brackets }));
     case "reset":
       return emptyTour();
   }
@@ -87,7 +92,8 @@ export type TourFault =
   | { kind: "missing"; id: number }
   | { kind: "unknown"; id: number; station: string }
   | { kind: "wrong_type"; id: number; station: string }
-  | { kind: "repeated"; id: number; station: string };
+  | { kind: "repeated"; id: number; station: string }
+  | { kind: `brackets_${BracketsFault}`; id: number };
 
 /** What the server would refuse for sure, named by row; the rest it decides. */
 export function faults(state: Tour, plant: Plant | undefined): TourFault[] {
@@ -103,6 +109,9 @@ export function faults(state: Tour, plant: Plant | undefined): TourFault[] {
     if (type !== undefined && only.length > 0 && !only.includes(type))
       found.push({ kind: "wrong_type", id: step.id, station: step.station });
     if (plant && station === undefined) found.push({ kind: "unknown", id: step.id, station: step.station });
+    const lift = step.brackets && station && liftAt(station, state.vehicle, plant);
+    const { fault } = bracketsWanted(step.brackets, lift);
+    if (fault !== undefined) found.push({ kind: `brackets_${fault}`, id: step.id });
     const before = state.steps[i - 1];
     if (before && before.station !== "" && Number(before.station) === Number(step.station))
       found.push({ kind: "repeated", id: step.id, station: step.station });

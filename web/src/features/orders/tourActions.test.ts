@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Plant, Vehicle } from "@/shared/api/types";
-import { emptyTour, toRequest, tour, type Tour, type TourEvent } from "./tour";
+import { emptyTour, faults, toRequest, tour, type Tour, type TourEvent } from "./tour";
 import { arrivals, isSame, type Scene, type Transfer } from "./tourActions";
 
 const station = (number: number, over: object = {}) => ({
@@ -11,7 +11,10 @@ const station = (number: number, over: object = {}) => ({
   ...over,
 });
 const plant = {
-  vehicle_types: [{ id: "platform", parking: { feet: [] } }, { id: "mover" }],
+  vehicle_types: [
+    { id: "platform", brackets: [], parking: { feet: [] } },
+    { id: "mover", brackets: [] },
+  ],
   vehicles: [
     { id: "TP-01", type: "platform" },
     { id: "MV-01", type: "mover" },
@@ -149,5 +152,59 @@ describe("the order of a tour", () => {
   it("does nothing where nothing can be done any more", () => {
     expect(asked({ ...run(to(3), feet(1)), vehicle: "MV-01" })).toEqual([plain]);
     expect(asked(run(to(2), drop(1)))).toEqual([plain]);
+  });
+});
+
+describe("the brackets at a station of a tour", () => {
+  const lifting = (stroke_m: number, ...names: string[]) => ({
+    brackets: names.map((name) => ({ name })),
+    bracket_lift: { stroke_m },
+  });
+  const [platforms, movers] = plant.vehicle_types;
+  const withLifts = {
+    ...plant,
+    vehicle_types: [
+      { ...platforms, ...lifting(0.3, "front left", "front right") },
+      { ...movers, brackets: [] },
+    ],
+  } as unknown as Plant;
+  const at = (number: number, vehicle: string, draft?: { bracket: string; text: string }) => {
+    const state = run({ ...to(number), vehicle }, { kind: "brackets", id: 1, brackets: draft });
+    return { state, arrival: arrivals(state, scene({ plant: withLifts }))[0] };
+  };
+  it.each([
+    [2, "TP-01", { stroke_m: 0.3, names: ["front left", "front right"] }],
+    [3, "", { stroke_m: 0.3, names: ["front left", "front right"] }],
+    [3, "MV-01", undefined],
+    [9, "", undefined],
+  ])("station %d, vehicle %j: %o", (number, vehicle, lift) =>
+    expect(at(number, vehicle).arrival?.lift).toEqual(lift),
+  );
+  it("go to their height before the load is moved and the feet are lowered", () => {
+    const { state } = at(7, "TP-01", { bracket: "all", text: "160" });
+    const body = toRequest(run(state, drop(1), feet(1)), scene({ plant: withLifts }));
+    expect(body.steps[0]?.after).toEqual([
+      { type: "setBracketHeight", parameters: { bracket: "all", height_m: 0.16 } },
+      { type: "drop" },
+      { type: "lowerParking" },
+    ]);
+  });
+  it.each([
+    ["", "brackets_empty"],
+    ["301", "brackets_bad_height"],
+  ])("to %j mm are a fault of their row, and are not sent", (text, kind) => {
+    const { state } = at(2, "TP-01", { bracket: "all", text });
+    expect(faults(state, withLifts)).toEqual([{ kind, id: 1 }]);
+    expect(toRequest(state, scene({ plant: withLifts })).steps[0]?.after).toEqual([]);
+  });
+  it("are not meant for another station", () => {
+    const { state } = at(2, "TP-01", { bracket: "all", text: "100" });
+    const other = run(state, { kind: "station", id: 1, station: "3" });
+    expect(other.steps[0]?.brackets).toBeUndefined();
+  });
+  it("stay where they are where only a vehicle without any may come", () => {
+    const { state } = at(3, "MV-01", { bracket: "all", text: "100" });
+    expect(faults(state, withLifts)).toEqual([]);
+    expect(toRequest(state, scene({ plant: withLifts })).steps[0]?.after).toEqual([]);
   });
 });

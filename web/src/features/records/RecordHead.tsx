@@ -1,6 +1,7 @@
-import { useTranslation } from "react-i18next";
+import { Trans, useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
-import { usePlant, useServerNow } from "@/shared/live";
+import { LoadLink } from "@/shared/body/LoadLink";
+import { useServerNow } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { Icon, StatusSymbol } from "@/shared/ui";
 import { dateTime } from "@/shared/words/format";
@@ -12,13 +13,11 @@ export function RecordHead({ stop }: { stop: StopRecord }) {
   const { t } = useTranslation("records");
   const words = useWords();
   const now = useServerNow(60_000);
-  const plant = usePlant().data;
-  const load = plant?.loads?.find((one) => one.id === stop.load)?.name ?? stop.load ?? "";
   const said = {
     vehicle: words.vehicle(stop.vehicle),
     number: stop.number,
     time: dateTime(stop.at, now),
-    load,
+    load: words.load(stop.load ?? ""),
   };
   const how = t("how", { mode: words.mode(stop.mode), attempt: stop.attempt });
   const send = `/send?vehicle=${encodeURIComponent(stop.vehicle)}`;
@@ -28,7 +27,16 @@ export function RecordHead({ stop }: { stop: StopRecord }) {
       <div className="grow">
         <h1>{t(stop.inside ? "inside_title" : "outside_title")}</h1>
         <span className="lab">
-          {t(stop.load_kg > 0 && load ? "said_load" : "said", said)}
+          {stop.load_kg > 0 && stop.load ? (
+            <Trans
+              t={t}
+              i18nKey="said_load"
+              values={said}
+              components={{ load: <LoadLink id={stop.load} /> }}
+            />
+          ) : (
+            t("said", said)
+          )}
           <span className="gt-sm">
             {t("join")}
             {how}

@@ -88,7 +88,7 @@ export function SendPage() {
 }
 
 /** What a start would do, in the words of the command bar. */
-function useSentences({ vehicle, station, option, busy, entry, feet, transfer }: Send) {
+function useSentences({ vehicle, station, option, busy, entry, feet, transfer, raises }: Send) {
   const { t } = useTranslation("send");
   const words = useWords();
   if (!vehicle || !station) return { title: t("say.choose"), what: "", waits: undefined };
@@ -105,8 +105,9 @@ function useSentences({ vehicle, station, option, busy, entry, feet, transfer }:
         : [
             feet.raise && t("say.raise"),
             moves,
+            raises && t("say.brackets", { what: words.action(raises) }),
             transfer && t(`say.${transfer.type}`, { load: words.load(transfer.load) }),
-            feet.lower && t(transfer ? "say.park_then" : "say.park"),
+            feet.lower && t(transfer || raises ? "say.park_then" : "say.park"),
             t("say.people"),
           ]
             .filter(Boolean)

@@ -1,5 +1,6 @@
 import { useCallback, useState } from "react";
 import type { MotionMode } from "@/shared/api/types";
+import type { BracketsDraft } from "@/shared/body/bracketStep";
 import { navigate, useLocation } from "@/shared/router";
 import { sendAddress } from "./sendAddress";
 
@@ -16,6 +17,9 @@ export interface Choice {
   /** Key of the transfer that is wanted at the station, see steps/transfer. */
   transfer: string | undefined;
   chooseTransfer: (key: string | undefined) => void;
+  /** Brackets that move on arrival; undefined: none. */
+  brackets: BracketsDraft | undefined;
+  chooseBrackets: (brackets: BracketsDraft | undefined) => void;
 }
 
 /** Vehicle, station and mode chosen so far. Vehicle and station are kept in the address (see sendAddress). */
@@ -24,10 +28,12 @@ export function useChoice(): Choice {
   const [mode, chooseMode] = useState<MotionMode>("auto");
   const [park, choosePark] = useState<boolean>();
   const [transfer, chooseTransfer] = useState<string>();
+  const [brackets, chooseBrackets] = useState<BracketsDraft>();
   const choose = useCallback((change: { vehicle?: string; station?: string }) => {
     navigate(sendAddress(change), { replace: true });
     chooseMode("auto");
     chooseTransfer(undefined);
+    chooseBrackets(undefined);
   }, []);
   return {
     vehicle: query.get("vehicle") ?? undefined,
@@ -40,5 +46,7 @@ export function useChoice(): Choice {
     choosePark,
     transfer,
     chooseTransfer,
+    brackets,
+    chooseBrackets,
   };
 }

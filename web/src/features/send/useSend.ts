@@ -1,5 +1,6 @@
 import { useMemo } from "react";
 import type { NewJobOrder } from "@/shared/api/types";
+import { bracketsWanted, liftOf } from "@/shared/body/bracketStep";
 import {
   useClosures,
   useCommandsEnabled,
@@ -12,7 +13,7 @@ import {
 } from "@/shared/live";
 import { busyKey, busyWith } from "./busy/busy";
 import { feetPlan, moveActions, previewWithFeet } from "./steps/feet";
-import { codesCheck, floorCheck } from "./steps/wayChecks";
+import { codesCheck, floorCheck, withHands } from "./steps/wayChecks";
 import { transferAt } from "./steps/transfer";
 import { chosenOption, isOnItsWay, previewKey, readiness, sortOptions } from "./preview/preview";
 import { lookUpStation, stationOf } from "./steps/stationEntry";
@@ -47,7 +48,10 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const feet = useMemo(() => ({ raise, lower }), [raise, lower]);
   const offered = transferAt(station, states, vehicle, plant?.loads ?? []);
   const transfer = offered?.key === choice.transfer ? offered : undefined;
-  const does = JSON.stringify(moveActions(feet, transfer));
+  const type = plant?.vehicle_types.find(({ id }) => id === vehicle?.type);
+  const lift = liftOf([type]);
+  const brackets = bracketsWanted(choice.brackets, lift);
+  const does = JSON.stringify(moveActions(feet, transfer, brackets.action));
   const actions = useMemo<ReturnType<typeof moveActions>>(() => JSON.parse(does), [does]);
   const asks =
     !watching &&
@@ -84,7 +88,11 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
   const floor = floorCheck(option, closures);
   const codes = codesCheck(option);
-  const checks = data && [...data.checks, ...(floor ? [floor] : []), ...(codes ? [codes] : [])];
+  const checks = data && [
+    ...withHands(data.checks, vehicle),
+    ...(floor ? [floor] : []),
+    ...(codes ? [codes] : []),
+  ];
   const ready = readiness({
     vehicle,
     entry,
@@ -94,6 +102,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
     preview,
     floor,
     busy: busy !== undefined,
+    brackets: brackets.fault,
   });
   const { why, instead } = useWhyNot(ready);
   const noWay = step && step.options.length > 0 && !step.options.some((o) => o.feasible);
@@ -123,6 +132,10 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
     feet,
     offered,
     transfer,
+    /** Undefined: its brackets stay where they are, or it has none. */
+    lift,
+    type,
+    raises: brackets.action,
     step,
     option,
     leadThere,

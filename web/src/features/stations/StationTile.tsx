@@ -1,6 +1,8 @@
-import { useTranslation } from "react-i18next";
+import type { ReactNode } from "react";
+import { Trans, useTranslation } from "react-i18next";
 import type { StopRecord } from "@/shared/api/types";
-import { useMayCommand, usePlant, useServerNow, useVehicle, type LiveStation } from "@/shared/live";
+import { LoadLink } from "@/shared/body/LoadLink";
+import { useMayCommand, useServerNow, useVehicle, type LiveStation } from "@/shared/live";
 import { Link } from "@/shared/router";
 import { StatusSymbol } from "@/shared/ui";
 import { dateTime } from "@/shared/words/format";
@@ -47,22 +49,31 @@ export function StationTile({ station, last }: StationTileProps) {
   );
 }
 
-/** Who stands at a station and who is on its way there. */
-function useWho(station: LiveStation): string {
+/** Who stands at a station, what is there, and who is on its way there. */
+function useWho(station: LiveStation): ReactNode {
   const { t } = useTranslation("stations");
   const words = useWords();
   const by = station.state?.occupied_by || undefined;
-  const load = useVehicle(by)?.load_name;
+  const carried = useVehicle(by)?.load;
   const coming = comingTo(station.state);
   const held = station.state?.load;
-  const loads = usePlant().data?.loads;
-  if (held !== undefined && !by) {
-    return t("holds", { load: loads?.find((one) => one.id === held)?.name ?? held });
-  }
+  const withLoad = (key: "holds" | "carries", id: string, vehicle: string) => (
+    <Trans
+      t={t}
+      i18nKey={key}
+      values={{ load: words.load(id), vehicle }}
+      components={{ load: <LoadLink id={id} /> }}
+    />
+  );
+  if (held !== undefined && !by) return withLoad("holds", held, "");
   if (by) {
     const name = words.vehicle(by);
-    const here = load ? t("carries", { vehicle: name, load }) : name;
-    return coming ? t("then", { here, vehicle: words.vehicle(coming) }) : here;
+    return (
+      <>
+        {carried === undefined ? name : withLoad("carries", carried, name)}
+        {coming && t("then", { vehicle: words.vehicle(coming) })}
+      </>
+    );
   }
   if (coming) return t("reserved_for", { vehicle: words.vehicle(coming) });
   return station.resting_place ? t("resting") : "\u00a0";

@@ -1,6 +1,7 @@
 import { useMemo, useState } from "react";
 import { useTranslation } from "react-i18next";
 import { useLive, usePlant, useStations } from "@/shared/live";
+import { useLocation } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading } from "@/shared/ui";
 import { StationFilters } from "./StationFilters";
 import { lookOf, type StationLook } from "./stationLook";
@@ -17,7 +18,8 @@ export function StationsPage() {
   const plant = usePlant();
   const areas = plant.data?.areas;
   const stations = useMemo(() => live.map((s) => ({ ...s, zone: zoneOf(s, areas ?? []) })), [live, areas]);
-  const [find, setFind] = useState("");
+  const { query } = useLocation();
+  const [find, setFind] = useState(query.get("find") ?? "");
   const [look, setLook] = useState<StationLook>();
   const lastOf = useLastStops(stations);
   const count = (one: StationLook) => stations.filter((s) => lookOf(s.state) === one).length;

@@ -2,14 +2,14 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
 import { pressed, symbolOf } from "@/shared/live";
 import { Chip } from "@/shared/ui";
-import { fixed, mass } from "@/shared/words/format";
+import { fixed } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { LoadOf } from "./LoadOf";
 
 /** Where it is, how it drives, what it carries, charge and fields, a word each. */
 export function VehicleChips({ vehicle, stale }: { vehicle: Vehicle; stale: boolean }) {
   const { t } = useTranslation(["vehicles", "words"]);
   const words = useWords();
-  const loaded = vehicle.load_name !== "" || vehicle.load_kg > 0;
   const stopped = pressed(vehicle);
   return (
     <div className={`chips ${stale ? "old" : ""}`}>
@@ -27,16 +27,11 @@ export function VehicleChips({ vehicle, stale }: { vehicle: Vehicle; stale: bool
       {vehicle.link !== "never" && (
         <>
           <Chip>
-            {vehicle.in_hand_of === undefined
-              ? t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })
-              : vehicle.in_hand_of === ""
-                ? t("chip.in_hand_beside")
-                : t("chip.in_hand", { person: words.actor(vehicle.in_hand_of) })}
+            {words.inHand(vehicle) ??
+              t(`words:operating_mode.${vehicle.operating_mode}`, { defaultValue: vehicle.operating_mode })}
           </Chip>
           <Chip>
-            {loaded
-              ? [vehicle.load_name, mass(vehicle.load_kg)].filter(Boolean).join(", ")
-              : t("chip.no_load")}
+            <LoadOf vehicle={vehicle} />
           </Chip>
           <Chip symbol="s-charge">{fixed(vehicle.battery_percent, 0)} %</Chip>
           <Chip symbol={stopped || vehicle.field_violation ? "a-2" : stale ? "s-stale" : "c-ok"}>

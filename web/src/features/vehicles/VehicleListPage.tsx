@@ -3,8 +3,9 @@ import type { Vehicle } from "@/shared/api/types";
 import { symbolOf, useLinkLost, useLive, useServerNow, useVehicles } from "@/shared/live";
 import { Link, navigate } from "@/shared/router";
 import { Card, PanelEmpty, PanelLoading, StatusSymbol } from "@/shared/ui";
-import { age, fixed, mass } from "@/shared/words/format";
+import { age, fixed } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
+import { LoadOf } from "./LoadOf";
 import { byUrgency } from "./urgency";
 import { useHeard } from "./useHeard";
 import { useAnswer } from "./WhyCard";
@@ -59,6 +60,7 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
   const words = useWords();
   const answer = useAnswer();
   const { heard_s } = useHeard(v);
+  const hand = words.inHand(v);
   const lost = useLinkLost();
   const silent = lost || v.link !== "live";
   const to = `/vehicles/${encodeURIComponent(v.id)}`;
@@ -74,17 +76,13 @@ function Row({ vehicle: v }: { vehicle: Vehicle }) {
           <StatusSymbol name={lost ? "s-stale" : symbolOf(v)} />
           {silent ? t(`words:link.${lost ? "lost" : v.link}`) : t(`words:activity.${v.activity}`)}
         </span>
+        {hand !== undefined && <span className="hand">{hand}</span>}
       </td>
       <td>
         {v.at_station ? t("list.at", { number: words.stationNumber(v.at_station) }) : t("list.between")}
       </td>
       <td className="wrap">{answer(v)}</td>
-      <td>
-        {v.link === "never"
-          ? "\u2013"
-          : [v.load_name, v.load_kg > 0 ? mass(v.load_kg) : ""].filter(Boolean).join(", ") ||
-            t("chip.no_load")}
-      </td>
+      <td>{v.link === "never" ? "\u2013" : <LoadOf vehicle={v} />}</td>
       <td className="n" data-label={t("list.battery")}>
         {v.link === "never" ? "\u2013" : `${fixed(v.battery_percent, 0)} %`}
       </td>

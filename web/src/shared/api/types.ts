@@ -27,6 +27,7 @@ export type LiftCommand = Schemas["LiftCommand"];
 export type HandHeldCommand = Schemas["HandHeldCommand"];
 export type HandHeldAnswer = Schemas["HandHeldAnswer"];
 export type Load = Schemas["PlantLoad"];
+export type LoadState = Schemas["Load"];
 export type LoadPlace = Schemas["LoadPlace"];
 export type MarkerChain = Schemas["MarkerChain"];
 export type Fleet = Schemas["Fleet"];

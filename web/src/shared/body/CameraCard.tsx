@@ -3,7 +3,7 @@ import { useTranslation } from "react-i18next";
 import type { Vehicle, VehicleType } from "@/shared/api/types";
 import { usePlant } from "@/shared/live";
 import { Card, Chip } from "@/shared/ui";
-import { age, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
+import { age, degrees, fixed, kNone, millimetres, secondsSince } from "@/shared/words/format";
 import type { Camera } from "./shownCameras";
 import { onPicture, outlineOf } from "./onPicture";
 import { kSteps, usePicture, type PictureStep } from "./usePicture";
@@ -163,6 +163,10 @@ function Readings({ camera }: { camera: Camera | undefined }) {
         value={left === undefined ? kNone : millimetres(Math.abs(left), { decimals: 2 })}
         unit="mm"
       />
+      <Reading
+        caption={t("camera.code_angle")}
+        value={seen ? `${degrees(seen.angle_rad, { decimals: 2, sign: true })}°` : kNone}
+      />
       <Reading caption={t("camera.residual")} value={seen ? fixed(seen.rms_px, 2) : kNone} unit="px" small />
     </div>
   );
@@ -176,7 +180,7 @@ function Reading({
 }: {
   caption: string;
   value: string;
-  unit: string;
+  unit?: string;
   small?: boolean;
 }) {
   return (
@@ -184,7 +188,7 @@ function Reading({
       <span className="cap">{caption}</span>
       <div className={`val ${small ? "sm" : ""}`}>
         <b>{value}</b>
-        <u>{unit}</u>
+        {unit !== undefined && <u>{unit}</u>}
       </div>
     </div>
   );

@@ -8,7 +8,9 @@ import { CommandButton } from "@/shared/ui";
 import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { millimetres } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
-import { bracketKey, footCorner } from "./drawing/faceplate";
+import { BracketChoice } from "./BracketChoice";
+import { Choice } from "./Choice";
+import { footCorner } from "./drawing/faceplate";
 import { heights, kAll, liftBar, readHeight, readSpeed, reasonOf } from "./lifts";
 import { LoadTransfer } from "./LoadTransfer";
 import { PlaceLoad } from "./PlaceLoad";
@@ -82,31 +84,6 @@ export function LiftsCard({ vehicle, type, refused, open = false }: CardProps) {
   );
 }
 
-/** One of them, or all. */
-function Choice(props: {
-  label: string;
-  all: string;
-  names: readonly { name: string; label: string }[];
-  chosen: string;
-  onChoose: (name: string) => void;
-}) {
-  const { label, all, names, chosen, onChoose } = props;
-  return (
-    <div className="seg" role="group" aria-label={label}>
-      {[{ name: kAll, label: all }, ...names].map((one) => (
-        <button
-          key={one.name}
-          type="button"
-          aria-pressed={chosen === one.name}
-          onClick={() => onChoose(one.name)}
-        >
-          {one.label}
-        </button>
-      ))}
-    </div>
-  );
-}
-
 /** Which bracket, how high, how fast, and the button. */
 function BracketLift({ vehicle, type, refused }: Props) {
   const { t } = useTranslation("body");
@@ -153,13 +130,9 @@ function BracketLift({ vehicle, type, refused }: Props) {
   );
   return (
     <>
-      <Choice
-        label={t("lifts.which")}
-        all={t("lifts.all")}
-        names={(type?.brackets ?? []).map((b) => ({
-          name: b.name,
-          label: t(`loads.bracket.${bracketKey(type, b.name)}`, { defaultValue: b.name }),
-        }))}
+      <BracketChoice
+        type={type}
+        names={(type?.brackets ?? []).map((b) => b.name)}
         chosen={bracket}
         onChoose={setBracket}
       />

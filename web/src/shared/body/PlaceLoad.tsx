@@ -1,12 +1,10 @@
-import { useCallback } from "react";
 import { useTranslation } from "react-i18next";
-import { api, call } from "@/shared/api";
-import type { LoadPlace, Vehicle } from "@/shared/api/types";
+import type { Vehicle } from "@/shared/api/types";
 import { usePlant, useStations, useVehicles } from "@/shared/live";
-import { useCommand, useProgress } from "@/shared/ui/useCommand";
 import { useWords } from "@/shared/words/useWords";
 import { LoadButton } from "./LoadButton";
 import { placesToSay, type SaidPlace } from "./lifts";
+import { usePlaceLoad } from "./usePlaceLoad";
 
 interface Props {
   vehicle: Vehicle;
@@ -50,14 +48,9 @@ export function PlaceLoad({ vehicle, refused }: Props) {
 function PlaceButton({ vehicle, refused, said, name }: Props & { said: SaidPlace; name: string }) {
   const { t } = useTranslation("body");
   const { load, is, station } = said;
-  const command = useCommand(
-    useCallback(() => {
-      const body: LoadPlace =
-        is === "on_vehicle" ? { vehicle: vehicle.id } : station === undefined ? {} : { station };
-      return call(api.PUT("/api/v1/loads/{id}/place", { params: { path: { id: load } }, body }));
-    }, [load, is, station, vehicle.id]),
-  );
-  const progress = useProgress(command, (vehicle.load === load) === (is === "on_vehicle"), vehicle.name);
+  const place = is === "on_vehicle" ? { vehicle: vehicle.id } : station === undefined ? {} : { station };
+  const there = (vehicle.load === load) === (is === "on_vehicle");
+  const { command, progress } = usePlaceLoad(load, place, there, vehicle.name);
   const label = t(`lifts.${is}`, { load: name });
   return <LoadButton type="pick" {...{ label, vehicle, command, progress, refused }} />;
 }

@@ -9,11 +9,12 @@ import {
   type Ref,
 } from "react";
 import { useTranslation } from "react-i18next";
-import type { Plant } from "@/shared/api/types";
+import type { Plant, Vehicle } from "@/shared/api/types";
 import { liveStore } from "@/shared/live/store";
 import { boxOf, type MetricPoint } from "@/shared/math/geometry";
 import { homeView, isPhone, marginsOf, withInSight } from "./home";
 import { closureName } from "@/shared/words/closures";
+import { inHandText } from "@/shared/words/inHand";
 import "./map.css";
 import { Picker, type Picked } from "./pick";
 import { allLayers, hallModel, type MapLayers, type MapOverlays } from "./scene";
@@ -105,6 +106,8 @@ export function MapView(props: MapViewProps) {
       north: t("north"),
       closure: (name: string) => closureName(name, t),
       alarm: (kind: string) => t(`tag.${kind}`),
+      inHand: (vehicle: Pick<Vehicle, "in_hand_of">) =>
+        inHandText(vehicle, (key, values) => t(key, values ?? {})),
     }),
     [t],
   );

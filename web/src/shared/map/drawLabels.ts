@@ -240,9 +240,11 @@ function vehicleTag(v: DrawnVehicle, input: FrameInput, compact: boolean): Vehic
         : ""
     : v.alarm !== undefined && (v.blocked || v.critical)
       ? input.words.alarm(v.alarm)
-      : v.selected && Math.abs(speed) > 0.005
-        ? `${fixed(speed, 2)} m/s`
-        : "";
+      : v.inHand
+        ? (input.words.inHand(v.vehicle) ?? "")
+        : v.selected && Math.abs(speed) > 0.005
+          ? `${fixed(speed, 2)} m/s`
+          : "";
   const symbol = v.stale ? "s-stale" : symbolOf(v.vehicle);
   return { name: v.vehicle.name, extra: compact ? "" : extra, symbol, look, compact };
 }

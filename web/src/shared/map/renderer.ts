@@ -1,3 +1,4 @@
+import type { Vehicle } from "@/shared/api/types";
 import { alarmOf, stale as isStale, type AlarmKind } from "@/shared/live/attention";
 import { waitChain } from "@/shared/live/waitChain";
 import { drawHall } from "./drawHall";
@@ -17,6 +18,8 @@ export interface MapWords {
   closure: (name: string) => string;
   /** A kind of alarm in a word or two. */
   alarm: (kind: AlarmKind) => string;
+  /** Who drives a vehicle by hand; undefined: nobody. */
+  inHand: (vehicle: Vehicle) => string | undefined;
 }
 
 export interface FrameInput {
@@ -119,6 +122,7 @@ function drawnVehicles({ live, model, selected, nowMs }: FrameInput): DrawnVehic
       critical: alarm?.priority === "critical",
       alarm: alarm?.kind,
       blocker: blockers.has(vehicle.id),
+      inHand: vehicle.in_hand_of !== undefined,
       waiting: vehicle.activity === "waiting" || vehicle.activity === "paused" || vehicle.needs_resume,
       moving: vehicle.activity === "moving",
       loaded: vehicle.load_kg > 0,

@@ -194,6 +194,8 @@ export interface DrawnVehicle {
   /** The selected one waits for it, or for one that waits for it. */
   blocker: boolean;
   waiting: boolean;
+  /** A person drives it by hand. */
+  inHand: boolean;
   moving: boolean;
   loaded: boolean;
   selected: boolean;

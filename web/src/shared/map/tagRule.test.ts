@@ -8,6 +8,7 @@ const plain = {
   stale: false,
   blocker: false,
   waiting: false,
+  inHand: false,
   moving: false,
 };
 
@@ -20,6 +21,12 @@ it.each([
     { waiting: true },
     100,
     { rank: 2, must: false, brief: true },
+  ],
+  [
+    "one in a person's hands as well, and whose",
+    { inHand: true },
+    100,
+    { rank: 2, must: false, brief: false },
   ],
   ["a blocked one always", { blocked: true }, 100, { rank: 1, must: true, brief: false }],
   ["an old one always", { stale: true }, 100, { rank: 1, must: true, brief: false }],

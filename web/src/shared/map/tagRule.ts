@@ -4,7 +4,7 @@ const kAllTagsUpTo = 40;
 
 type Marks = Pick<
   DrawnVehicle,
-  "selected" | "critical" | "blocked" | "stale" | "blocker" | "waiting" | "moving"
+  "selected" | "critical" | "blocked" | "stale" | "blocker" | "waiting" | "inHand" | "moving"
 >;
 
 export interface TagRule {
@@ -12,7 +12,7 @@ export interface TagRule {
   rank: number;
   /** Never dropped: it takes the place that hides least. */
   must: boolean;
-  /** Far out an ordinary one shows its name alone. */
+  /** Far out an ordinary one shows its name alone; of one in a person's hands the tag says whose. */
   brief: boolean;
 }
 
@@ -23,7 +23,7 @@ export interface TagRule {
 export function tagRule(v: Marks, inView: number): TagRule | undefined {
   const urgent = v.selected || v.critical || v.blocked || v.stale || v.blocker;
   const few = inView <= kAllTagsUpTo;
-  if (!few && !urgent && !v.waiting) return undefined;
-  const rank = v.selected ? 0 : urgent ? 1 : v.waiting ? 2 : v.moving ? 4 : 5;
-  return { rank, must: urgent || few, brief: !urgent };
+  if (!few && !urgent && !v.waiting && !v.inHand) return undefined;
+  const rank = v.selected ? 0 : urgent ? 1 : v.waiting || v.inHand ? 2 : v.moving ? 4 : 5;
+  return { rank, must: urgent || few, brief: !urgent && !v.inHand };
 }

@@ -6,6 +6,7 @@ export type IconName =
   | "orders"
   | "stations"
   | "veh"
+  | "load"
   | "alarm"
   | "rec"
   | "eng"

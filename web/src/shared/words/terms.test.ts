@@ -71,6 +71,8 @@ const kPlaces: [where: string, word: string][] = [
   ["send.start.armed", "已准备"],
   ["common.nav.stations", "站点"],
   ["common.nav.send", "发车"],
+  ["common.nav.loads", "载荷"],
+  ["loads.title", "载荷"],
 ];
 
 describe("in Chinese one thing has one name", () => {

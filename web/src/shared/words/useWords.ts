@@ -1,12 +1,13 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { ApiProblem } from "@/shared/api";
-import type { MotionMode, Reason } from "@/shared/api/types";
+import type { MotionMode, Reason, Vehicle } from "@/shared/api/types";
 import { usePlant } from "@/shared/live";
 import { actionText, type StepAction } from "./actions";
 import { actorText } from "./actor";
 import { closureName } from "./closures";
 import { faultText } from "./faults";
+import { inHandText } from "./inHand";
 import { problemText, reasonText } from "./reasons";
 import type { Names, Translate } from "./sentence";
 
@@ -19,6 +20,8 @@ export interface Words {
   load: (id: string) => string;
   /** Who did something: a person, or a program with a token. */
   actor: (actor: string) => string;
+  /** Who drives a vehicle by hand; undefined: nobody. */
+  inHand: (vehicle: Pick<Vehicle, "in_hand_of">) => string | undefined;
   fault: (type: string) => string;
   /** Name of a wheel in words, where it is one that wheels usually have. */
   wheel: (name: string) => string;
@@ -64,6 +67,7 @@ export function useWords(): Words {
       vehicle: (id) => vehicles.get(id) ?? id,
       load: (id) => loads.get(id) ?? id,
       actor: (actor) => actorText(actor, t),
+      inHand: (vehicle) => inHandText(vehicle, t),
       fault: (type) => faultText(type, t),
       wheel: (name) => ofWheel("wheel_name", name),
       wheelLabel: (name) => ofWheel("wheel_label", name),

@@ -190,6 +190,8 @@ describe("readiness", () => {
     expect(readiness({ ...ok, floor })).toEqual({ kind: "check", check: floor });
     expect(readiness({ ...ok, floor: { ...floor, result: "pass" } }).kind).toBe("ready");
   });
+  it("holds the move whose brackets cannot go where they are to go on arrival", () =>
+    expect(readiness({ ...ok, brackets: "bad_height" })).toEqual({ kind: "brackets", fault: "bad_height" }));
   it("names the infeasible mode before its check", () => {
     expect(readiness({ ...ok, mode: "auto", preview: { kind: "ready", data: data() } }).kind).toBe("ready");
     expect(readiness({ ...ok, mode: "self_rotation" as never }).kind).toBe("infeasible");

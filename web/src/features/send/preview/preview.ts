@@ -1,4 +1,5 @@
 import type { DryRun, ModeOption, MotionMode, Pose, Reason, Vehicle } from "@/shared/api/types";
+import type { BracketsFault } from "@/shared/body/bracketStep";
 import type { ShownCheck } from "../steps/wayChecks";
 import type { Refusal } from "../start/startCommand";
 import type { StationEntry } from "../steps/stationEntry";
@@ -136,6 +137,7 @@ export type Readiness =
   | { kind: "unknown_station"; number: string }
   | { kind: "wrong_type"; number: string }
   | { kind: "on_its_way"; vehicle: string }
+  | { kind: "brackets"; fault: BracketsFault }
   | { kind: "waiting" }
   | { kind: "infeasible"; option: ModeOption }
   | { kind: "check"; check: ShownCheck }
@@ -152,6 +154,8 @@ export function readiness(input: {
   floor?: ShownCheck | undefined;
   /** It has an order, or one waits for it: the move begins after that, from a place that is known. */
   busy?: boolean;
+  /** What is wrong with the height to which its brackets go on arrival. */
+  brackets?: BracketsFault | undefined;
 }): Readiness {
   if (!input.linkUp) return { kind: "offline" };
   if (!input.mayCommand) return { kind: "not_allowed" };
@@ -161,6 +165,7 @@ export function readiness(input: {
   if (entry.kind === "unknown") return { kind: "unknown_station", number: entry.digits };
   if (entry.kind === "wrong_type") return { kind: "wrong_type", number: String(entry.station.number) };
   if (!input.busy && isOnItsWay(input.vehicle)) return { kind: "on_its_way", vehicle: input.vehicle.id };
+  if (input.brackets !== undefined) return { kind: "brackets", fault: input.brackets };
   const { preview } = input;
   if (preview.kind === "failed") return { kind: "failed" };
   if (preview.kind !== "ready") return { kind: "waiting" };

@@ -43,6 +43,8 @@ export function useWhyNot(r: Readiness): WhyNot {
         return t(`start.${r.kind}`, { number: r.number });
       case "on_its_way":
         return onItsWay();
+      case "brackets":
+        return t(`start.brackets_${r.fault}`);
       default:
         return t(`start.${r.kind}`);
     }

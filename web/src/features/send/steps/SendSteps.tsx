@@ -1,6 +1,8 @@
 import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import type { MotionMode } from "@/shared/api/types";
+import { BracketFields } from "@/shared/body/BracketFields";
+import { emptyBrackets } from "@/shared/body/bracketStep";
 import { PanelFailed } from "@/shared/ui";
 import { useNarrow } from "@/shared/ui/useNarrow";
 import { duration } from "@/shared/words/format";
@@ -111,6 +113,21 @@ export function SendSteps({ send, choice, current, onOpen, picking, onPick, onLo
                 label={t(`mode.${offered.type}`, { load: words.load(offered.load) })}
                 on={send.transfer !== undefined}
                 onChange={(on) => choice.chooseTransfer(on ? offered.key : undefined)}
+              />
+            )}
+            {send.lift && (
+              <ArrivalRow
+                label={t("mode.brackets")}
+                on={choice.brackets !== undefined}
+                onChange={(on) => choice.chooseBrackets(on ? emptyBrackets() : undefined)}
+              />
+            )}
+            {send.lift && choice.brackets && (
+              <BracketFields
+                draft={choice.brackets}
+                lift={send.lift}
+                type={send.type}
+                onChange={choice.chooseBrackets}
               />
             )}
             {vehicle && vehicle.parking_feet.length > 0 && (

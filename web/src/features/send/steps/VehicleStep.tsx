@@ -1,5 +1,6 @@
-import { useTranslation } from "react-i18next";
+import { Trans, useTranslation } from "react-i18next";
 import type { Plant, Vehicle } from "@/shared/api/types";
+import { LoadLink } from "@/shared/body/LoadLink";
 import { symbolOf, useLive } from "@/shared/live";
 import { StatusSymbol, VehicleMini } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
@@ -35,24 +36,31 @@ export interface VehicleStepProps {
 
 export function VehicleStep({ vehicles, plant, selected, choosing, onChoose, onSelect }: VehicleStepProps) {
   const { t } = useTranslation("send");
+  const words = useWords();
   const place = usePlace();
   const ready = useLive((s) => s.ready);
   if (vehicles.length === 0) return ready ? <p className="lab">{t("vehicle.none")}</p> : null;
   if (selected && !choosing) {
-    const load =
-      selected.load_name || selected.load_kg > 0
-        ? t("vehicle.on_board", { name: selected.load_name, mass: mass(selected.load_kg) })
-        : t("vehicle.no_load");
     return (
       <div className="vrow">
         <VehicleMini type={plant?.vehicle_types.find((type) => type.id === selected.type)} selected />
         <div className="grow">
           <b className="big">{selected.name}</b>
           <span className="lab">
-            {load}
+            {selected.load ? (
+              <Trans
+                t={t}
+                i18nKey="vehicle.on_board"
+                values={{ name: selected.load_name, mass: mass(selected.load_kg) }}
+                components={{ load: <LoadLink id={selected.load} /> }}
+              />
+            ) : (
+              t("vehicle.no_load")
+            )}
             {t("words.join")}
             {place(selected)}
           </span>
+          {words.inHand(selected) !== undefined && <b className="hand">{words.inHand(selected)}</b>}
         </div>
         {vehicles.length > 1 && (
           <button type="button" className="btn" onClick={onChoose}>
@@ -86,6 +94,7 @@ function VehicleRow({
   onSelect: (id: string) => void;
 }) {
   const { t } = useTranslation(["send", "words"]);
+  const words = useWords();
   const place = usePlace();
   return (
     <button
@@ -97,7 +106,7 @@ function VehicleRow({
     >
       <StatusSymbol name={symbolOf(vehicle)} />
       <span className="id">{vehicle.name}</span>
-      <span className="what">{place(vehicle)}</span>
+      <span className="what">{words.inHand(vehicle) ?? place(vehicle)}</span>
       <span className="when">
         {vehicle.link !== "live" ? t(`words:link.${vehicle.link}`) : t(`words:activity.${vehicle.activity}`)}
       </span>

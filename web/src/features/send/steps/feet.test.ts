@@ -14,25 +14,39 @@ describe("feet around a move", () => {
   it("are raised first behind another order, which may leave them down", () =>
     expect(feetPlan(on(0, 0, 0, 0), true, false).raise).toBe(true));
   it("are lowered after it where a person wants it", () => {
-    expect(moveActions(feetPlan(on(0, 0, 0, 0), false, true), undefined)).toEqual({
+    expect(moveActions(feetPlan(on(0, 0, 0, 0), false, true), undefined, undefined)).toEqual({
       after: [{ type: "lowerParking" }],
     });
-    expect(moveActions(feetPlan(on(0.1), false, true), undefined)).toEqual({
+    expect(moveActions(feetPlan(on(0.1), false, true), undefined, undefined)).toEqual({
       before: [{ type: "raiseParking" }],
       after: [{ type: "lowerParking" }],
     });
   });
   it("are not lowered where a person does not want it, whatever the station is for", () =>
-    expect(moveActions(feetPlan(on(0), false, false), undefined)).toEqual({ after: [] }));
+    expect(moveActions(feetPlan(on(0), false, false), undefined, undefined)).toEqual({ after: [] }));
   it("are lowered once the load is moved", () =>
-    expect(moveActions(feetPlan(on(0), false, true), { type: "drop", load: "A-101", key: "" }).after).toEqual(
-      [{ type: "drop" }, { type: "lowerParking" }],
-    ));
+    expect(
+      moveActions(feetPlan(on(0), false, true), { type: "drop", load: "A-101", key: "" }, undefined).after,
+    ).toEqual([{ type: "drop" }, { type: "lowerParking" }]));
+  it("are lowered last, and brackets are at their height before the load is moved", () => {
+    const brackets = { type: "setBracketHeight", parameters: { bracket: "all", height_m: 0.16 } };
+    const drop = { type: "drop" as const, load: "A-101", key: "" };
+    expect(moveActions(feetPlan(on(0), false, true), drop, brackets).after).toEqual([
+      brackets,
+      { type: "drop" },
+      { type: "lowerParking" },
+    ]);
+    expect(moveActions(feetPlan(on(0), false, false), undefined, brackets)).toEqual({ after: [brackets] });
+  });
   it("are nothing to a vehicle without any, or to none", () => {
-    expect(moveActions(feetPlan({ parking_feet: [] }, true, true), undefined)).toEqual({ after: [] });
-    expect(moveActions(feetPlan(undefined as Vehicle | undefined, true, true), undefined)).toEqual({
+    expect(moveActions(feetPlan({ parking_feet: [] }, true, true), undefined, undefined)).toEqual({
       after: [],
     });
+    expect(moveActions(feetPlan(undefined as Vehicle | undefined, true, true), undefined, undefined)).toEqual(
+      {
+        after: [],
+      },
+    );
   });
 });
 

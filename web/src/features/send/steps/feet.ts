@@ -1,6 +1,7 @@
 import type { NewJobOrder, Vehicle } from "@/shared/api/types";
 import { feetDown } from "@/shared/live/feet";
 import type { Preview } from "../preview/preview";
+import type { StepAction } from "@/shared/words/actions";
 import { transferAction, type Transfer } from "./transfer";
 import type { ShownCheck } from "./wayChecks";
 
@@ -25,11 +26,16 @@ export function feetPlan(
 export function moveActions(
   { raise, lower }: FeetPlan,
   transfer: Transfer | undefined,
+  brackets: StepAction | undefined,
 ): Pick<NewStep, "before" | "after"> {
   return {
     ...(raise && { before: [{ type: "raiseParking" }] }),
-    // What is to be set down or taken over needs the vehicle on its wheels.
-    after: [...(transfer ? [transferAction(transfer)] : []), ...(lower ? [{ type: "lowerParking" }] : [])],
+    // What is to be set down needs brackets that are high enough; that or a take-over needs the vehicle on its wheels.
+    after: [
+      ...(brackets ? [brackets] : []),
+      ...(transfer ? [transferAction(transfer)] : []),
+      ...(lower ? [{ type: "lowerParking" }] : []),
+    ],
   };
 }
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Closure, ModeOption } from "@/shared/api/types";
-import { codesCheck, floorCheck } from "./wayChecks";
+import { codesCheck, floorCheck, withHands, type ShownCheck } from "./wayChecks";
 
 const option = (over: Partial<ModeOption>): ModeOption => ({
   mode: "linear",
@@ -54,4 +54,23 @@ describe("the check of codes on the way", () => {
       result: "note",
       params: { widest_gap_m: 52, at_most_m: 17.3 },
     }));
+});
+
+describe("a vehicle in a person's hands", () => {
+  const mode: ShownCheck = {
+    code: "mode",
+    result: "note",
+    params: { reason: "not_automatic", operating_mode: "MANUAL" },
+  };
+  const load: ShownCheck = { code: "load", result: "note", params: {} };
+  it("is told with that person, whatever else bars it", () =>
+    expect(withHands([mode, load], { in_hand_of: "ann" })).toEqual([
+      { ...mode, params: { reason: "driven_by_hand", operating_mode: "MANUAL", person: "ann" } },
+      load,
+    ]));
+  it.each([
+    ["in nobody's", {}, mode],
+    ["not chosen yet", undefined, mode],
+    ["ready all the same", { in_hand_of: "ann" }, { ...mode, result: "pass" as const }],
+  ])("%s: as the server says", (_, vehicle, check) => expect(withHands([check], vehicle)).toEqual([check]));
 });

@@ -1,4 +1,4 @@
-import type { Check, Closure, ModeOption } from "@/shared/api/types";
+import type { Check, Closure, ModeOption, Vehicle } from "@/shared/api/types";
 
 /** The server's checks, and those that the screen makes of the chosen way. */
 export type ShownCheck = Omit<Check, "code"> & { code: Check["code"] | "floor" | "codes_on_way" };
@@ -33,4 +33,17 @@ export function codesCheck(option: ModeOption | undefined): ShownCheck | undefin
   const gap = option.codes_on_way;
   if (gap === undefined || gap.widest_gap_m <= gap.at_most_m) return undefined;
   return note({ widest_gap_m: gap.widest_gap_m, at_most_m: gap.at_most_m });
+}
+
+/** Whatever else bars it: while a person drives it by hand, that person has to give it back first. */
+export function withHands(
+  checks: readonly ShownCheck[],
+  vehicle: Pick<Vehicle, "in_hand_of"> | undefined,
+): ShownCheck[] {
+  const person = vehicle?.in_hand_of;
+  return checks.map((check) =>
+    person === undefined || check.code !== "mode" || check.result === "pass"
+      ? check
+      : { ...check, params: { ...check.params, reason: "driven_by_hand", person } },
+  );
 }
