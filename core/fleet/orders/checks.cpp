@@ -7,6 +7,7 @@
 #include "core/fleet/orders/start_conditions.hpp"
 #include "core/fleet/orders/transfer_checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/vehicle/lifts.hpp"
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
@@ -35,11 +36,19 @@ std::vector<PlacedAction> actions_of(const NewOrder& order) {
         for (const auto& [name, actions] : {std::pair{"/before/", &order.steps[i].before},
                                             std::pair{"/after/", &order.steps[i].after}}) {
             for (std::size_t k = 0; k < actions->size(); ++k) {
-                placed.push_back({&(*actions)[k], step + name + std::to_string(k) + "/type"});
+                placed.push_back({&(*actions)[k], step + name + std::to_string(k)});
             }
         }
     }
     return placed;
+}
+
+/// Brackets and feet where they are to go: said now, not when it has got there.
+Status can_move(const LiveVehicle& live, const std::vector<PlacedAction>& placed) {
+    for (const auto& [action, field] : placed) {
+        if (Status has = has_lift(live, *action, field + "/parameters"); !has) return has;
+    }
+    return {};
 }
 
 Status check_actions(const FleetState& fleet, const NewOrder& order) {
@@ -50,10 +59,11 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
             return fail(Errc::kInvalid, "reserved_action",
                         "The server sends " + action->type +
                             " itself. Leave it out; every stop is measured anyway.",
-                        field, {{"action", action->type}});
+                        field + "/type", {{"action", action->type}});
         }
     }
     const PlacedAction* missing = nullptr;
+    Status can;  // the first that announces all of them
     std::string announced;
     bool any_factsheet = false;
     for (const auto& [id, live] : fleet.vehicles) {
@@ -62,8 +72,12 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
         const auto lacks = std::find_if(
             placed.begin(), placed.end(),
             [&, &vehicle = live](auto& p) { return !announces_at_node(vehicle, *p.action); });
-        if (lacks == placed.end()) return {};
-        if (missing) continue;
+        if (lacks == placed.end()) {
+            Status moves = can_move(live, placed);
+            if (moves) return {};
+            if (can) can = std::move(moves);
+        }
+        if (missing || lacks == placed.end()) continue;
         missing = &*lacks;
         for (const auto& name : live.factsheet->node_actions) {
             const bool own =
@@ -71,17 +85,18 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
             if (!own) announced += (announced.empty() ? "" : ", ") + name;
         }
     }
+    if (!can) return can;
     if (!any_factsheet) {
         return fail(Errc::kConflict, "no_factsheet",
                     "No vehicle that may take this order has said yet which actions it can do. "
                     "Connect one, then repeat.",
-                    placed.front().field, {{"action", placed.front().action->type}});
+                    placed.front().field + "/type", {{"action", placed.front().action->type}});
     }
-    return fail(Errc::kUnreachable, "unknown_action",
-                "No vehicle that may take this order announces the action " +
-                    missing->action->type + ". " +
-                    (announced.empty() ? "Leave it out." : "Use one of: " + announced + "."),
-                missing->field, {{"action", missing->action->type}, {"announced", announced}});
+    return fail(
+        Errc::kUnreachable, "unknown_action",
+        "No vehicle that may take this order announces the action " + missing->action->type + ". " +
+            (announced.empty() ? "Leave it out." : "Use one of: " + announced + "."),
+        missing->field + "/type", {{"action", missing->action->type}, {"announced", announced}});
 }
 
 std::optional<JobOrder> named(const FleetState& fleet, const std::string& name) {

@@ -28,7 +28,7 @@ std::string bracket_of(const StepAction& wanted) {
 
 template <class Things>
 Status has_one_named(const LiveVehicle& live, const char* code, const char* kind,
-                     const std::string& wanted, const Things& things) {
+                     const std::string& wanted, const Things& things, const std::string& field) {
     std::string names(kAll);
     for (const auto& thing : things) {
         if (thing.name == wanted) return {};
@@ -38,26 +38,26 @@ Status has_one_named(const LiveVehicle& live, const char* code, const char* kind
     const std::string& id = live.record.id.str();
     return fail(Errc::kUnreachable, code,
                 "Vehicle " + id + " has no " + kind + " of that name. It has " + names + ".",
-                std::string("/") + kind, {{"vehicle", id}, {kind, wanted}});
+                field + "/" + kind, {{"vehicle", id}, {kind, wanted}});
 }
 
-Status has_bracket(const LiveVehicle& live, const StepAction& wanted) {
+Status has_bracket(const LiveVehicle& live, const StepAction& wanted, const std::string& field) {
     const auto& lift = live.type->bracket_lift;
     const std::string who = "The brackets of " + live.record.id.str();
     const double height_m = number_param(wanted.params, "height_m").value_or(-1);
     if (!(height_m >= 0 && height_m <= lift.stroke_m)) {
         return fail(Errc::kUnreachable, "out_of_stroke",
-                    who + " reach from 0 to " + std::to_string(lift.stroke_m) + " m.", "/height_m",
-                    {{"height_m", height_m}, {"stroke_m", lift.stroke_m}});
+                    who + " reach from 0 to " + std::to_string(lift.stroke_m) + " m.",
+                    field + "/height_m", {{"height_m", height_m}, {"stroke_m", lift.stroke_m}});
     }
     const double speed_mps = number_param(wanted.params, "speed_mps").value_or(lift.speed_mps);
     if (!(speed_mps > 0 && speed_mps <= lift.speed_mps)) {
         return fail(Errc::kUnreachable, "out_of_speed",
                     who + " move with " + std::to_string(lift.speed_mps) + " m/s at most.",
-                    "/speed_mps", {{"speed_mps", speed_mps}, {"most_mps", lift.speed_mps}});
+                    field + "/speed_mps", {{"speed_mps", speed_mps}, {"most_mps", lift.speed_mps}});
     }
     return has_one_named(live, "unknown_bracket", "bracket", bracket_of(wanted),
-                         live.type->brackets);
+                         live.type->brackets, field);
 }
 
 /// What hangs above it must not be taken over by its feet.
@@ -96,13 +96,22 @@ Status has_them(const LiveVehicle& live, const StepAction& wanted) {
             "Vehicle " + id + " does not say that it can do " + wanted.type + " outside an order.",
             "/type", {{"vehicle", id}, {"action", wanted.type}});
     }
-    if (wanted.type == vda5050::kSetBracketHeight) return has_bracket(live, wanted);
-    const auto* foot = text_param(wanted.params, "foot");
-    if (foot == nullptr || !live.type->parking) return {};
-    return has_one_named(live, "unknown_foot", "foot", *foot, live.type->parking->feet);
+    return has_lift(live, wanted, {});
 }
 
 }  // namespace
+
+Status has_lift(const LiveVehicle& live, const StepAction& wanted, const std::string& field) {
+    if (wanted.type == vda5050::kSetBracketHeight) {
+        // Of one whose brackets the plant does not know nobody can say.
+        return live.type->brackets.empty() ? Status{} : has_bracket(live, wanted, field);
+    }
+    const bool feet =
+        wanted.type == vda5050::kLowerParking || wanted.type == vda5050::kRaiseParking;
+    const auto* foot = text_param(wanted.params, "foot");
+    if (!feet || foot == nullptr || !live.type->parking) return {};
+    return has_one_named(live, "unknown_foot", "foot", *foot, live.type->parking->feet, field);
+}
 
 Status may_move_lifts(const FleetState& fleet, const LiveVehicle& live, const StepAction& wanted) {
     if (Status has = has_them(live, wanted); !has) return has;

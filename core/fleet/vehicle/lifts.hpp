@@ -9,6 +9,11 @@
 /// of the parked platform).
 namespace pulseline::fleet {
 
+/// Whether its type has the bracket or foot, and can move it so: unknown_bracket, unknown_foot,
+/// out_of_stroke {height_m, stroke_m}, out_of_speed {speed_mps, most_mps}, each at its parameter
+/// below `field`. What neither moves brackets nor feet is no matter of this.
+Status has_lift(const LiveVehicle& live, const StepAction& wanted, const std::string& field);
+
 /// Whether a person may have them moved so now. Errors, each with its remedy: unknown_lift,
 /// unknown_bracket and out_of_stroke of what the vehicle does not have; needs_person,
 /// vehicle_paused, vehicle_busy and lifts_moving; and what is wrong with a load that all brackets

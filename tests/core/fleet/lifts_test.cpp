@@ -256,5 +256,35 @@ TEST_F(Lifts, ThatWereBrokenOffWhileNoServerListenedAreToldByTheVehicle) {
     EXPECT_EQ(lift().what.type, "setBracketHeight");
 }
 
+TEST_F(Lifts, OfAnOrderAreRefusedWithItsFieldBeforeItDrives) {
+    NewOrder order;
+    order.vehicle = kV1;
+    order.steps = {{2}};
+    order.actor = "op";
+    const auto refused = [&](const StepAction& action) {
+        order.steps[0].after = {{"lowerParking", {}}, action};
+        const auto made = world.order(order);
+        return made ? std::pair<std::string, std::string>()
+                    : std::pair(made.error().reason.code, made.error().field);
+    };
+    const auto height = [](const std::string& bracket, double height_m) {
+        return StepAction{"setBracketHeight", {{"bracket", bracket}, {"height_m", height_m}}};
+    };
+    const std::string at = "/steps/0/after/1/parameters/";
+    EXPECT_EQ(refused(height("all", 0.9)),
+              std::pair(std::string("out_of_stroke"), at + "height_m"));
+    EXPECT_EQ(refused({"setBracketHeight", {{"bracket", std::string("all")}}}),
+              std::pair(std::string("out_of_stroke"), at + "height_m"));
+    EXPECT_EQ(refused(height("fifth", 0.1)),
+              std::pair(std::string("unknown_bracket"), at + "bracket"));
+    auto fast = height("all", 0.1);
+    fast.params.push_back({"speed_mps", 0.5});
+    EXPECT_EQ(refused(fast), std::pair(std::string("out_of_speed"), at + "speed_mps"));
+    EXPECT_EQ(refused({"lowerParking", {{"foot", std::string("fifth")}}}),
+              std::pair(std::string("unknown_foot"), at + "foot"));
+    EXPECT_TRUE(world.store.orders.empty()) << "nothing half done";
+    EXPECT_EQ(refused(height("front left", 0.1)).first, "");
+}
+
 }  // namespace
 }  // namespace pulseline::fleet::testing

@@ -93,7 +93,10 @@ TEST_F(OrderLoads, ALoadIsTakenOverBroughtAndSetDownByOneOrder) {
 
 TEST_F(OrderLoads, EachTransferHasALegOfItsOwnAndTheOthersAreDoneAroundIt) {
     NewOrder order = brings();
-    order.steps[0].before = {{"raiseParking", {}}, kPick, {"setBracketHeight", {}}};
+    order.steps[0].before = {
+        {"raiseParking", {}},
+        kPick,
+        {"setBracketHeight", {{"bracket", std::string("all")}, {"height_m", 0.2}}}};
     order.steps[0].after = {{"lowerParking", {}}, kDrop, {"raiseParking", {}}};
     const auto id = ordered(order).id;
     world.run(90);
