@@ -154,6 +154,12 @@ TEST_F(Interlocks, ALoadBesideTheLimitsOfItsTypeStaysAndTheChecksSayWhy) {
     EXPECT_EQ(check->params[1], (Param{"reason", std::string("load_outside_limits")}));
 }
 
+TEST_F(Interlocks, AWheelWhoseDriveHasAFaultKeepsItWhereItIs) {
+    auto& wheels = world.vehicle("V1").state.wheels;
+    wheels = {{"front left", 0, 0, 95, "servo_overtemperature"}};
+    expect_barred("wheel_fault", [&] { wheels = {{"front left", 0, 0, 60, ""}}; });
+}
+
 TEST_F(Interlocks, AtAMeasuredStationBothCamerasHaveToSeeTheirCodes) {
     const auto made = world.order("V1", {2});
     ASSERT_TRUE(made);

@@ -245,6 +245,18 @@ TEST_F(TwoLoads, NothingIsSetDownOrSaidToBeWhereAnotherOneIs) {
     EXPECT_EQ(refusal(kDrop), "");
 }
 
+TEST(LoadsOfTypes, WhatReachesBeyondItsUsualLoadIsNotPutOnIt) {
+    plant::Plant plant = with_load();
+    plant.loads.front().outline = geometry::rectangle(5, 5);
+    World world(plant);
+    world.connect_all();
+    world.run(1);
+    const auto placed = world.fleet->place_load(kJig, {kV2, {}}, "op", world.now);
+    ASSERT_FALSE(placed);
+    EXPECT_EQ(placed.error().reason.code, "load_too_large");
+    EXPECT_EQ(world.fleet->load(kJig)->station, kS1);
+}
+
 TEST(LoadsOfTypes, WhatIsNotForTheTypeOrTooLargeIsNotPutOnIt) {
     plant::Plant plant = with_load();
     auto other = plant.vehicle_types.front();
@@ -295,6 +307,9 @@ TEST(LoadsAndFloor, OneIsNotTakenOverAboveFloorOfAnother) {
     const auto held = world.fleet->move_lifts(kV1, kPick, "op", world.now);
     ASSERT_FALSE(held);
     EXPECT_EQ(held.error().reason.code, "floor_held");
+    const auto said = world.fleet->place_load(kJig, {kV1, {}}, "op", world.now);
+    ASSERT_FALSE(said);
+    EXPECT_EQ(said.error().reason.code, "floor_held");
     EXPECT_TRUE(world.fleet->vehicle(kV1, world.now)->carries.empty());
 }
 

@@ -56,10 +56,11 @@ private:
 class LoadHandlingTest : public ::testing::Test {
 protected:
     /// `hanging`: at the hoist; nothing: it is empty. `on_board`: carried from the beginning.
-    void build(std::optional<simulation::TrueLoad> hanging, double on_board_kg = 0) {
+    void build(std::optional<simulation::TrueLoad> hanging, double on_board_kg = 0,
+               double hoist_m = kHoist_m) {
         plant.stations.push_back({});
         plant.stations[0].id = plant::StationId("s0");
-        plant.stations[0].support = plant::Support{kHoist_m};
+        plant.stations[0].support = plant::Support{hoist_m};
         supports = std::make_shared<simulation::Supports>(plant, 1);
         supports->above({}, {})->load = std::move(hanging);
         machine = std::make_unique<FailsWhenStopped>(type, stands, std::vector<Pose2>{}, 90, 1,
@@ -184,6 +185,18 @@ TEST_F(LoadHandlingTest, GivesBackWhatWeighsOtherThanItWasTold) {
     ASSERT_TRUE(handling->failure());
     EXPECT_EQ(handling->failure()->substr(0, 12), "load_differs");
     EXPECT_TRUE(hoist().load);
+}
+
+TEST_F(LoadHandlingTest, GivesBackWhatItCannotRaiseFarEnough) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}}, 0,
+          type.bracket_lift.stroke_m - 0.012);  // a hoist gives 20 mm until it holds nothing
+    ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+    run();
+    ASSERT_TRUE(handling->failure());
+    EXPECT_EQ(handling->failure()->substr(0, 15), "load_not_lifted");
+    EXPECT_TRUE(hoist().load);
+    EXPECT_FALSE(handling->carries());
+    EXPECT_LT(height_m(), 0.001);
 }
 
 TEST_F(LoadHandlingTest, ComesDownAgainWhereNothingHangs) {
