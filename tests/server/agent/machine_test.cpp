@@ -3,9 +3,12 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <mutex>
+#include <random>
 #include <string>
 #include <thread>
 
@@ -103,6 +106,99 @@ TEST_F(ControllerTest, WantsToKnowWhoItIsAndSaysWhatItHas) {
     EXPECT_EQ(told.brackets.size(), 4u);
     EXPECT_EQ(told.feet.size(), 4u);
     EXPECT_EQ(told.cameras, (std::vector<std::string>{"front", "back"}));
+}
+
+/// A program that says anything at any time.
+class AnyProgram {
+public:
+    AnyProgram(std::uint64_t seed, Hello hello, std::size_t wheels)
+        : random_(seed), hello_(std::move(hello)), wheels_(wheels) {}
+
+    Frame next() {
+        switch (pick(30)) {
+            case 0:
+                return hello_;
+            case 1:
+                return Lift{number(), Lift::What(pick(5)), part(), anything(), speed()};
+            case 2:
+                return Lift{number(), Lift::What::kBracketHeight, part(), 0.05, {}};
+            case 3:
+                return pick(3) == 0 ? Frame(StopLifts{}) : Frame(Look{number()});
+            case 4:
+                return SwitchOff{static_cast<std::uint8_t>(pick(8))};
+            case 5:
+                return pick(60) == 0 ? Frame(Expose{number(), static_cast<std::uint8_t>(pick(3))})
+                                     : Frame(Look{number()});
+            case 6:
+                return pick(10) == 0 ? Frame(Feedback{}) : points();
+            default:
+                return points();
+        }
+    }
+
+private:
+    std::uint32_t pick(std::uint32_t below) {
+        return static_cast<std::uint32_t>(random_() % below);
+    }
+    std::uint32_t number() { return static_cast<std::uint32_t>(random_()); }
+    std::optional<std::uint8_t> part() {
+        return pick(3) == 0 ? std::nullopt : std::optional(static_cast<std::uint8_t>(pick(6)));
+    }
+    std::optional<double> speed() {
+        return pick(2) == 0 ? std::nullopt : std::optional(anything());
+    }
+    double anything() {
+        constexpr double kValues[] = {0, -1, 0.1, -0.3, 1e-9, 3, 1e6, -1e6, 1e300};
+        return kValues[pick(9)];
+    }
+    Frame points() {
+        SetPoints points;
+        points.cycle = number();
+        points.mode = Mode(pick(3));
+        const std::size_t count = points.mode == Mode::kBraked ? 0 : wheels_;
+        points.wheels.resize(pick(50) == 0 ? pick(9) : count);
+        const double mps = pick(20) == 0 ? anything() : 0.3;
+        for (auto& wheel : points.wheels) wheel = {mps, pick(20) == 0 ? anything() : 0};
+        return points;
+    }
+
+    std::mt19937_64 random_;
+    Hello hello_;
+    std::size_t wheels_;
+};
+
+TEST_F(ControllerTest, WhateverAProgramSaysIsAnsweredOnceAndItStaysWhole) {
+    int driven = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        AnyProgram program(seed, hello(), type.wheels.size());
+        for (int i = 0; i < 2000; ++i) {
+            const Frame frame = program.next();
+            const auto answers = controller.handle(frame);
+            const auto count = [&](auto is) { return std::ranges::count_if(answers, is); };
+            const auto refused =
+                count([](const Frame& f) { return f.index() == Frame(Refused{}).index(); });
+            ASSERT_LE(refused, 1);
+            if (const auto* points = std::get_if<SetPoints>(&frame); points && refused == 0) {
+                ASSERT_EQ(count([&](const Frame& f) {
+                              const auto* told = std::get_if<Feedback>(&f);
+                              return told != nullptr && told->cycle == points->cycle;
+                          }),
+                          1);
+            }
+            for (const Frame& answer : answers) {
+                ASSERT_TRUE(decode(encode(answer))) << "seed " << seed << ", frame " << i;
+            }
+            driven += controller.braked() ? 0 : 1;
+            if (refused == 1) controller.part();
+            if (i % 97 == 0) controller.wait(0.2);
+            const auto& pose = controller.true_pose();
+            ASSERT_TRUE(std::isfinite(pose.x_m + pose.y_m + pose.heading_rad))
+                << "seed " << seed << ", frame " << i;
+        }
+        controller.part();
+        EXPECT_TRUE(controller.braked());
+    }
+    EXPECT_GT(driven, 2000) << "else it was hardly talked with";
 }
 
 TEST_F(ControllerTest, DrivesWhatItIsToldAndBrakesWhenNobodyTells) {
