@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { gunzipSync } from "node:zlib";
 import { BUILD } from "../harness/processes.mjs";
 
-// Recorded on 2026-11-29, after a loaded vehicle may go from wherever its way was cut off. A change that is meant to change
+// Recorded on 2026-11-30, after feet stay where they are with a weight that nobody knows. A change that is meant to change
 // what the fleet does, or the form of a snapshot, needs a new recording of the program before it: tests/tools/record_journal.mjs.
 test("a recorded journal is replayed to the same snapshots and events", () => {
   const file = join(mkdtempSync(join(tmpdir(), "pulseline-recorded-")), "p.db");
