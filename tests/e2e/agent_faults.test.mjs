@@ -41,7 +41,7 @@ async function shown(id, priority, tell) {
     const [headline, todo] = tell[lang];
     const page = await pageOf(width, height, lang);
     await page.goto(`${system.url}/vehicles/${id}`);
-    if (width < 1280) {
+    if (width < 1536) {
       await page.locator(".whyl b", { hasText: headline }).waitFor();
       await page.getByRole("tab", { name: lang === "en" ? "Why and pose" : /原因/ }).click();
     } else await page.locator(".why .ans1", { hasText: headline }).waitFor();

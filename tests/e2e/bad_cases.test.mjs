@@ -24,7 +24,7 @@ async function standing(t, { world: change, faults, timeFactor = 6 } = {}) {
   const machine = await system.startMachine(kId, { seed: 22, faults, ...(change && { world: writeWorld(system, change) }) });
   system.startAgent(kId, { seed: 22, timeFactor, extra: ["--machine", `tcp://${system.host}:${machine.port}`, "--machine-watchdog-s", "3"] });
   await client.untilReady(kId);
-  const page = await signedIn(browser, system, "operator", { path: `/vehicles/${kId}`, width: 1280, height: 900 });
+  const page = await signedIn(browser, system, "operator", { path: `/vehicles/${kId}`, width: 1600, height: 900 });
   t.after(() => page.context().close());
   const card = page.locator(".lifts");
   await card.waitFor();

@@ -43,7 +43,7 @@ for (const [lang, theme, width, height, says] of [
     assert.ok(choice, "free floor between shelves and bays has no codes");
     const page = await signedIn(browser, system, "operator", { lang, theme, width, height });
     await page.goto(`${system.url}/send?vehicle=${ID}&station=${choice.station}`);
-    if (width < 1280) await page.locator(".s3 .chg").click();  // the steps are folded there
+    if (width < 1536) await page.locator(".s3 .chg").click();  // the steps are folded there
     await page.locator(`.mode[data-mode=${choice.mode}]`).click();
     await page.locator(".checks .chk[data-result=note]", { hasText: says }).waitFor({ timeout: 20_000 });
     await picture(page, `send-blind-${width}-${lang}`);

@@ -28,7 +28,7 @@ for (const [lang, theme, width, height] of SIZES) {
     const page = await signedIn(browser, cell, "operator", { lang, theme, width, height });
     await page.goto(`${cell.url}/vehicles/OM-01`);
     // Where there is no room for all cards they are behind tabs.
-    if (width < 1280) await page.getByRole("tab", { name: lang === "en" ? /Why and pose/ : /原因与位姿/ }).click();
+    if (width < 1536) await page.getByRole("tab", { name: lang === "en" ? /Why and pose/ : /原因与位姿/ }).click();
     const [basis, light] = said[lang];
     await page.locator("[data-basis=receivers]", { hasText: basis }).waitFor({ timeout: 15_000 });
     await page.locator("[data-light=all]", { hasText: light }).waitFor({ timeout: 15_000 });

@@ -39,7 +39,7 @@ for (const [lang, theme] of [["en", "light"], ["zh", "dark"]]) {
     const page = await signedIn(browser, system, "operator", { path: `/vehicles/${ID}`, lang, theme });
     for (const width of [1920, 1024]) {
       await page.setViewportSize({ width, height: 1080 });
-      if (width < 1280) await page.getByRole("tab").nth(2).click();
+      if (width < 1536) await page.getByRole("tab").nth(2).click();
       await page.locator(".whycard", { hasText: lang === "en" ? "It does not know where it stands" : "不知道自身位置" }).waitFor();
       assert.ok(await canBePressed(page.locator(".init button.cmd")), `at ${width} px`);
       await picture(page, `lost-${lang}-${width}`);

@@ -107,7 +107,7 @@ function brokenWords(page) {
 
 test("battery, fields and mode of a vehicle stay at every width", async () => {
   const page = await signedIn(browser, system, "operator", { path: "/vehicles/TP-01" });
-  for (const width of [1920, 1280, 1279, 1024, 720, 719, 390, 360]) {
+  for (const width of [1920, 1536, 1535, 1280, 1024, 720, 719, 390, 360]) {
     await page.setViewportSize({ width, height: 800 });
     for (const words of [/^\d+ %$/, "Fields clear", "Automatic"]) {
       const chip = page.locator(".vhead .chip", { hasText: words });
@@ -132,7 +132,7 @@ test("Pause fleet is in its corner, and the language in reach, at every width, w
         await page.evaluate(() => dispatchEvent(new Event("offline")));
         await page.locator(".app[data-link=lost]").waitFor({ timeout: 15_000 });
       }
-      for (const width of [1920, 1280, 1279, 1024, 960, 959, 840, 839, 768, 720, 719, 390, 360]) {
+      for (const width of [1920, 1536, 1535, 1280, 1024, 960, 959, 840, 839, 768, 720, 719, 390, 360]) {
         await page.setViewportSize({ width, height: 800 });
         const right = await page.locator("button.pause").evaluate((e) => e.getBoundingClientRect().right - innerWidth);
         assert.ok(Math.abs(right) <= 0.5, `${lang}, ${link}, ${width} px: Pause fleet ends ${right} px beside the edge`);
@@ -153,7 +153,7 @@ test("the longest numbers of a pose leave the columns apart", async () => {
   const page = await signedIn(browser, system, "operator", { path: "/vehicles/MV-01" });
   for (const width of [1920, 1280, 1024, 390]) {
     await page.setViewportSize({ width, height: 1080 });
-    if (width < 1280) await page.getByRole("tab", { name: "Why and pose" }).click();
+    if (width < 1536) await page.getByRole("tab", { name: "Why and pose" }).click();
     await page.locator(".pvs", { hasText: "114,600" }).waitFor();
     const touching = await page.locator(".pvs .value").evaluateAll((all) => all.filter((e) => {
       const end = Math.max(...[...e.querySelectorAll(".val > *")].map((part) => part.getBoundingClientRect().right));

@@ -103,7 +103,7 @@ test("stops of less than a millimetre are shown close up, with words and a pictu
     assert.ok(Math.abs((await drawn()).share - reach / 30) < 0.02, "the same stops, as small as they are against the tolerance");
     await picture(page, `record-tolerance-${width}-${theme}-${lang}`);
 
-    if (width < 1280) await page.getByRole("tab").last().click();
+    if (width < 1536) await page.getByRole("tab").last().click();
     const trend = page.locator(".trds");
     await pressed(trend, tolerance).waitFor();
     await trend.getByRole("button", { name: close }).click();

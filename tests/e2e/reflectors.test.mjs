@@ -29,7 +29,7 @@ for (const [lang, theme, width, height, basis, seen] of [
     const page = await signedIn(browser, hall, "operator", { lang, theme, width, height });
     await page.goto(`${hall.url}/vehicles/${ID}`);
     // Where there is no room for all cards they are behind tabs.
-    if (width < 1280) await page.getByRole("tab", { name: lang === "en" ? /Why and pose/ : /原因与位姿/ }).click();
+    if (width < 1536) await page.getByRole("tab", { name: lang === "en" ? /Why and pose/ : /原因与位姿/ }).click();
     await page.locator("[data-basis=reflectors]", { hasText: basis }).waitFor({ timeout: 15_000 });
     await page.locator("[data-reflectors]", { hasText: seen }).waitFor({ timeout: 15_000 });
     await picture(page, `reflectors-vehicle-${width}-${lang}`);

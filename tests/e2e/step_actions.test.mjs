@@ -124,7 +124,7 @@ for (const { width, height, lang, theme } of kWays) {
     const words = kSend[lang];
     const page = await signedIn(browser, system, "operator", { path: "/send", width, height, lang, theme, bypassCSP: true });
     await page.goto(`${system.url}/send?vehicle=${kId}&station=1`);
-    if (width < 1280) await page.locator(".s3 .chg").click({ timeout: 20_000 });
+    if (width < 1536) await page.locator(".s3 .chg").click({ timeout: 20_000 });
     const set = page.getByLabel(words.set), feet = page.getByLabel(words.feet);
     await set.waitFor({ timeout: 20_000 });
     assert.deepEqual([await set.isChecked(), await feet.isChecked()], [false, false]);
@@ -133,7 +133,7 @@ for (const { width, height, lang, theme } of kWays) {
     await looksRight(page, `step-actions-send-${width}-${lang}`);
 
     await page.goto(`${system.url}/send?vehicle=${kId}&station=6`);
-    if (width < 1280) await page.locator(".s3 .chg").click();
+    if (width < 1536) await page.locator(".s3 .chg").click();
     await feet.waitFor();
     await until("station 6 parks", () => feet.isChecked(), { timeout_s: 10 });
     assert.equal(await set.count(), 0, "nothing holds a load there");
@@ -178,7 +178,7 @@ for (const { width, height, lang, theme } of kWays) {
     const words = kBrackets[lang];
     const page = await signedIn(browser, system, "operator", { path: "/send", width, height, lang, theme, bypassCSP: true });
     await page.goto(`${system.url}/send?vehicle=${kId}&station=2`);
-    if (width < 1280) await page.locator(".s3 .chg").click({ timeout: 20_000 });
+    if (width < 1536) await page.locator(".s3 .chg").click({ timeout: 20_000 });
     await page.getByLabel(words.move).check({ timeout: 20_000 });
     const field = page.locator(".bheight input");
     await field.fill("301");

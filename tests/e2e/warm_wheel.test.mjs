@@ -86,7 +86,7 @@ test("a wheel whose bearing grinds: cool at first, then warm on faceplate, in li
     assert.equal(await page.locator(".wl.adv2").count(), 1, "the other wheel is cool");
     await until("it is counted", async () => (await counted(page)) === cool[i] + 1, { timeout_s: 10, every_ms: 50 });
     await picture(page, `warm-wheel-${width}-${lang}`);
-    if (width < 1280) await page.getByRole("tab", { name: lang === "en" ? "Why and pose" : /原因/ }).click();
+    if (width < 1536) await page.getByRole("tab", { name: lang === "en" ? "Why and pose" : /原因/ }).click();
     await page.locator(".why", { hasText: wheel }).waitFor();
     await page.locator(".why .todo", { hasText: todo }).waitFor();
     await page.goto(`${system.url}/map`);

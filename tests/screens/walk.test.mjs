@@ -1,6 +1,6 @@
-// Every screen on a wall screen, a tablet and a phone, in both languages and themes, in a hall full of trouble: nothing out of reach,
+// Every screen on a wall screen, a laptop, a tablet and a phone, in both languages and themes, in a hall full of trouble: nothing out of reach,
 // nothing that axe finds, no console error, and no word that is no person's or is of the other language, on the map's canvas neither.
-// PULSELINE_WALK=full asks axe about each screen in each language and theme, else in one of the four a size, in turn, so that the three
+// PULSELINE_WALK=full asks axe about each screen in each language and theme, else in one of the four a size, in turn, so that the
 // sizes together have both of each.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
@@ -13,7 +13,8 @@ import { pausedScreens, screensOf } from "./walk_screens.mjs";
 
 const kFull = process.env.PULSELINE_WALK === "full";
 const kOnly = process.env.PULSELINE_WALK_ONLY && new RegExp(process.env.PULSELINE_WALK_ONLY); // for who mends one screen
-const kSizes = [[1920, 1080], [1024, 768], [390, 844]];
+const kOnlyWidth = Number(process.env.PULSELINE_WALK_WIDTH ?? 0);
+const kSizes = [[1920, 1080], [1280, 800], [1024, 768], [390, 844]].filter(([width]) => kOnlyWidth === 0 || width === kOnlyWidth);
 const kLooks = [["en", "light"], ["zh", "dark"], ["en", "dark"], ["zh", "light"]];
 
 let hall, browser, allowed;
@@ -141,8 +142,7 @@ test("the fleet is paused", async () => {
 });
 kSizes.forEach(([width, height], size) => test(`the paused fleet at ${width} x ${height}`, () => walk(size, pausedScreens(hall))));
 
-for (const [size, [lang, theme]] of [[0, ["en", "dark"]], [1, ["zh", "light"]], [2, ["zh", "dark"]], [2, ["en", "light"]]]) {
-  const [width, height] = kSizes[size];
+for (const [[width, height], [lang, theme]] of kSizes.map((size, i) => [size, kLooks[i]])) {
   test(`sign-in at ${width} x ${height}, ${lang}, ${theme}`, async () => {
     const page = await (await browser.newContext({ viewport: { width, height } })).newPage();
     await page.goto(`${hall.system.url}/orders?lang=${lang}&theme=${theme}`);

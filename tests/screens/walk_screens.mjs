@@ -1,7 +1,7 @@
 // Every screen of the dashboard as a person comes to it: an address, and what is pressed there.
 
 const kTabs = ["loads", "cameras", "why", "stops"];
-const isNarrow = (page) => page.viewportSize().width < 1280;
+const isNarrow = (page) => page.viewportSize().width < 1536;
 const press = (page, selector) => page.locator(selector).first().click();
 
 /** Arms a command and keeps it so: it falls back after eight seconds, and a look may take longer. */

@@ -13,7 +13,7 @@ import {
 import { MapView } from "@/shared/map";
 import { Link } from "@/shared/router";
 import { Card, Chip, PanelEmpty, PanelLoading, StatusSymbol, VehicleMini } from "@/shared/ui";
-import { useNarrow } from "@/shared/ui/useNarrow";
+import { useNarrow, useTight } from "@/shared/ui/useNarrow";
 import { fixed, kNone } from "@/shared/words/format";
 import { DriveDesk } from "./DriveDesk";
 import { NextSteps } from "./NextSteps";
@@ -46,6 +46,7 @@ function Drive({ vehicle }: { vehicle: Vehicle }) {
   const { control, state } = useHandHeld(vehicle.id);
   const { pose } = useHeard(vehicle);
   const narrow = useNarrow();
+  const tight = useTight();
   const way = plant !== undefined && <TargetCard vehicle={vehicle} plant={plant} />;
   const old = useLinkLost() || stale(vehicle);
   const about =
@@ -97,11 +98,11 @@ function Drive({ vehicle }: { vehicle: Vehicle }) {
         )}
         <div className="driveside">
           <NextSteps vehicle={vehicle} type={type} order={order} control={control} state={state} />
-          {narrow && way}
+          {tight && way}
         </div>
       </div>
       <DriveDesk control={control} state={state} vehicle={vehicle} type={type}>
-        {!narrow && way}
+        {!tight && way}
       </DriveDesk>
     </>
   );

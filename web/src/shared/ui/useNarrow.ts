@@ -1,7 +1,8 @@
 import { useSyncExternalStore } from "react";
 
 const media = (query: string) => (typeof window === "undefined" ? undefined : window.matchMedia(query));
-const tablet = media("(max-width: 1279px)");
+const desk = media("(max-width: 1599px)");
+const tablet = media("(max-width: 1535px)");
 const phone = media("(max-width: 719px)");
 
 function useMatches(query: MediaQueryList | undefined): boolean {
@@ -14,8 +15,11 @@ function useMatches(query: MediaQueryList | undefined): boolean {
   );
 }
 
-/** True on tablets and phones, where one thing is shown at a time. */
+/** True on laptops, tablets and phones, where one thing is shown at a time. */
 export const useNarrow = (): boolean => useMatches(tablet);
+
+/** True where no third column fits. */
+export const useTight = (): boolean => useMatches(desk);
 
 /** True on phones, where all stands in one column. */
 export const usePhone = (): boolean => useMatches(phone);

@@ -16,7 +16,7 @@ export interface StepProps {
   children: ReactNode;
 }
 
-/** One numbered step of the page. Below 1280 px only the open one shows its body. */
+/** One numbered step of the page. Below 1536 px only the open one shows its body. */
 export function Step({ number, title, answer, right, open, onOpen, onNext, className, children }: StepProps) {
   const { t } = useTranslation("send");
   return (
