@@ -82,6 +82,14 @@ void refuse_foreign(soci::session& sql, const std::string& path) {
                 path + ": this is a database of another program; name another file.");
 }
 
+void refuse_newer(int found, const std::string& path) {
+    if (found <= kVersion) return;
+    throw Error(Error::Kind::kTooNew, path + ": made by a newer program (version " +
+                                          std::to_string(found) + ", this one knows " +
+                                          std::to_string(kVersion) +
+                                          "); install that program or restore a backup.");
+}
+
 sqlite_api::sqlite3* handle(soci::session& sql) {
     return static_cast<soci::sqlite3_session_backend*>(sql.get_backend())->conn_;
 }
@@ -166,12 +174,7 @@ int Database::version() { return pragma(sql_, "user_version"); }
 
 void Database::migrate() {
     const int found = version();
-    if (found > kVersion) {
-        throw Error(Error::Kind::kTooNew, path_ + ": made by a newer program (version " +
-                                              std::to_string(found) + ", this one knows " +
-                                              std::to_string(kVersion) +
-                                              "); install that program or restore a backup.");
-    }
+    refuse_newer(found, path_);
     for (int next = found; next < kVersion; ++next) {
         soci::transaction transaction(sql_);
         run_script(sql_, kMigrations[static_cast<std::size_t>(next)]);
@@ -210,6 +213,21 @@ Error failure(const std::string& path, const soci::soci_error& error) {
     return {Error::Kind::kFailed, what + "Check the free space and the disk."};
 }
 
-ReadOnly::ReadOnly(const std::string& path) : path_(path) { open(sql_, path, " readonly=true"); }
+ReadOnly::ReadOnly(const std::string& path) : path_(path) {
+    open(sql_, path, " readonly=true");
+    try {
+        refuse_foreign(sql_, path_);
+        const int found = pragma(sql_, "user_version");
+        refuse_newer(found, path_);
+        if (found == kVersion) return;
+        throw Error(Error::Kind::kUnusable,
+                    path_ + ": made by an older program (version " + std::to_string(found) +
+                        ", this one knows " + std::to_string(kVersion) +
+                        "); read it with that program, or let `pulseline serve` bring it to the "
+                        "newest version.");
+    } catch (const soci::soci_error& error) {
+        throw Error(Error::Kind::kUnusable, path_ + ": " + error.what() + ". " + kRemedy);
+    }
+}
 
 }  // namespace pulseline::db

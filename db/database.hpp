@@ -48,7 +48,8 @@ private:
     soci::session sql_;
 };
 
-/// A connection that cannot write (SQLITE_OPEN_READONLY). The file must exist.
+/// A connection that cannot write (SQLITE_OPEN_READONLY), nor bring the file to the newest version:
+/// that must exist and be of it. Throws db::Error (unusable, made by a newer program).
 /// Thread safety: none; give each thread its own.
 class ReadOnly {
 public:

@@ -179,34 +179,30 @@ bool wheels_allow(const VehicleType& type, MotionMode mode) {
 /// Parts of a vehicle that are told apart by their names.
 template <class T>
 void check_own_names(const std::vector<T>& parts, const std::string& list, const std::string& kind,
-                     const char* remedy, Faults& faults) {
+                     const std::string& such, Faults& faults) {
     std::set<std::string> names;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         if (!parts[i].name.empty() && names.insert(parts[i].name).second) continue;
         faults.add(list + "/" + std::to_string(i) + "/name", "duplicate_" + kind,
-                   "The " + kind + " has no name of its own.", remedy);
+                   "The " + kind + " has no name of its own.",
+                   "Name it by its place, such as \"" + such + "\".");
     }
 }
 
 void check_type_names(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.vehicle_types.size(); ++i) {
         const VehicleType& type = plant.vehicle_types[i];
-        check_own_names(type.wheels, at("vehicle_types", i, "/wheels"), "wheel",
-                        "Name it by its place, such as \"FL\".", faults);
-        check_own_names(type.casters, at("vehicle_types", i, "/casters"), "caster",
-                        "Name it by its place, such as \"front left\".", faults);
-        check_own_names(type.brackets, at("vehicle_types", i, "/brackets"), "bracket",
-                        "Name it by its place, such as \"front left\".", faults);
-        if (type.parking) {
-            check_own_names(type.parking->feet, at("vehicle_types", i, "/parking/feet"), "foot",
-                            "Name it by its place, such as \"front left\".", faults);
-        }
-        check_own_names(type.cameras, at("vehicle_types", i, "/cameras"), "camera",
-                        "Name it by its place, such as \"front\".", faults);
-        check_own_names(type.receivers, at("vehicle_types", i, "/receivers"), "receiver",
-                        "Name it by its place, such as \"front left\".", faults);
-        check_own_names(type.scanners, at("vehicle_types", i, "/scanners"), "scanner",
-                        "Name it by its place, such as \"front left\".", faults);
+        const auto own = [&](const auto& parts, const char* list, const char* kind,
+                             const char* such = "front left") {
+            check_own_names(parts, at("vehicle_types", i, list), kind, such, faults);
+        };
+        own(type.wheels, "/wheels", "wheel", "FL");
+        own(type.casters, "/casters", "caster");
+        own(type.brackets, "/brackets", "bracket");
+        if (type.parking) own(type.parking->feet, "/parking/feet", "foot");
+        own(type.cameras, "/cameras", "camera", "front");
+        own(type.receivers, "/receivers", "receiver");
+        own(type.scanners, "/scanners", "scanner");
         if (type.motion_modes.empty()) {
             faults.add(at("vehicle_types", i, "/motion_modes"), "no_motion_mode",
                        "The type allows no motion mode, so it can never move.",

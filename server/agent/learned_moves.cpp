@@ -77,8 +77,7 @@ Result<control::MotionCompensation> decode(const std::string& text) {
 }  // namespace
 
 LearnedMoves::LearnedMoves(const std::filesystem::path& folder, const std::string& vehicle)
-    : file_(folder / (vehicle + ".moves.json")),
-      transfer_file_(folder / (vehicle + ".transfer.json")) {
+    : file_(folder / (vehicle + ".moves.json")) {
     std::error_code unwritable;  // save() says so
     std::filesystem::create_directories(folder, unwritable);
 }
@@ -98,30 +97,6 @@ Status LearnedMoves::save(const control::MotionCompensation& compensation) const
     Json passes = Json::array();
     for (const DrivenPass& pass : compensation.passes()) passes.push_back(encode(pass));
     return api::plant_file::write_file(file_, Json{{"passes", std::move(passes)}}.dump() + "\n");
-}
-
-std::optional<double> LearnedMoves::begun_transfer_kg() const {
-    std::ifstream file(transfer_file_, std::ios::binary);
-    if (!file) return std::nullopt;
-    const auto parsed = json::parse_json(std::string(std::istreambuf_iterator<char>(file), {}));
-    if (!parsed) return 0;
-    json::FieldErrors errors;
-    json::ObjectReader in(*parsed, "", errors);
-    const double load_kg = in.number("load_kg");
-    return errors.empty() ? load_kg : 0;
-}
-
-Status LearnedMoves::keep_transfer(const std::optional<double>& begun_kg) const {
-    if (begun_kg) {
-        return api::plant_file::write_file(transfer_file_,
-                                           Json{{"load_kg", *begun_kg}}.dump() + "\n");
-    }
-    std::error_code failed;
-    std::filesystem::remove(transfer_file_, failed);
-    if (!failed) return {};
-    return fail(Errc::kUnavailable, "file_unwritable",
-                "cannot remove " + transfer_file_.string() + ": " + failed.message(), {},
-                {{"file", transfer_file_.string()}});
 }
 
 }  // namespace pulseline::agent

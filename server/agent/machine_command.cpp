@@ -262,13 +262,8 @@ int machine_command(int argc, char** argv) {
     app.add_option("--errors", options.errors,
                    "how well the simulated machine and floor are kept: nominal, kind, harsh")
         ->check(CLI::IsMember({"nominal", "kind", "harsh"}));
-    app.add_option(
-        "--fault", options.faults,
-        "for tests: wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-        "camera-dark, "
-        "look-out-covered, obstacle=X,Y, way-free, carried=AHEAD,LEFT,DEGREES, "
-        "bracket-off=NAME:METRES or pit=FOOT, each with "
-        "@SECONDS or without, and behind driving: or not");
+    app.add_option("--fault", options.faults,
+                   std::string("for tests, of what a machine over TCP has: ") + kFaultForms);
     app.add_option("--truth-log", options.truth_log, "file for the true poses (JSON lines)");
     app.add_option("--pictures", options.pictures,
                    "folder for its cameras' pictures, NAME.pgm, for --camera NAME=file:...");

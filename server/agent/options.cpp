@@ -184,13 +184,8 @@ Result<ServerAddress> parse_server(const std::string& url) {
 
 Result<Fault> parse_fault(const std::string& text) {
     const auto bad = [&] {
-        return fail(
-            Errc::kInvalid, "bad_fault",
-            "fault \"" + text +
-                "\" must be wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, "
-                "camera-dark, transmitter-dark=NAME, scanner-covered, look-out-covered, "
-                "obstacle=X,Y, way-free, carried=AHEAD,LEFT,DEGREES, bracket-off=NAME:METRES or "
-                "pit=FOOT, each with @SECONDS or without, and behind driving: or not");
+        return fail(Errc::kInvalid, "bad_fault",
+                    "fault \"" + text + "\" must be one of " + kFaultForms);
     };
     Fault fault;
     std::string what = text;
@@ -351,14 +346,7 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code) {
                    "folder in which vehicles keep what they learn of their small moves");
     app.add_flag("--insecure", options.insecure, "accept any TLS certificate");
     app.add_option("--ca", options.ca_file, "PEM file of the authority to trust");
-    app.add_option(
-        "--fault", raw.faults,
-        "for tests: wheel=NAME@SECONDS, bearing=NAME@SECONDS, slip=NAME:SHARE@SECONDS, "
-        "encoder=NAME@SECONDS, marker-lost@SECONDS, camera-dark@SECONDS, "
-        "transmitter-dark=NAME@SECONDS, scanner-covered@SECONDS, obstacle=X,Y@SECONDS, "
-        "look-out-covered@SECONDS, way-free@SECONDS, carried=AHEAD,LEFT,DEGREES@SECONDS, "
-        "bracket-off=NAME:METRES@SECONDS, pit=FOOT@SECONDS; "
-        "behind driving: each waits until it drives fast the next time");
+    app.add_option("--fault", raw.faults, std::string("for tests: ") + kFaultForms);
     try {
         app.parse(argc, argv);
         if (raw.vehicle.empty() && raw.vehicle_list.empty()) {

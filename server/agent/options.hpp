@@ -85,6 +85,12 @@ std::optional<Options> read_options(int argc, char** argv, int& exit_code);
 
 /// "ws://host:port" or "wss://host:port"; a port is optional.
 [[nodiscard]] Result<ServerAddress> parse_server(const std::string& url);
+/// All that parse_fault() reads, for people.
+inline constexpr const char* kFaultForms =
+    "wheel=NAME, bearing=NAME, encoder=NAME, slip=NAME:SHARE, marker-lost, camera-dark, "
+    "transmitter-dark=NAME, scanner-covered, look-out-covered, obstacle=X,Y, way-free, "
+    "carried=AHEAD,LEFT,DEGREES, bracket-off=NAME:METRES and pit=FOOT, each with @SECONDS or "
+    "without, and behind driving: (it waits until the vehicle drives fast) or not";
 /// "wheel=FL@20", "slip=FL:0.2@20", "encoder=FL@20" or "marker-lost@5"; "@SECONDS" is optional.
 [[nodiscard]] Result<Fault> parse_fault(const std::string& text);
 /// "NAME=v4l2:DEVICE" or "NAME=file:PATH".

@@ -74,10 +74,8 @@ SimulatedMachine::SimulatedMachine(const simulation::World& world, const plant::
 
 void SimulatedMachine::step(double dt_s) {
     body_.step(dt_s);
-    if (auto* servo = dynamic_cast<simulation::ServoDrive*>(drive_.get())) {
-        for (std::size_t i = 0; i < type_.wheels.size(); ++i) {
-            servo->set_hot(i, body_.heat().is_off(i));
-        }
+    for (std::size_t i = 0; i < type_.wheels.size(); ++i) {
+        drive_->set_hot(i, body_.heat().is_off(i));
     }
     equipment_.step(dt_s, std::abs(drive_->velocity_mps()) * dt_s);
     if (std::exchange(load_kg_, equipment_.load_kg()) != load_kg_) drive_->set_load(load_kg_);

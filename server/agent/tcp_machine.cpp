@@ -1,7 +1,6 @@
 #include "server/agent/tcp_machine.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -9,279 +8,21 @@
 #include "core/base/params.hpp"
 #include "core/vda5050/actions.hpp"
 #include "server/agent/body_status.hpp"
-#include "server/base/log.hpp"
 
 namespace pulseline::agent {
 namespace {
 
 using namespace machine;
-using namespace std::chrono_literals;
 using kinematics::WheelMotion;
 using onboard::Wheels;
 
-constexpr auto kReach = 2s;
-constexpr auto kPictureTime = 2s;  // exposed and carried over
-constexpr auto kScanTime = 1s;
-constexpr double kAgain_s = 1;               // between two tries to reach it
-constexpr std::uint32_t kScanCycles = 4;     // between two turns, while somebody looks at them
-constexpr std::uint32_t kFreshCycles = 6;    // older than that a turn is waited for
-constexpr std::uint32_t kLookedCycles = 50;  // nobody has looked for so long: no more are asked for
 constexpr std::string_view kAllParts = "all";
-
-Status same_names(const char* part, const std::vector<std::string>& told,
-                  const std::vector<std::string>& wanted) {
-    if (told == wanted) return {};
-    const auto list = [](const std::vector<std::string>& names) {
-        std::string text;
-        for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-        return text;
-    };
-    return fail(Errc::kConflict, "machine_not_of_type",
-                std::string("The machine has other ") + part + " than its type in the plant: " +
-                    list(told) + " instead of " + list(wanted) + ".",
-                {}, {{"part", part}, {"told", list(told)}, {"wanted", list(wanted)}});
-}
-
-template <class Part>
-std::vector<std::string> names_of(const std::vector<Part>& parts) {
-    std::vector<std::string> names;
-    for (const auto& part : parts) names.push_back(part.name);
-    return names;
-}
-
-std::vector<std::string> feet_of(const plant::VehicleType& type) {
-    return type.parking ? names_of(type.parking->feet) : std::vector<std::string>{};
-}
-
-/// `pictured`: the cameras that the machine takes pictures of; it may name the others, too.
-Status is_of_type(const Description& told, const plant::VehicleType& type,
-                  const std::vector<std::string>& pictured) {
-    if (auto same = same_names("wheels", told.wheels, names_of(type.wheels)); !same) return same;
-    if (auto same = same_names("brackets", told.brackets, names_of(type.brackets)); !same)
-        return same;
-    if (auto same = same_names("feet", told.feet, feet_of(type)); !same) return same;
-    const auto all = names_of(type.cameras);
-    const auto& cameras = told.cameras == pictured ? pictured : all;
-    if (auto same = same_names("cameras", told.cameras, cameras); !same) return same;
-    return same_names("scanners", told.scanners, names_of(type.scanners));
-}
 
 }  // namespace
 
-/// The line to the machine with what it has told last, and its coming back.
-class TcpMachine::Controller {
-public:
-    Controller(MachineAddress address, const plant::VehicleType& type, const Settings& settings)
-        : address_(std::move(address)),
-          type_(type),
-          watchdog_s_(settings.watchdog_s),
-          pictured_(names_of(type.cameras)) {
-        for (std::size_t i = 0; i < settings.sources.size(); ++i) {
-            if (settings.sources[i]) std::erase(pictured_, type.cameras[i].name);
-        }
-    }
-
-    Status reach() {
-        auto link = MachineLink::open(address_, kReach);
-        if (!link) return fail(link.error());
-        Hello hello;
-        hello.cycle_s = type_.control.cycle_s;
-        hello.watchdog_s = watchdog_s_;
-        for (const auto& axis : plant::axes_of(type_)) {
-            hello.axes.push_back({axis.name, axis.position_gain_per_s});
-        }
-        if (auto sent = link->send(hello); !sent) return sent;
-        auto answer = link->receive(kReach);
-        if (!answer) return fail(answer.error());
-        if (const auto* refused = std::get_if<Refused>(&*answer)) {
-            return fail(Errc::kConflict, "machine_refused",
-                        "The machine refuses: " + refused->why + ".", {}, {{"why", refused->why}});
-        }
-        const auto* description = std::get_if<Description>(&*answer);
-        if (description == nullptr) {
-            return fail(Errc::kConflict, "machine_refused", "The machine does not say what it is.",
-                        {}, {{"why", "no description"}});
-        }
-        if (description->version != kVersion) {
-            const auto why = "it speaks version " + std::to_string(description->version);
-            return fail(Errc::kConflict, "machine_refused", "The machine refuses: " + why + ".", {},
-                        {{"why", why}});
-        }
-        if (auto same = is_of_type(*description, type_, pictured_); !same) return same;
-        cameras_ = description->cameras;
-        dead_cycles_ = description->dead_cycles;
-        link_.emplace(std::move(*link));
-        exchange(Mode::kBraked, {});
-        return lost() ? fail(Errc::kConflict, "machine_silent", "The machine does not answer.")
-                      : Status{};
-    }
-
-    /// One cycle. Without an answer in the watchdog's time the line counts as lost.
-    void exchange(Mode mode, std::span<const WheelMotion> wanted) {
-        ++cycles_;
-        if (!link_) return;
-        SetPoints points;
-        points.cycle = ++number_;
-        points.mode = mode;
-        for (const auto& wheel : wanted)
-            points.wheels.push_back({wheel.speed_mps, wheel.angle_rad});
-        if (!say(points)) return;
-        // Asked for beforehand, a turn is there when it is looked at, and no cycle waits for it.
-        if (looked_at_ && number_ - *looked_at_ < kLookedCycles && number_ % kScanCycles == 0)
-            ask_to_look();
-        const auto answer_time = std::chrono::duration_cast<MachineLink::Duration>(
-            std::chrono::duration<double>(watchdog_s_));
-        while (link_) {
-            auto frame = hear(answer_time);
-            if (!frame) return;
-            auto* told = std::get_if<Feedback>(&*frame);
-            if (told == nullptr) {
-                note(std::move(*frame));
-            } else if (told->cycle == number_) {
-                return take(std::move(*told));
-            }
-        }
-    }
-
-    bool say(const Frame& frame) {
-        if (!link_) return false;
-        const auto sent = link_->send(frame);
-        if (!sent) lose(sent.error());
-        return sent.has_value();
-    }
-
-    Result<Picture> expose(const std::string& camera) {
-        const std::uint32_t id = ++pictures_;
-        const auto number = std::ranges::find(cameras_, camera) - cameras_.begin();
-        if (!say(Expose{id, static_cast<std::uint8_t>(number)})) {
-            return fail(Errc::kConflict, "machine_silent", "The machine does not answer.");
-        }
-        for (;;) {
-            auto frame = hear(kPictureTime);
-            if (!frame) return fail(frame.error());
-            auto* picture = std::get_if<Picture>(&*frame);
-            if (picture == nullptr) {
-                note(std::move(*frame));
-            } else if (picture->id == id) {
-                return std::move(*picture);
-            }
-        }
-    }
-
-    /// The newest turn of the scanners; nothing: the line is lost.
-    const Scans* look() {
-        looked_at_ = number_;
-        if (scans_ && number_ - scans_at_ <= kFreshCycles) return &*scans_;
-        const std::uint32_t id = ask_to_look();
-        while (link_) {
-            auto frame = hear(kScanTime);
-            if (!frame) break;
-            note(std::move(*frame));
-            if (scans_ && scans_->id == id) return &*scans_;
-        }
-        return nullptr;
-    }
-
-    void try_again(double dt_s) {
-        since_try_s_ += dt_s;
-        if (link_ || since_try_s_ < kAgain_s) return;
-        since_try_s_ = 0;
-        if (const auto reached = reach(); !reached) {
-            link_.reset();
-            return;
-        }
-        server::log::info("machine.reached", {{"host", address_.host}, {"port", address_.port}});
-    }
-
-    bool lost() const { return !link_; }
-    const Feedback& told() const { return told_; }
-    int dead_cycles() const { return dead_cycles_; }
-    std::uint32_t cycle() const { return number_; }
-    /// Exchanged since the last call.
-    int take_cycles() { return std::exchange(cycles_, 0); }
-    std::vector<LiftEnded> take_ended() { return std::exchange(ended_, {}); }
-
-private:
-    Result<Frame> hear(MachineLink::Duration timeout) {
-        if (!link_) return fail(Errc::kConflict, "machine_silent", "The machine does not answer.");
-        auto frame = link_->receive(timeout);
-        if (!frame) {
-            lose(frame.error());
-        } else if (const auto* refused = std::get_if<Refused>(&*frame)) {
-            const Error error{Errc::kConflict,
-                              {"machine_refused", {{"why", refused->why}}},
-                              "The machine refuses: " + refused->why + ".",
-                              {}};
-            lose(error);
-            return fail(error);
-        }
-        return frame;
-    }
-
-    void note(Frame frame) {
-        if (auto* ended = std::get_if<LiftEnded>(&frame)) ended_.push_back(std::move(*ended));
-        auto* scans = std::get_if<Scans>(&frame);
-        if (scans == nullptr) return;
-        if (scans->scans.size() != type_.scanners.size()) {
-            return lose({Errc::kInvalid,
-                         {"machine_frame_broken", {{"why", "scanners are missing"}}},
-                         "The machine tells of other scanners than it has.",
-                         {}});
-        }
-        scans_ = std::move(*scans);
-        scans_at_ = number_;
-    }
-
-    std::uint32_t ask_to_look() {
-        say(Look{++looks_});
-        return looks_;
-    }
-
-    void take(Feedback told) {
-        const bool whole = told.wheels.size() == type_.wheels.size() &&
-                           told.brackets.size() == type_.brackets.size() &&
-                           told.feet.size() == feet_of(type_).size();
-        if (whole) {
-            told_ = std::move(told);
-            return;
-        }
-        lose({Errc::kInvalid,
-              {"machine_frame_broken", {{"why", "parts are missing"}}},
-              "The machine tells of other parts than it has.",
-              {}});
-    }
-
-    void lose(const Error& error) {
-        if (!link_) return;
-        server::log::error("machine.lost", {{"what", error.what}});
-        link_.reset();
-        scans_.reset();
-        since_try_s_ = 0;
-        for (auto& wheel : told_.wheels) wheel.speed_mps = 0;
-    }
-
-    MachineAddress address_;
-    const plant::VehicleType& type_;
-    double watchdog_s_;
-    std::vector<std::string> pictured_;  // cameras without a source of their own
-    std::vector<std::string> cameras_;   // as it counts them
-    std::optional<MachineLink> link_;
-    Feedback told_;
-    std::vector<LiftEnded> ended_;
-    std::uint32_t number_ = 0;
-    std::uint32_t pictures_ = 0;
-    std::uint32_t looks_ = 0;
-    std::optional<Scans> scans_;  // the newest
-    std::uint32_t scans_at_ = 0;  // cycle in which they came
-    std::optional<std::uint32_t> looked_at_;
-    int cycles_ = 0;
-    int dead_cycles_ = 0;
-    double since_try_s_ = 0;
-};
-
 class TcpMachine::TcpWheels final : public Wheels {
 public:
-    TcpWheels(Controller& controller, const plant::VehicleType& type)
+    TcpWheels(MachineController& controller, const plant::VehicleType& type)
         : controller_(controller), type_(type) {
         take();
     }
@@ -339,7 +80,7 @@ private:
         return std::nullopt;
     }
 
-    Controller& controller_;
+    MachineController& controller_;
     const plant::VehicleType& type_;
     std::vector<WheelMotion> present_;
     std::vector<WheelMotion> measured_;
@@ -347,7 +88,7 @@ private:
 
 class TcpMachine::TcpEquipment final : public onboard::Equipment {
 public:
-    TcpEquipment(Controller& controller, const plant::VehicleType& type)
+    TcpEquipment(MachineController& controller, const plant::VehicleType& type)
         : controller_(controller),
           type_(type),
           action_types_{vda5050::kStartCharging, vda5050::kStopCharging} {
@@ -434,7 +175,7 @@ private:
         return std::nullopt;
     }
 
-    Controller& controller_;
+    MachineController& controller_;
     const plant::VehicleType& type_;
     std::vector<std::string> action_types_;
     std::optional<std::uint32_t> under_way_;
@@ -444,7 +185,7 @@ private:
 
 class TcpMachine::TcpShutter final : public Shutter {
 public:
-    TcpShutter(Controller& controller, const plant::VehicleType& type)
+    TcpShutter(MachineController& controller, const plant::VehicleType& type)
         : controller_(controller), type_(type) {}
 
     Result<Shutter::Picture> expose(std::size_t camera, Wish) override {
@@ -455,13 +196,13 @@ public:
     }
 
 private:
-    Controller& controller_;
+    MachineController& controller_;
     const plant::VehicleType& type_;
 };
 
 class TcpMachine::TcpScanners final : public onboard::Scanners {
 public:
-    TcpScanners(Controller& controller, const plant::VehicleType& type)
+    TcpScanners(MachineController& controller, const plant::VehicleType& type)
         : controller_(controller), type_(type) {}
 
     /// Without a line they are blind: it must not drive on what they saw before.
@@ -480,21 +221,26 @@ public:
     }
 
 private:
-    Controller& controller_;
+    MachineController& controller_;
     const plant::VehicleType& type_;
 };
 
 Result<std::unique_ptr<TcpMachine>> TcpMachine::open(const MachineAddress& address,
                                                      const plant::VehicleType& type,
                                                      Settings settings) {
-    auto controller = std::make_unique<Controller>(address, type, settings);
+    std::vector<std::string> own_pictures;
+    for (std::size_t i = 0; i < settings.sources.size(); ++i) {
+        if (settings.sources[i]) own_pictures.push_back(type.cameras[i].name);
+    }
+    auto controller =
+        std::make_unique<MachineController>(address, type, settings.watchdog_s, own_pictures);
     if (auto reached = controller->reach(); !reached) return fail(reached.error());
     return std::unique_ptr<TcpMachine>(
         new TcpMachine(std::move(controller), type, std::move(settings)));
 }
 
-TcpMachine::TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
-                       Settings settings)
+TcpMachine::TcpMachine(std::unique_ptr<MachineController> controller,
+                       const plant::VehicleType& type, Settings settings)
     : type_(type),
       controller_(std::move(controller)),
       wheels_(std::make_unique<TcpWheels>(*controller_, type)),

@@ -8,7 +8,7 @@
 
 #include "core/onboard/motion/wheel_drive.hpp"
 #include "server/agent/machine.hpp"
-#include "server/agent/machine_link.hpp"
+#include "server/agent/machine_controller.hpp"
 #include "server/agent/source_shutter.hpp"
 
 namespace pulseline::agent {
@@ -27,7 +27,7 @@ public:
     };
 
     /// `type`: with its cameras as they hang under its load; must outlive it. Errors: those of
-    /// MachineLink, machine_refused {why}, machine_not_of_type {part, told, wanted}.
+    /// MachineController::reach.
     static Result<std::unique_ptr<TcpMachine>> open(const MachineAddress& address,
                                                     const plant::VehicleType& type,
                                                     Settings settings);
@@ -45,17 +45,16 @@ public:
     std::uint32_t cycle() const;
 
 private:
-    class Controller;
     class TcpWheels;
     class TcpEquipment;
     class TcpShutter;
     class TcpScanners;
 
-    TcpMachine(std::unique_ptr<Controller> controller, const plant::VehicleType& type,
+    TcpMachine(std::unique_ptr<MachineController> controller, const plant::VehicleType& type,
                Settings settings);
 
     const plant::VehicleType& type_;
-    std::unique_ptr<Controller> controller_;
+    std::unique_ptr<MachineController> controller_;
     std::unique_ptr<TcpWheels> wheels_;
     std::unique_ptr<TcpEquipment> equipment_;
     std::unique_ptr<TcpShutter> own_shutter_;

@@ -53,8 +53,9 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
       watch_(cameras_, drive_, estimate_),
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
-    if (learned_) {
-        kept_transfer_kg_ = learned_->begun_transfer_kg();
+    if (!settings_.learned.empty()) {
+        begun_.emplace(settings_.learned, vehicle.id.str());
+        kept_transfer_kg_ = begun_->load();
         if (kept_transfer_kg_) handling_.begun_before(*kept_transfer_kg_);
     }
     loaded_ = type_.brackets.empty() ? settings_.loaded : handling_.carries();
@@ -133,11 +134,12 @@ void Vehicle::feel_load() {
     if (going_round_) going_round_->carry(loaded);
 }
 
-/// Before it moves: a program that starts anew must know of what it has begun.
+/// In the step in which it begins, before any weight can have come or gone: a program that starts
+/// anew has to know of it.
 void Vehicle::keep_transfer() {
-    if (!learned_ || kept_transfer_kg_ == handling_.begun_kg()) return;
+    if (!begun_ || kept_transfer_kg_ == handling_.begun_kg()) return;
     kept_transfer_kg_ = handling_.begun_kg();
-    if (const auto kept = learned_->keep_transfer(kept_transfer_kg_); !kept) {
+    if (const auto kept = begun_->save(kept_transfer_kg_); !kept) {
         server::log::warn("transfer.not_kept",
                           {{"vehicle", vehicle_.id.str()}, {"what", kept.error().what}});
     }

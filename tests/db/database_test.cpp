@@ -132,6 +132,21 @@ TEST(Database, NewerDatabaseIsRefused) {
 
     EXPECT_EQ(kind_of([&] { Database again(path); }, &what), Error::Kind::kTooNew);
     EXPECT_NE(what.find("9999"), std::string::npos);
+    EXPECT_EQ(kind_of([&] { ReadOnly reading(path); }, &what), Error::Kind::kTooNew);
+}
+
+TEST(Database, WhoeverOnlyReadsIsToldOfAFileOfAnOlderProgram) {
+    const TempFolder folder;
+    const std::string path = folder.file("old.db");
+    {
+        Database database(path);
+        EXPECT_NO_THROW(ReadOnly reading(path));
+        database.sql() << "PRAGMA user_version = 3";
+    }
+    std::string what;
+    EXPECT_EQ(kind_of([&] { ReadOnly reading(path); }, &what), Error::Kind::kUnusable);
+    EXPECT_NE(what.find("version 3"), std::string::npos) << what;
+    EXPECT_NE(what.find("pulseline serve"), std::string::npos) << what;
 }
 
 TEST(Database, ForeignAndDamagedFilesAreRefused) {

@@ -63,7 +63,7 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
         }
     }
     const PlacedAction* missing = nullptr;
-    Status can;  // the first that announces all of them
+    std::optional<Error> cannot;  // of the first that announces all of them
     std::string announced;
     bool any_factsheet = false;
     for (const auto& [id, live] : fleet.vehicles) {
@@ -73,11 +73,12 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
             placed.begin(), placed.end(),
             [&, &vehicle = live](auto& p) { return !announces_at_node(vehicle, *p.action); });
         if (lacks == placed.end()) {
-            Status moves = can_move(live, placed);
+            const Status moves = can_move(live, placed);
             if (moves) return {};
-            if (can) can = std::move(moves);
+            if (!cannot) cannot = moves.error();
+            continue;
         }
-        if (missing || lacks == placed.end()) continue;
+        if (missing) continue;
         missing = &*lacks;
         for (const auto& name : live.factsheet->node_actions) {
             const bool own =
@@ -85,7 +86,7 @@ Status check_actions(const FleetState& fleet, const NewOrder& order) {
             if (!own) announced += (announced.empty() ? "" : ", ") + name;
         }
     }
-    if (!can) return can;
+    if (cannot) return fail(std::move(*cannot));
     if (!any_factsheet) {
         return fail(Errc::kConflict, "no_factsheet",
                     "No vehicle that may take this order has said yet which actions it can do. "

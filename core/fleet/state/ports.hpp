@@ -117,6 +117,7 @@ struct UnmeasuredQuery {
     int limit = 50;
     std::optional<std::int64_t> before;  // page on: only events of a lower number
 };
+
 /// A load has got from one place to another; nothing at either end: outside the plant.
 struct LoadMove {
     std::int64_t seq = 0;  // grows with time, among all loads

@@ -175,7 +175,7 @@ void recall_lift(LiveVehicle& live, Time now) {
     if (live.lift || live.has_leg()) return;
     const auto& told = live.state.action_states;
     const auto broken = std::find_if(told.rbegin(), told.rend(), [](const auto& action) {
-        return vda5050::is_lift(action.type) || vda5050::is_transfer(action.type);
+        return vda5050::is_lift(action.type);
     });
     if (broken == told.rend() || broken->status != vda5050::ActionStatus::kFailed ||
         broken->result_description != kLinkLost) {

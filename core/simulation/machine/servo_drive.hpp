@@ -50,6 +50,7 @@ public:
     const Pose2& true_pose() const override { return wheels_.true_pose(); }
     void carry(const Pose2& by) override { wheels_.carry(by); }
     void set_load(double load_kg) override { wheels_.set_load(load_kg); }
+    void set_hot(std::size_t wheel, bool hot) override { wheels_.set_hot(wheel, hot); }
     const Pose2& believed_pose() const override { return drive_.believed_pose(); }
     void set_believed(const Pose2& pose) override { drive_.set_believed(pose); }
     const plant::VehicleType& type() const override { return drive_.type(); }
@@ -60,8 +61,6 @@ public:
     std::vector<kinematics::WheelMotion> wheels() const override { return drive_.wheels(); }
     std::optional<Reason> stop_cause() const override { return drive_.stop_cause(); }
     void acknowledge() override { drive_.acknowledge(); }
-
-    void set_hot(std::size_t wheel, bool hot) { wheels_.set_hot(wheel, hot); }
 
     // Faults and floor, from outside. False: there is no such wheel.
     bool break_wheel(const std::string& name) { return wheels_.break_wheel(name); }

@@ -17,6 +17,9 @@ public:
     virtual void carry(const geometry::Pose2& by) = 0;
     /// What it carries from now on weighs so much; a drive without wheels does not feel it.
     virtual void set_load(double) {}
+    /// Too hot, the motors of that wheel of its type are off until it is not any more; a drive
+    /// without wheels does not feel it.
+    virtual void set_hot(std::size_t, bool) {}
 };
 
 }  // namespace pulseline::simulation

@@ -127,13 +127,37 @@ TEST(Options, AddressesFaultsAndListsAreReadOrRefused) {
     EXPECT_EQ(driving->after_s, 5);
     EXPECT_EQ(parse_fault("carried=1,-2.5,90@3")->carried,
               (geometry::Pose2{1, -2.5, radians(90.0)}));
+    EXPECT_EQ(parse_fault("pit=back right@5")->kind, Fault::Kind::kPit);
+    EXPECT_EQ(parse_fault("pit=back right@5")->part, "back right");
+    const auto off = parse_fault("bracket-off=front left:-0.004@5");
+    EXPECT_TRUE(off && off->kind == Fault::Kind::kBracketOff && off->part == "front left");
+    EXPECT_EQ(off->by_m, -0.004);
     EXPECT_EQ(parse_fault("scanner-covered@5")->kind, Fault::Kind::kScannerCovered);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->kind, Fault::Kind::kTransmitterDark);
     EXPECT_EQ(parse_fault("transmitter-dark=tx-1@5")->part, "tx-1");
-    for (const char* bad :
-         {"wheel=", "transmitter-dark", "fire", "slip=FL", "slip=FL:2", "slip=:0.2",
-          "encoder=", "marker-lost@soon", "obstacle=1", "obstacle=1,2,3", "carried=1,2",
-          "driving:", "driving:fire", "carried=1,2,nan", "carried=1,2,3,", "wheel=FL@-1"}) {
+    for (const char* bad : {"wheel=",
+                            "transmitter-dark",
+                            "fire",
+                            "slip=FL",
+                            "slip=FL:2",
+                            "slip=:0.2",
+                            "encoder=",
+                            "marker-lost@soon",
+                            "obstacle=1",
+                            "obstacle=1,2,3",
+                            "carried=1,2",
+                            "driving:",
+                            "driving:fire",
+                            "carried=1,2,nan",
+                            "carried=1,2,3,",
+                            "wheel=FL@-1",
+                            "pit=",
+                            "pit",
+                            "bracket-off=front left",
+                            "bracket-off=:0.1",
+                            "bracket-off=FL:1",
+                            "bracket-off=FL:nan",
+                            "bracket-off=FL:0.1:"}) {
         EXPECT_FALSE(parse_fault(bad)) << bad;
     }
     const auto list = parse_vehicle_list("# demo\nTang/TP-01 abc\n\nTang/TP-02  def \n");

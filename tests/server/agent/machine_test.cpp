@@ -238,6 +238,30 @@ TEST_F(ControllerTest, ShowsWhatItsScannersSeeAndWhatStandsInItsWay) {
     EXPECT_GT(returns_near(late), returns_near(before) + 10);
 }
 
+TEST_F(ControllerTest, AWheelWhoseBearingGrindsGetsTooHotAndItsDriveIsOffUntilItHasCooled) {
+    Fault grinds;
+    grinds.kind = Fault::Kind::kBearing;
+    grinds.part = "front drive";
+    SimulatedController grinding{
+        world, world.plant.vehicles[0], type, {20, 10, 0}, {1, {}, false, {grinds}}};
+    ASSERT_TRUE(SimulatedController::has(grinds.kind));
+    grinding.apply_faults(0);
+    grinding.handle(hello());
+    const auto told = [&](Mode mode, double speed_mps) {
+        return std::get<Feedback>(grinding.handle(points(mode, speed_mps)).back()).wheels[4];
+    };
+    Feedback::Wheel wheel;
+    // Ten minutes, to and fro, so that the hall does not end.
+    for (int i = 0; i < 60'000 && wheel.fault.empty(); ++i) {
+        wheel = told(Mode::kRoll, i / 1000 % 2 == 0 ? type.max_speed_mps : -type.max_speed_mps);
+    }
+    EXPECT_EQ(wheel.fault, "servo_overtemperature");
+    EXPECT_GE(wheel.temperature_c, type.drive_temperatures.hot_c);
+    for (int i = 0; i < 60'000 && !wheel.fault.empty(); ++i) wheel = told(Mode::kBraked, 0);
+    EXPECT_EQ(wheel.fault, "");
+    EXPECT_LT(wheel.temperature_c, type.drive_temperatures.warm_c);
+}
+
 TEST_F(ControllerTest, SetPointsForOtherWheelsThanItHasMoveNothing) {
     controller.handle(hello());
     auto wrong = points(Mode::kRoll, 0.3);
