@@ -251,9 +251,9 @@ TEST_F(ControllerTest, AWheelWhoseBearingGrindsGetsTooHotAndItsDriveIsOffUntilIt
         return std::get<Feedback>(grinding.handle(points(mode, speed_mps)).back()).wheels[4];
     };
     Feedback::Wheel wheel;
-    // Ten minutes, to and fro, so that the hall does not end.
+    const double step_mps = type.max_accel_mps2 * type.control.cycle_s;
     for (int i = 0; i < 60'000 && wheel.fault.empty(); ++i) {
-        wheel = told(Mode::kRoll, i / 1000 % 2 == 0 ? type.max_speed_mps : -type.max_speed_mps);
+        wheel = told(Mode::kRoll, std::min(type.max_speed_mps, i * step_mps));
     }
     EXPECT_EQ(wheel.fault, "servo_overtemperature");
     EXPECT_GE(wheel.temperature_c, type.drive_temperatures.hot_c);
