@@ -50,6 +50,7 @@ constexpr const char* kFaults[] = {"message late, others overtake it",
                                    "person: lowerParking",
                                    "person: pick",
                                    "person: drop",
+                                   "person: holds a transfer",
                                    "order: a load moved"};
 
 struct Arguments {

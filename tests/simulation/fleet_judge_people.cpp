@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -16,6 +17,11 @@ constexpr double kLifted_m = 0.2;     // brackets above whatever holds a load
 // Why an order cannot take a load over or set it down where it got to.
 const std::set<std::string> kInVain{"vehicle_loaded", "vehicle_empty", "load_elsewhere",
                                     "support_taken", "brackets_too_low"};
+
+bool is_taking(const std::optional<fleet::LiftMove>& lift) {
+    return lift && lift->state == fleet::LiftMove::State::kUnderWay &&
+           vda5050::is_transfer(lift->what.type);
+}
 
 }  // namespace
 
@@ -146,8 +152,13 @@ std::optional<fleet::StepAction> World::mend_load(const plant::VehicleId& id,
 void World::work_platform() {
     const auto& id = plant_.vehicles.back().id;
     const bool stands_on_them = vehicles_.at(id).on_feet();
-    if (now_s_ < next_feet_s_) return;
     const auto view = fleet_->vehicle(id, now(), false);
+    if (disturbed_ && is_taking(view->lift) && fleet_judge::pick(foot_random_, 0, 14) == 0) {
+        if (fleet_->stop_lifts(id, "fitter", now())) ++outcome_.faults["person: holds a transfer"];
+        settle();
+        if (unstored_) return;
+    }
+    if (now_s_ < next_feet_s_) return;
     std::optional<fleet::StepAction> wanted = mend_load(id, *view);
     if (unstored_) return;
     if (!wanted && stands_on_them) wanted = {vda5050::kRaiseParking, {}};
