@@ -86,6 +86,8 @@ std::span<const Route> routes() {
          kViewer,
          {"limit", "cursor"},
          list_load_moves},
+        {"PUT", "/api/v1/loads/{id}", "putLoad", kOperator, {}, put_load},
+        {"DELETE", "/api/v1/loads/{id}", "retireLoad", kOperator, {}, retire_load},
         {"PUT", "/api/v1/loads/{id}/place", "placeLoad", kOperator, {}, place_load},
 
         {"GET", "/api/v1/fleet", "getFleet", kViewer, {}, get_fleet},

@@ -15,6 +15,7 @@ using namespace decoding;
 
 constexpr json::IntegerLimits kNumber{0, 1'000'000};
 constexpr CountLimits kMany{0, 100'000};
+constexpr TextLimits kLoadName{1, 200};
 
 template <class K>
 std::vector<K> decode_keys(ObjectReader& in, const char* name) {
@@ -145,15 +146,7 @@ Vehicle decode_vehicle(ObjectReader& in) {
 Load decode_load(ObjectReader& in) {
     Load load;
     load.id = decode_key<LoadId>(in, "id");
-    load.name = in.text_or("name", load.id.str(), kName);
-    load.names = decode_names(in);
-    load.kind = in.one_of_or("kind", load.kind,
-                             {LoadKind::kAirframe, LoadKind::kProduct, LoadKind::kInstrument});
-    load.model = in.text_or("model", "", kName);
-    load.mass_kg = in.number_or("mass_kg", 0, kQuantity);
-    if (auto centre = in.object_if_any("centre")) load.centre = decode_point(*centre);
-    if (in.has("outline")) load.outline = decode_ring(in, "outline");
-    load.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
+    decode_load_sheet(in, load);
     load.vehicle = decode_key_or_none<VehicleId>(in, "vehicle");
     load.station = decode_key_or_none<StationId>(in, "station");
     return load;
@@ -195,6 +188,18 @@ RoutingCost decode_routing(ObjectReader in) {
 }
 
 }  // namespace
+
+void decode_load_sheet(ObjectReader& in, Load& load) {
+    load.name = in.text_or("name", load.id.str(), kLoadName);
+    load.names = decode_names(in);
+    load.kind = in.one_of_or("kind", load.kind,
+                             {LoadKind::kAirframe, LoadKind::kProduct, LoadKind::kInstrument});
+    load.model = in.text_or("model", "", kName);
+    load.mass_kg = in.number_or("mass_kg", 0, kQuantity);
+    if (auto centre = in.object_if_any("centre")) load.centre = decode_point(*centre);
+    if (in.has("outline")) load.outline = decode_ring(in, "outline");
+    load.vehicle_types = decode_keys<VehicleTypeId>(in, "vehicle_types");
+}
 
 Plant decode_plant(const Json& json, FieldErrors& errors) {
     Plant plant;

@@ -194,17 +194,10 @@ Json encode(const Vehicle& v);
 Json encode(const RoadmapNode& n);
 
 Json encode(const Load& load) {
-    Json json = {{"id", load.id.str()},
-                 {"name", load.name},
-                 {"kind", to_string(load.kind)},
-                 {"mass_kg", load.mass_kg}};
-    if (!load.model.empty()) json["model"] = load.model;
-    if (!(load.centre == Point2{})) json["centre"] = encode(load.centre);
-    if (!load.outline.empty()) json["outline"] = encode(load.outline);
-    if (!load.vehicle_types.empty()) json["vehicle_types"] = encode(load.vehicle_types);
+    Json json = encode_load_sheet(load);
+    json["id"] = load.id.str();
     if (!load.vehicle.empty()) json["vehicle"] = load.vehicle.str();
     if (!load.station.empty()) json["station"] = load.station.str();
-    put_names(json, load.names);
     return json;
 }
 
@@ -315,6 +308,16 @@ void print(const Json& json, int open, const std::string& indent, std::string& o
 }
 
 }  // namespace
+
+Json encode_load_sheet(const Load& load) {
+    Json json = {{"name", load.name}, {"kind", to_string(load.kind)}, {"mass_kg", load.mass_kg}};
+    if (!load.model.empty()) json["model"] = load.model;
+    if (!(load.centre == Point2{})) json["centre"] = encode(load.centre);
+    if (!load.outline.empty()) json["outline"] = encode(load.outline);
+    if (!load.vehicle_types.empty()) json["vehicle_types"] = encode(load.vehicle_types);
+    put_names(json, load.names);
+    return json;
+}
 
 Json encode_plant(const Plant& plant, PlantForm form) {
     Json halls = Json::array();

@@ -20,6 +20,11 @@ json::Json encode_plant(const plant::Plant& plant, PlantForm form);
 /// worth something only when there are none.
 plant::Plant decode_plant(const json::Json& json, json::FieldErrors& errors);
 
+/// What is known of a load, but neither its id nor its place. `load.id`: by which it is called
+/// where no name is there.
+json::Json encode_load_sheet(const plant::Load& load);
+void decode_load_sheet(json::ObjectReader& in, plant::Load& load);
+
 /// The file form as text: one element a line, so that a diff shows what changed. Doubles print so
 /// that reading them gives the same value.
 std::string plant_to_json(const plant::Plant& plant);

@@ -247,6 +247,9 @@ Outputs Fleet::take_outputs(Time now) {
     for (const auto& id : std::exchange(fleet.stored_loads, {})) {
         out.records.loads.push_back(fleet.loads.at(id));
     }
+    for (const auto& id : std::exchange(fleet.stored_load_sheets, {})) {
+        out.records.load_sheets.push_back(fleet.load_sheets.at(id));
+    }
     const auto changed = std::exchange(fleet.changed_vehicles, {});
     auto stations = std::exchange(fleet.changed_stations, {});
     if (with_views_) {

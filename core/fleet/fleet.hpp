@@ -110,8 +110,15 @@ public:
     /// A person says where a load is, or that it has left the plant. The vehicles concerned stand
     /// without an order. Errors: unknown_load, unknown_vehicle, unknown_station, and why not, each
     /// with its remedy (vehicle/loads.hpp, floor/carrying.hpp).
-    Result<LoadRecord> place_load(const plant::LoadId& id, const LoadPlace& where,
-                                  const std::string& actor, Time now);
+    Result<KnownLoad> place_load(const plant::LoadId& id, const LoadPlace& where,
+                                 const std::string& actor, Time now);
+    /// A new load, not in the plant yet, or what is known by now of one that is there. Errors:
+    /// load_retired {load}, faults of the sheet (plant::validate_load), load_name_taken {name,
+    /// load}, too_many_loads {most}, why nobody may carry it (plant::nobody_can_carry), or the
+    /// vehicle below it may not any more, vehicle_busy, load_in_transfer {load, vehicle}.
+    Result<KnownLoad> put_load(const plant::Load& known, const std::string& actor, Time now);
+    /// It has left for ever; its id is never given again. Errors: unknown_load, load_in_plant.
+    Status retire_load(const plant::LoadId& id, const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
     Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,
                         Time now);
@@ -187,8 +194,8 @@ public:
     std::optional<VehicleView> vehicle(const plant::VehicleId& id, Time now,
                                        bool with_leg = true) const;
     std::vector<VehicleView> vehicles(Time now) const;
-    std::vector<LoadRecord> loads() const;  // by id
-    std::optional<LoadRecord> load(const plant::LoadId& id) const;
+    std::vector<KnownLoad> loads() const;  // by id, without retired ones
+    std::optional<KnownLoad> load(const plant::LoadId& id) const;
     std::vector<StationView> stations() const;
     std::optional<StationView> station(int number) const;
     FleetView view(Time now) const;

@@ -86,6 +86,7 @@ void bring_back_times(FleetState& fleet, StoredFleet& stored, Time now) {
         if (vehicle.basis) bring_back(vehicle.basis->at, now);
     }
     for (auto& load : stored.loads) bring_back(load.at, now);
+    for (auto& sheet : stored.load_sheets) bring_back(sheet.at, now);
     for (auto& key : stored.idempotency) bring_back(key.at, now);
     for (auto& closure : stored.closures) bring_back(closure.created, now);
     for (auto& schedule : stored.schedules) {
@@ -143,7 +144,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
         live->record = std::move(record);
         count_unseen_drive(*live);
     }
-    restore_loads(fleet, std::move(stored.loads), now);
+    restore_loads(fleet, std::move(stored.load_sheets), std::move(stored.loads), now);
     rebuild_floor(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);

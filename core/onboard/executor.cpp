@@ -364,6 +364,13 @@ void Executor::write_state(vda5050::StateMessage& state) const {
                                instant_actions_.end());
     state.errors = errors_;
     if (lost_) state.errors.push_back(*lost_);
+    if (equipment_ != nullptr && !equipment_->busy() && equipment_->half_transferred()) {
+        state.errors.push_back({vda5050::kLoadHalfTaken,
+                                false,
+                                "A part of the load still hangs or stands. Take it over or set it "
+                                "down first.",
+                                {}});
+    }
     if (procedure_.searching()) {
         state.errors.push_back({"codesNotInView",
                                 false,

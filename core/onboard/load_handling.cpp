@@ -17,7 +17,6 @@ constexpr double kClear_m = 0.010;   // between the load and what held it, in th
 constexpr double kFeel_mps = 0.002;  // nobody knows yet where the load is
 constexpr double kTransfer_mps = 0.004;
 constexpr double kNoMore = 0.01;  // of the weight so far: a step has brought nothing
-constexpr double kUnlike = 0.05;  // of the mass that it was told
 
 }  // namespace
 
@@ -108,7 +107,7 @@ bool LoadHandling::half_transferred() {
     const Cells cells = read_cells();
     if (!cells.feels) return false;
     const double measured_kg = cells.force_n / kGravity_mps2;
-    return *begun_kg_ == 0 || std::abs(measured_kg - *begun_kg_) > kUnlike * *begun_kg_;
+    return *begun_kg_ == 0 || !plant::weighs_as_known(measured_kg, *begun_kg_);
 }
 
 void LoadHandling::step() {
@@ -144,14 +143,17 @@ void LoadHandling::step() {
             return set_down(cells);
         case Phase::kClears: {
             const double measured_kg = cells.force_n / kGravity_mps2;
-            if (told_kg_ > 0 && std::abs(measured_kg - told_kg_) > kUnlike * told_kg_) {
+            if (!plant::weighs_as_known(measured_kg, told_kg_)) {
                 return give_up(
                     {"load_differs", {{"load_kg", told_kg_}, {"measured_kg", measured_kg}}},
                     Phase::kGivesBack);
             }
+            begun_kg_.reset();
             return end();
         }
         case Phase::kLeaves:
+            begun_kg_.reset();
+            return end();
         case Phase::kGivesBack:
         case Phase::kTakesBack:
             return end();

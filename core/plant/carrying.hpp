@@ -13,4 +13,10 @@ namespace pulseline::plant {
 /// type is planned with.
 std::optional<Reason> cannot_carry(const VehicleType& type, const Load& load);
 
+/// Why not by the load's papers: the same, and by where they say its centre of gravity to be
+/// (load_rules.hpp). What truly lies on its brackets a vehicle feels.
+std::optional<Reason> cannot_carry_by_papers(const VehicleType& type, const Load& load);
+/// Why no vehicle type of the plant may: of the one that comes nearest.
+std::optional<Reason> nobody_can_carry(const Plant& plant, const Load& load);
+
 }  // namespace pulseline::plant

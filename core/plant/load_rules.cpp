@@ -65,6 +65,11 @@ double bracket_rating_n(const VehicleType& type) {
            static_cast<double>(type.brackets.size());
 }
 
+bool weighs_as_known(double measured_kg, double known_kg) {
+    constexpr double kUnlike = 0.05;
+    return known_kg == 0 || std::abs(measured_kg - known_kg) <= kUnlike * known_kg;
+}
+
 std::optional<BracketShare> worst_bracket(const VehicleType& type,
                                           const std::vector<BracketForce>& forces) {
     const auto load = load_on(type, forces);
@@ -111,13 +116,24 @@ std::optional<Reason> load_fault(const VehicleType& type, const std::vector<Brac
                        {"unbalance", std::abs(worst->share)},
                        {"limit", worst->limit}}};
     }
-    const Params centre{{"x_m", load->centre.x_m}, {"y_m", load->centre.y_m}};
-    if (!inside_wheel_base(type, load->centre)) return Reason{"load_outside_wheel_base", centre};
+    return centre_fault(type, load->centre);
+}
+
+std::optional<Reason> centre_fault(const VehicleType& type, Point2 centre) {
+    const Params params{{"x_m", centre.x_m}, {"y_m", centre.y_m}};
+    if (!inside_wheel_base(type, centre)) return Reason{"load_outside_wheel_base", params};
     const Polygon& allowed = type.load_rules.centre;
-    if (!allowed.empty() && !geometry::contains(allowed, load->centre)) {
-        return Reason{"load_outside_limits", centre};
+    if (!allowed.empty() && !geometry::contains(allowed, centre)) {
+        return Reason{"load_outside_limits", params};
     }
     return std::nullopt;
+}
+
+Point2 bracket_middle(const VehicleType& type) {
+    Point2 sum;
+    for (const Bracket& bracket : type.brackets) sum = sum + bracket.position;
+    const auto count = static_cast<double>(std::max<std::size_t>(type.brackets.size(), 1));
+    return (1 / count) * sum;
 }
 
 }  // namespace pulseline::plant

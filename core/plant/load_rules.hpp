@@ -41,9 +41,18 @@ struct BracketShare {
 std::optional<BracketShare> worst_bracket(const VehicleType& type,
                                           const std::vector<BracketForce>& forces);
 
+/// Whether it weighs what it is known to weigh; 0: nobody has weighed it, so it does. Load cells
+/// and scales are far better than that; a part that still hangs or stands elsewhere is more.
+bool weighs_as_known(double measured_kg, double known_kg);
+
 /// The first rule that the load breaks: load_too_heavy {load_kg, max_load_kg}, bracket_overloaded
 /// {bracket, force_n, limit_n}, load_unbalanced {bracket, unbalance, limit},
 /// load_outside_wheel_base {x_m, y_m}, load_outside_limits {x_m, y_m}.
 std::optional<Reason> load_fault(const VehicleType& type, const std::vector<BracketForce>& forces);
+/// Of these rules the ones of where a centre of gravity may be, body frame.
+std::optional<Reason> centre_fault(const VehicleType& type, Point2 centre);
+
+/// From where the centre of a load is told, body frame; no brackets: the vehicle's own.
+Point2 bracket_middle(const VehicleType& type);
 
 }  // namespace pulseline::plant

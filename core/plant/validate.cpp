@@ -38,4 +38,12 @@ std::vector<Fault> validate(const Plant& plant) {
     return faults;
 }
 
+std::vector<Fault> validate_load(const Plant& plant, const Load& load) {
+    detail::Faults faults;
+    detail::check_load_numbers(load, "", faults);
+    if (!load.outline.empty()) detail::check_outline(load.outline, "/outline", faults);
+    detail::check_load_types(load, "", detail::Index(plant), faults);
+    return faults.take();
+}
+
 }  // namespace pulseline::plant

@@ -20,5 +20,8 @@ struct Fault {
 /// few of them for a vehicle that navigates by them, unreachable stations, non-finite numbers, bad
 /// limits.
 std::vector<Fault> validate(const Plant& plant);
+/// What is known of a load that people name while the plant is at work; not where it is. Elements
+/// point into the load.
+std::vector<Fault> validate_load(const Plant& plant, const Load& load);
 
 }  // namespace pulseline::plant

@@ -46,6 +46,16 @@ void check_place(const Plant& plant, const Load& load, const std::string& elemen
 
 }  // namespace
 
+void check_load_types(const Load& load, const std::string& element, const Index& index,
+                      Faults& faults) {
+    for (std::size_t k = 0; k < load.vehicle_types.size(); ++k) {
+        if (index.types.count(load.vehicle_types[k]) != 0) continue;
+        faults.add(element + "/vehicle_types/" + std::to_string(k), "unknown_vehicle_type",
+                   "There is no vehicle_type " + quoted(load.vehicle_types[k].str()) + ".",
+                   "Correct the name or add it to the plant.");
+    }
+}
+
 void check_loads(const Plant& plant, const Index& index, Faults& faults) {
     std::map<VehicleId, std::size_t> carried;
     std::map<StationId, std::size_t> held;
@@ -58,13 +68,7 @@ void check_loads(const Plant& plant, const Index& index, Faults& faults) {
     };
     for (std::size_t i = 0; i < plant.loads.size(); ++i) {
         const Load& load = plant.loads[i];
-        for (std::size_t k = 0; k < load.vehicle_types.size(); ++k) {
-            if (index.types.count(load.vehicle_types[k]) != 0) continue;
-            faults.add(at("loads", i, "/vehicle_types/" + std::to_string(k)),
-                       "unknown_vehicle_type",
-                       "There is no vehicle_type " + quoted(load.vehicle_types[k].str()) + ".",
-                       "Correct the name or add it to the plant.");
-        }
+        check_load_types(load, at("loads", i), index, faults);
         check_place(plant, load, at("loads", i), index, faults);
         alone(carried, load.vehicle, i, "/vehicle");
         alone(held, load.station, i, "/station");

@@ -286,6 +286,12 @@ void check_routing(const RoutingCost& r, Numbers n) {
 
 }  // namespace
 
+void check_load_numbers(const Load& load, const std::string& element, Faults& faults) {
+    Numbers n(element, faults);
+    n.not_negative("/mass_kg", load.mass_kg);
+    n.point("/centre", load.centre);
+}
+
 void check_numbers(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.halls.size(); ++i) {
         check_grid(plant.halls[i].grid, {at("halls", i, "/occupancy_yaml"), faults});
@@ -320,9 +326,7 @@ void check_numbers(const Plant& plant, Faults& faults) {
         check_type(plant.vehicle_types[i], at("vehicle_types", i), faults);
     }
     for (std::size_t i = 0; i < plant.loads.size(); ++i) {
-        Numbers n(at("loads", i), faults);
-        n.not_negative("/mass_kg", plant.loads[i].mass_kg);
-        n.point("/centre", plant.loads[i].centre);
+        check_load_numbers(plant.loads[i], at("loads", i), faults);
     }
     for (std::size_t i = 0; i < plant.nodes.size(); ++i) {
         Numbers(at("roadmap/nodes", i), faults).point("/position", plant.nodes[i].position);

@@ -7,6 +7,25 @@
 namespace pulseline::plant::detail {
 namespace {
 
+/// A rule may be narrower than the wheels, never wider: beyond them the vehicle tips.
+void check_load_centre(const VehicleType& type, const std::string& element, Faults& faults) {
+    if (type.load_rules.centre.empty()) return;
+    if (type.brackets.empty()) {
+        faults.add(element, "without_brackets", "Without brackets nobody sees where its load lies.",
+                   "List the type's brackets, or leave the rule out.");
+    }
+    check_outline(type.load_rules.centre, element, faults);
+    const Polygon base = wheel_base(type);
+    if (base.size() < 3) return;
+    const bool within = std::ranges::all_of(
+        type.load_rules.centre, [&](Point2 corner) { return geometry::contains(base, corner); });
+    if (within) return;
+    faults.add(element, "outside_wheel_base", "A load whose centre lies there would tip it.",
+               "Keep every corner between the places of the wheels.");
+}
+
+}  // namespace
+
 void check_outline(const Polygon& outline, const std::string& element, Faults& faults) {
     if (!std::all_of(outline.begin(), outline.end(),
                      [](Point2 p) { return std::isfinite(p.x_m) && std::isfinite(p.y_m); })) {
@@ -28,25 +47,6 @@ void check_outline(const Polygon& outline, const std::string& element, Faults& f
         }
     }
 }
-
-/// A rule may be narrower than the wheels, never wider: beyond them the vehicle tips.
-void check_load_centre(const VehicleType& type, const std::string& element, Faults& faults) {
-    if (type.load_rules.centre.empty()) return;
-    if (type.brackets.empty()) {
-        faults.add(element, "without_brackets", "Without brackets nobody sees where its load lies.",
-                   "List the type's brackets, or leave the rule out.");
-    }
-    check_outline(type.load_rules.centre, element, faults);
-    const Polygon base = wheel_base(type);
-    if (base.size() < 3) return;
-    const bool within = std::ranges::all_of(
-        type.load_rules.centre, [&](Point2 corner) { return geometry::contains(base, corner); });
-    if (within) return;
-    faults.add(element, "outside_wheel_base", "A load whose centre lies there would tip it.",
-               "Keep every corner between the places of the wheels.");
-}
-
-}  // namespace
 
 void check_outlines(const Plant& plant, Faults& faults) {
     for (std::size_t i = 0; i < plant.halls.size(); ++i) {

@@ -51,6 +51,13 @@ void check_names(const Plant& plant, const Index& index, Faults& faults);
 void check_numbers(const Plant& plant, Faults& faults);
 /// Outlines of halls, areas and vehicle types.
 void check_outlines(const Plant& plant, Faults& faults);
+/// One of them.
+void check_outline(const Polygon& outline, const std::string& element, Faults& faults);
+/// Numbers of a load.
+void check_load_numbers(const Load& load, const std::string& element, Faults& faults);
+/// Who may carry it is in the plant.
+void check_load_types(const Load& load, const std::string& element, const Index& index,
+                      Faults& faults);
 /// Room at stations and homes, codes below the cameras. Needs sound numbers and outlines.
 void check_stations(const Plant& plant, const Index& index, Faults& faults);
 /// Transmitters where they can be told apart, and enough of them and of receivers for a pose. Needs

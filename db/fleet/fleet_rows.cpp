@@ -206,6 +206,17 @@ fleet::LoadRecord LoadPlaceRow::get() const {
             time_from_ns(at_ns), actor};
 }
 
+void LoadSheetRow::set(const fleet::LoadSheet& sheet) {
+    load.set(sheet.load);
+    at_ns = to_ns(sheet.at);
+    actor = sheet.actor;
+    retired = sheet.retired ? 1 : 0;
+}
+
+fleet::LoadSheet LoadSheetRow::get() const {
+    return {load.get(), time_from_ns(at_ns), actor, retired != 0};
+}
+
 fleet::LoadMove LoadMoveRow::get() const {
     return {id,
             {plant::VehicleId(from_vehicle), plant::StationId(from_station)},

@@ -6,6 +6,7 @@
 
 #include "core/fleet/state/job_order.hpp"
 #include "core/fleet/state/ports.hpp"
+#include "db/plant/plant_rows.hpp"
 
 /// Rows of the fleet's tables as plain columns, shared by the store that writes and the history
 /// that reads. `columns` and `fields()` list the same names in the same order.
@@ -103,6 +104,24 @@ struct LoadPlaceRow {
     auto fields() { return std::tie(id, vehicle, station, at_ns, actor); }
     void set(const fleet::LoadRecord& load);
     fleet::LoadRecord get() const;
+};
+
+/// What is known of it.
+struct LoadSheetRow {
+    static constexpr const char* kColumns =
+        "id, name, kind, model, mass_kg, centre_x_m, centre_y_m, outline, vehicle_types, names, "
+        "at_ns, actor, retired";
+    LoadRow load;
+    std::int64_t at_ns = 0, retired = 0;
+    std::string actor;
+
+    auto fields() {
+        auto& l = load.element;
+        return std::tie(load.id, l.name, load.kind, l.model, l.mass_kg, l.centre.x_m, l.centre.y_m,
+                        load.outline, load.vehicle_types, load.names, at_ns, actor, retired);
+    }
+    void set(const fleet::LoadSheet& sheet);
+    fleet::LoadSheet get() const;
 };
 
 /// Where it had been before. Only read: the store writes it from what it knew and a LoadPlaceRow.

@@ -172,6 +172,8 @@ struct FleetStore::Statements {
                       vehicle.fields()),
           put_move(sql, kPutMove, load.fields()),
           put_load(sql, upsert_into("loads_state", LoadPlaceRow::kColumns, "id"), load.fields()),
+          put_load_sheet(sql, upsert_into("load_sheets", LoadSheetRow::kColumns, "id"),
+                         load_sheet.fields()),
           put_key(sql, upsert_into("idempotency_keys", KeyRow::kColumns, "client, key"),
                   key.fields()),
           drop_keys(sql, kDropKeys, std::tie(keys_before)),
@@ -192,6 +194,7 @@ struct FleetStore::Statements {
     EventRow event;
     VehicleRow vehicle;
     LoadPlaceRow load;
+    LoadSheetRow load_sheet;
     KeyRow key;
     ClosureRow closure;
     ScheduleRow schedule;
@@ -200,8 +203,8 @@ struct FleetStore::Statements {
     std::int64_t keys_before = 0;
     std::int64_t events_upto = 0;
     Statement put_order, put_step, drop_steps, put_stop, put_event, drop_events, put_vehicle,
-        put_move, put_load, put_key, drop_keys, put_closure, drop_closure, put_schedule,
-        drop_schedule, put_template, drop_template;
+        put_move, put_load, put_load_sheet, put_key, drop_keys, put_closure, drop_closure,
+        put_schedule, drop_schedule, put_template, drop_template;
 };
 
 FleetStore::FleetStore(Database& database)
@@ -271,10 +274,16 @@ void FleetStore::commit(const fleet::Records& records) {
             s.put_vehicle.run();
             crash_point(CrashPoint::kCommitAfterVehicle);
         }
+        for (const auto& sheet : records.load_sheets) {
+            s.load_sheet.set(sheet);
+            s.put_load_sheet.run();
+            crash_point(CrashPoint::kCommitAfterLoad);
+        }
         for (const auto& load : records.loads) {
             s.load.set(load);
             s.put_move.run();
             s.put_load.run();
+            crash_point(CrashPoint::kCommitAfterLoad);
         }
         for (const auto& stop : records.stops) {
             s.stop.set(stop);
@@ -351,6 +360,12 @@ fleet::StoredFleet FleetStore::load() {
             sql, std::string("SELECT ") + LoadPlaceRow::kColumns + " FROM loads_state ORDER BY id",
             std::tuple<>(), load.fields());
         for (loads.start(); loads.fetch();) stored.loads.push_back(load.get());
+
+        LoadSheetRow sheet;
+        Statement sheets(
+            sql, std::string("SELECT ") + LoadSheetRow::kColumns + " FROM load_sheets ORDER BY id",
+            std::tuple<>(), sheet.fields());
+        for (sheets.start(); sheets.fetch();) stored.load_sheets.push_back(sheet.get());
 
         KeyRow key;
         Statement keys(sql,

@@ -126,6 +126,17 @@ std::vector<fleet::LoadMove> History::load_moves(const fleet::LoadMoveQuery& que
     });
 }
 
+bool History::has_load_sheet(const plant::LoadId& id) {
+    return reading(connection_.path(), [&] {
+        Select select(connection_.sql());
+        select.where("id = ?", {id.str()});
+        LoadSheetRow row;
+        bool found = false;
+        select.each(row, "load_sheets", "id", 1, [&] { found = true; });
+        return found;
+    });
+}
+
 std::vector<fleet::JobOrder> History::orders(const fleet::OrderQuery& query) {
     return reading(connection_.path(), [&] {
         Select select(connection_.sql());

@@ -16,6 +16,7 @@ public:
     std::optional<fleet::StopRecord> stop(fleet::StopRecordId id) override;
     std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery& query) override;
     std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery& query) override;
+    bool has_load_sheet(const plant::LoadId& id) override;
     std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override;
     std::optional<fleet::JobOrder> order(fleet::JobOrderId id) override;
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override;

@@ -27,6 +27,10 @@ public:
         const std::lock_guard lock(mutex_);
         return history_.load_moves(query);
     }
+    bool has_load_sheet(const plant::LoadId& id) override {
+        const std::lock_guard lock(mutex_);
+        return history_.has_load_sheet(id);
+    }
     std::vector<fleet::JobOrder> orders(const fleet::OrderQuery& query) override {
         const std::lock_guard lock(mutex_);
         return history_.orders(query);

@@ -60,6 +60,20 @@ TEST(FleetStore, EmptyDatabaseLoadsEmpty) {
     EXPECT_EQ(to_ns(stored.last_time), 0);
 }
 
+plant::Load papers(const std::string& id) {
+    plant::Load load;
+    load.id = plant::LoadId(id);
+    load.name = "Aircraft " + id;
+    load.kind = plant::LoadKind::kProduct;
+    load.model = "Trainer";
+    load.mass_kg = 18350.5;
+    load.centre = {-0.05, 0.01};
+    load.outline = geometry::rectangle(3, 2);
+    load.vehicle_types = {plant::VehicleTypeId("transport-platform")};
+    load.names = {{"zh", "\u98de\u673a"}};
+    return load;
+}
+
 TEST(FleetStore, EverythingComesBackFromTheFile) {
     const TempFolder folder;
     Samples samples(1);
@@ -68,6 +82,8 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
     records.vehicles = {samples.vehicle("TP-01")};
     records.loads = {{plant::LoadId("A-101"), plant::VehicleId("TP-01"), {}, samples.at(4), "ann"},
                      {plant::LoadId("A-102"), {}, plant::StationId("st07"), samples.at(5), ""}};
+    records.load_sheets = {{papers("A-101"), samples.at(6), "ann", false},
+                           {papers("A-090"), samples.at(7), "bob", true}};
     records.stops = {samples.stop(2, 20)};
     records.events = {samples.event(1, 5), samples.event(2, 20)};
     records.idempotency = {{"mes", "key-1", "ab", records.orders[0].id, samples.at(3)}};
@@ -91,6 +107,12 @@ TEST(FleetStore, EverythingComesBackFromTheFile) {
     ASSERT_EQ(stored.loads.size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(columns<LoadPlaceRow>(stored.loads[i]), columns<LoadPlaceRow>(records.loads[i]));
+    }
+    ASSERT_EQ(stored.load_sheets.size(), 2u);
+    EXPECT_TRUE(stored.load_sheets[0].retired) << "by id";
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(columns<LoadSheetRow>(stored.load_sheets[i]),
+                  columns<LoadSheetRow>(records.load_sheets[1 - i]));
     }
     ASSERT_EQ(stored.idempotency.size(), 1u);
     EXPECT_EQ(stored.idempotency[0].order, records.orders[0].id);

@@ -307,6 +307,7 @@ TEST(PlantStore, WhatVehiclesCarriedBeforeIsALoadOfItsOwn) {
         PlantStore(database).import(demo("pulse-line"));
         for (const char* back :
              {"DROP TABLE loads", "DROP TABLE loads_state", "DROP TABLE load_moves",
+              "DROP TABLE load_sheets",
               "ALTER TABLE vehicles ADD COLUMN load_name TEXT NOT NULL DEFAULT ''",
               "ALTER TABLE vehicles ADD COLUMN load_kg REAL NOT NULL DEFAULT 0",
               "ALTER TABLE stations DROP COLUMN has_support",

@@ -2,27 +2,20 @@
 // two fingers, at three sizes, in both languages and themes; with two people at once, with an order under way, with the line cut.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Client, angleBetween } from "../harness/client.mjs";
-import { System, until } from "../harness/processes.mjs";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { angleBetween } from "../harness/client.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
+import { until } from "../harness/processes.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01";
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create("pulse-line", { users: ["operator", "engineer", "viewer"] });
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 4, sensing: "analytic" });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { users: ["operator", "engineer", "viewer"], agent: { seed: 22, timeFactor: 4, sensing: "analytic" } });
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const open = (role, how = {}) => signedIn(browser, system, role, { path: `/drive/${kId}`, bypassCSP: true, ...how });
 const truth = () => system.lastTruth(kId);

@@ -2,27 +2,19 @@
 // move them, one press of anybody holds them, and the page says what the vehicle's own sensors say.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Client } from "../harness/client.mjs";
-import { System, until } from "../harness/processes.mjs";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { until } from "../harness/processes.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kPath = `/api/v1/vehicles/${kId}`;
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create("pulse-line");
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 2, sensing: "analytic" });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { agent: { seed: 22, timeFactor: 2, sensing: "analytic" } });
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const untilIt = (condition, what) => client.untilVehicle(kId, condition, what, 60);
 

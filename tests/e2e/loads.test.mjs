@@ -2,28 +2,19 @@
 // two presses each, at a desk, on a tablet and on a phone; the page shows what the brackets feel and who has the aircraft.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Client } from "../harness/client.mjs";
 import { morning } from "../harness/plants.mjs";
-import { System } from "../harness/processes.mjs";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kLoad = "A-101";
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create(morning(1, { height_m: 0.02 })); // the platform stands empty below it
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 4, sensing: "analytic" });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { plant: morning(1, { height_m: 0.02 }), agent: { seed: 22, timeFactor: 4, sensing: "analytic" } }); // the platform stands empty below it
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const untilIt = (condition, what) => client.untilVehicle(kId, condition, what, 90);
 

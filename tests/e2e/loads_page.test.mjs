@@ -2,28 +2,20 @@
 // hanging at station 0. Where each is, since when and by whom, its drawing, where it has been, and a person who says where it is.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Client } from "../harness/client.mjs";
 import { variantOf } from "../harness/plants.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
 import { System, until } from "../harness/processes.mjs";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kCarried = "A-101", kHung = "A-102";
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create("pulse-line");
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 4, sensing: "analytic" });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { agent: { seed: 22, timeFactor: 4, sensing: "analytic" } });
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const say = async (load, body) => {
   const answer = await client.request("PUT", `/api/v1/loads/${load}/place`, { body });

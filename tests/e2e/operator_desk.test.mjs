@@ -3,27 +3,19 @@
 // station, the motion mode and the start. Three sizes, two languages, two themes.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
-import { Client } from "../harness/client.mjs";
-import { System, until } from "../harness/processes.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
+import { until } from "../harness/processes.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kPath = `/api/v1/vehicles/${kId}`;
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create("pulse-line");
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 6 });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { agent: { seed: 22, timeFactor: 6 } });
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const kEn = { way: "Way", platform: "Platform", cameras: "Cameras", lifts: "Brackets and feet", grey: "Grey", edges: "Edges", corners: "Corners", result: "Result" };
 const kZh = { way: "路线", platform: "平台", cameras: "相机", lifts: "支架与支脚", grey: "灰度", edges: "边缘", corners: "角点", result: "结果" };

@@ -2,10 +2,10 @@
 // taken over and stood on feet by a tour, and brought back and set down by Send. The order says it in words, in both languages.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
-import { Client } from "../harness/client.mjs";
 import { morning } from "../harness/plants.mjs";
-import { System, until } from "../harness/processes.mjs";
-import { decide, faultsOf, picture, signedIn, startBrowser } from "../harness/browser.mjs";
+import { hallWith } from "../harness/one_vehicle.mjs";
+import { until } from "../harness/processes.mjs";
+import { decide, faultsOf, picture, signedIn } from "../harness/browser.mjs";
 import { overlapsOf, reachFaultsOf } from "../harness/reach.mjs";
 
 const kId = "TP-01", kLoad = "A-101";
@@ -13,21 +13,13 @@ const kWays = [
   { width: 1920, height: 1080, lang: "en", theme: "light" },
   { width: 1024, height: 768, lang: "zh", theme: "dark" },
 ];
-let system, client, browser;
+let hall, system, client, browser;
 
 before(async () => {
-  system = await System.create(morning(1, { height_m: 0.02 })); // the platform stands empty below it
-  system.prepareVehicles([kId]);
-  await system.startServer();
-  client = new Client(system.url, system.apiToken);
-  system.startAgent(kId, { seed: 22, timeFactor: 8, sensing: "analytic" });
-  await client.untilReady(kId);
-  browser = await startBrowser();
+  hall = await hallWith(kId, { plant: morning(1, { height_m: 0.02 }), agent: { seed: 22, timeFactor: 8, sensing: "analytic" } }); // the platform stands empty below it
+  ({ system, client, browser } = hall);
 });
-after(async () => {
-  await browser?.close();
-  await system?.stop();
-});
+after(() => hall?.stop());
 
 const vehicle = () => client.get(`/api/v1/vehicles/${kId}`);
 const newest = async () => (await client.get(`/api/v1/job-orders?vehicle=${kId}`)).items[0];

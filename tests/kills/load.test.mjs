@@ -65,6 +65,7 @@ test(`the server killed under load, seed ${SEED}`, async (t) => {
   t.diagnostic(`${total.kills} kills, ${NAMES.length - 1} named places: ${JSON.stringify(total)}`);
   assert.equal(total.kills, KILLS + ROUNDS * (NAMES.length - 1));
   assert.ok(total.created >= total.kills, "there was load");
+  assert.ok(total.weighed >= total.kills, "people said what loads weigh");
   assert.ok(total.replayed >= 10 * total.kills, "the journals held what happened");
   assert.ok(total.given_up <= 0.02 * total.created, `${total.given_up} orders of vehicles that did not see their codes`);
 });

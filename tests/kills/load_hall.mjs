@@ -15,8 +15,9 @@ const FINAL = ["Ended", "Aborted"];
 
 export class LoadHall {
   orders = new Map();  // by Idempotency-Key: what was asked and the most that was answered
+  papers = new Map();  // by client: what its load was said to weigh, last, and last acknowledged
   seen = new Map();    // events the stream has shown, by sequence number
-  counts = { kills: 0, created: 0, unanswered: 0, changes: 0, refused: 0, released: 0, replayed: 0, events_replayed: 0, given_up: 0 };
+  counts = { kills: 0, created: 0, weighed: 0, unanswered: 0, changes: 0, refused: 0, released: 0, replayed: 0, events_replayed: 0, given_up: 0 };
   loading = false;
   next = 0;
 
@@ -81,8 +82,22 @@ export class LoadHall {
     }
   }
 
+  /** What the client's own load weighs is said anew, 1 kg more each time. */
+  async weigh(number) {
+    const known = this.papers.get(number) ?? { said_kg: 0, acknowledged_kg: 0 };
+    this.papers.set(number, known);
+    ++known.said_kg;
+    const body = { mass_kg: known.said_kg, vehicle_types: ["carrier"] };
+    const answer = await this.ask("PUT", `/api/v1/loads/L-${number}`, { body });
+    if (!answer) { ++this.counts.unanswered; return; }
+    if ([200, 201].includes(answer.status)) { known.acknowledged_kg = known.said_kg; ++this.counts.weighed; return; }
+    ++this.counts.refused;
+    assert.equal(answer.status, 503, JSON.stringify(answer.body));
+  }
+
   async clientLoop(number) {
     while (this.loading) {
+      if (this.random() < 0.2) await this.weigh(number);
       const mine = [...this.orders].filter(([, o]) => o.client === number);
       const lost = mine.find(([, o]) => o.outcome === "unknown");
       const open = mine.filter(([, o]) => o.outcome === "accepted" && !o.final);
@@ -213,8 +228,12 @@ export class LoadHall {
 
   /** Either outcome of what was not answered, never both; all of what was. */
   checkBooks() {
-    const { faults, orders, events } = this.stored();
+    const { faults, orders, loads, events } = this.stored();
     assert.deepEqual(faults, []);
+    for (const [number, { said_kg, acknowledged_kg }] of this.papers) {
+      const stored_kg = Number(loads.find(({ id }) => id === `L-${number}`)?.mass_kg ?? 0);
+      assert.ok(stored_kg >= acknowledged_kg && stored_kg <= said_kg, `load L-${number}: acknowledged ${acknowledged_kg} kg, said ${said_kg}, stored ${stored_kg}`);
+    }
     const byKey = new Map();
     for (const order of orders) {
       assert.ok(!byKey.has(order.key), `two orders of key ${order.key}`);

@@ -120,6 +120,7 @@ public:
         return {};
     }
     std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery&) override { return {}; }
+    bool has_load_sheet(const plant::LoadId&) override { return false; }
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override {
         const std::lock_guard lock(mutex_);
         std::vector<fleet::Event> page;

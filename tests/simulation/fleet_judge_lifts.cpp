@@ -15,6 +15,7 @@ void World::check_lifts(const plant::VehicleId& id, const Vehicle& vehicle) {
 /// A load is on one vehicle or at one station, in the store as in the hall.
 void World::check_place_of_load() {
     for (const auto& [id, record] : store_.loads) {
+        if (id != plant_.loads.front().id) continue;  // the others are papers only
         if (record.vehicle.empty() == record.station.empty())
             violate("load " + id.str() + " is in no one place");
     }
@@ -37,7 +38,7 @@ void World::check_load(const plant::VehicleId& id, const Vehicle& vehicle) {
 
 bool World::load_is_known() const {
     const bool on = vehicles_.at(plant_.vehicles.back().id).load_kg() > 0;
-    return on != fleet_->load(plant_.loads.front().id)->vehicle.empty();
+    return on != fleet_->load(plant_.loads.front().id)->place.vehicle.empty();
 }
 
 }  // namespace pulseline::fleet_judge

@@ -71,7 +71,7 @@ void World::order_some() {
 void World::transfer_at_times(std::vector<fleet::NewStep>& steps) {
     if (fleet_judge::pick(foot_random_, 0, 2) != 0) return;
     const auto& load = plant_.loads.front();
-    const auto* there = plant::find_station(plant_, fleet_->load(load.id)->station);
+    const auto* there = plant::find_station(plant_, fleet_->load(load.id)->place.station);
     bool loaded = there == nullptr;
     for (const auto& step : steps) {
         if (!step.after.empty()) loaded = step.after.front().type == vda5050::kPick;
@@ -127,6 +127,7 @@ void World::let_person_act() {
     }
     if (!unstored_ && now_s_ >= stalled_until_s_) help_orders();
     if (!unstored_ && now_s_ >= stalled_until_s_) work_platform();
+    if (!unstored_ && now_s_ >= stalled_until_s_) keep_papers();
 }
 
 /// What is to be done about a load that the platform does not carry as the server has it: what was
@@ -139,7 +140,7 @@ std::optional<fleet::StepAction> World::mend_load(const plant::VehicleId& id,
     const fleet::StepAction pick{vda5050::kPick, {{"load", load.id.str()}}};
     const fleet::StepAction raise{vda5050::kSetBracketHeight,
                                   {{"bracket", std::string("all")}, {"height_m", kLifted_m}}};
-    if (view.carries.empty()) return pick;
+    if (!view.carries) return pick;
     if (vehicle.load_kg() > 0) return raise;  // a part of it is on the support yet
     const auto said = fleet_->place_load(load.id, {{}, view.at_station}, "fitter", now());
     if (said) ++outcome_.faults["person: says where the load is"];
@@ -165,7 +166,7 @@ void World::work_platform() {
     if (!wanted && disturbed_) {
         const bool parks = fleet_judge::pick(foot_random_, 0, 1) == 0;
         wanted = {vda5050::kLowerParking, {}};
-        if (!parks && view->carries.empty()) {
+        if (!parks && !view->carries) {
             wanted = {vda5050::kPick, {{"load", plant_.loads.front().id.str()}}};
         } else if (!parks) {
             wanted = {vda5050::kDrop, {}};

@@ -23,7 +23,7 @@ Outcome judge_seed(std::uint64_t seed, const Options& options) {
 }
 
 World::World(std::uint64_t seed, const Options& options)
-    : random_(seed), options_(options), foot_random_(seed) {
+    : random_(seed), options_(options), foot_random_(seed), papers_random_(seed) {
     free_ = seed % kFreeEvery == 0;
     plant_ = random_plant(random_, free_);
     for (const auto& vehicle : plant_.vehicles) {
@@ -79,6 +79,7 @@ void World::step(double dt_s) {
     check_bodies();
     check_movement();
     check_place_of_load();
+    check_papers();
     if (unstored_) {
         retry_store();
         if (!unstored_ && now_s_ >= stalled_until_s_) listen(dt_s);

@@ -144,6 +144,13 @@ private:
     std::optional<fleet::StepAction> mend_load(const plant::VehicleId& id,
                                                const fleet::VehicleView& view);
 
+    // fleet_judge_papers.cpp: what people say of loads, and that it is kept
+    void keep_papers();
+    void register_load();
+    void weigh_load();
+    void retire_load();
+    void check_papers();
+
     // fleet_judge_laws.cpp
     void check_bodies();
     void note_told(const plant::VehicleId& id, const vda5050::StateMessage& state);
@@ -213,7 +220,10 @@ private:
     double retry_s_ = 0;
     double next_order_s_ = 0;
     double next_person_s_ = 0;
-    std::mt19937_64 foot_random_;        // of its own, so that the seeds stay what they were
+    std::mt19937_64 foot_random_;    // of its own, so that the seeds stay what they were
+    std::mt19937_64 papers_random_;  // likewise
+    double next_papers_s_ = 0;       // when somebody says something of a load
+    int registered_loads_ = 0;
     double next_feet_s_ = 0;             // when somebody lowers or raises the platform's feet
     std::set<std::string> lifts_asked_;  // by a person, and not yet begun: ids of actions
     int wanted_orders_ = 0;

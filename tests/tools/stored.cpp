@@ -159,6 +159,8 @@ int check(const std::string& path) {
              "SELECT o.id, o.state, o.client_order_id, o.cancel_requested, o.revision, "
              "COALESCE(k.key, '') AS key FROM orders o LEFT JOIN idempotency_keys k "
              "ON k.order_id = o.id");
+    const Json loads =
+        rows(sql, "SELECT id, CAST(mass_kg AS TEXT) AS mass_kg FROM load_sheets WHERE retired = 0");
     Json events = Json::array();
     for (const auto& row : rows(sql,
                                 "SELECT CAST(seq AS TEXT) AS seq, type, order_id FROM events "
@@ -167,6 +169,7 @@ int check(const std::string& path) {
     }
     Json report{{"faults", std::move(faults)},
                 {"orders", std::move(orders)},
+                {"loads", loads},
                 {"events", std::move(events)}};
     std::cout << report.dump() << '\n';
     return 0;

@@ -9,6 +9,8 @@
 #include "api/http/wire/page.hpp"
 #include "api/http/wire/problem.hpp"
 #include "api/http/wire/query.hpp"
+#include "api/plant/plant_codec.hpp"
+#include "core/plant/carrying.hpp"
 
 namespace pulseline::api {
 namespace {
@@ -19,21 +21,37 @@ using json::ObjectReader;
 constexpr json::TextLimits kVehicleName{1, 64};
 constexpr json::IntegerLimits kStationNumber{0, 1'000'000};
 
-Json load_json(const plant::Plant& plant, const fleet::LoadRecord& record) {
-    const auto* load = plant::find_load(plant, record.id);
-    Json json = {{"id", record.id.str()}, {"since", rfc3339(record.at)}};
-    if (load != nullptr) {
-        json["name"] = load->name;
-        json["kind"] = plant::to_string(load->kind);
-        json["mass_kg"] = load->mass_kg;
-        if (!load->model.empty()) json["model"] = load->model;
+Json carriers_json(const plant::Plant& plant, const plant::Load& load) {
+    Json carriers = Json::array();
+    for (const auto& type : plant.vehicle_types) {
+        if (!plant::cannot_carry(type, load)) carriers.push_back(type.id.str());
     }
-    if (!record.vehicle.empty()) json["vehicle"] = record.vehicle.str();
-    if (const auto* station = plant::find_station(plant, record.station)) {
+    return carriers;
+}
+
+Json load_json(const plant::Plant& plant, const fleet::KnownLoad& known) {
+    const auto& [sheet, place] = known;
+    Json json = plant_file::encode_load_sheet(sheet.load);
+    json["id"] = sheet.load.id.str();
+    json["centre"] = {{"x_m", sheet.load.centre.x_m}, {"y_m", sheet.load.centre.y_m}};
+    json["carriers"] = carriers_json(plant, sheet.load);
+    json["since"] = rfc3339(place.at);
+    if (!sheet.actor.empty()) {
+        json["registered_at"] = rfc3339(sheet.at);
+        json["registered_by"] = sheet.actor;
+    }
+    if (!place.vehicle.empty()) json["vehicle"] = place.vehicle.str();
+    if (const auto* station = plant::find_station(plant, place.station)) {
         json["station"] = station->number;
     }
-    if (!record.actor.empty()) json["by"] = record.actor;
+    if (!place.actor.empty()) json["by"] = place.actor;
     return json;
+}
+
+Response load_response(int status, const plant::Plant& plant, const fleet::KnownLoad& known) {
+    Response response = json_response(status, load_json(plant, known));
+    response.headers.emplace_back("ETag", etag_of_content(response.body));
+    return response;
 }
 
 /// Neither: outside the plant.
@@ -56,6 +74,54 @@ Json move_json(const plant::Plant& plant, const fleet::LoadMove& move) {
                  {"at", rfc3339(move.at)}};
     if (!move.actor.empty()) json["by"] = move.actor;
     return json;
+}
+
+/// The id stands in the path and must be one that plants could have, too.
+Result<plant::Load> read_sheet(const Request& request) {
+    json::FieldErrors errors;
+    const Json path = {{"id", request.param("id")}};
+    const std::string id = ObjectReader(path, "", errors).text("id", kName);
+    if (const Status ok = errors.status(); !ok) return fail(ok.error());
+    // Whoever writes addresses takes these for folders, and the load would never be found again.
+    if (id == "." || id == ".." || id.find('/') != std::string::npos) {
+        return fail(Errc::kInvalid, "bad_id",
+                    "An id stands in addresses: it has no slash and is more than dots.", "/id");
+    }
+    return read_object<plant::Load>(request, [&](ObjectReader& in) {
+        plant::Load load;
+        load.id = plant::LoadId(id);
+        plant_file::decode_load_sheet(in, load);
+        return load;
+    });
+}
+
+/// Why what is there is not what the client means to write over; nothing: it is.
+std::optional<Response> stale_load(const Request& request, const plant::Plant& plant,
+                                   const plant::Load& wanted,
+                                   const std::optional<fleet::KnownLoad>& present) {
+    const std::string etag =
+        present ? etag_of_content(json_response(200, load_json(plant, *present)).body) : "";
+    const std::string& id = wanted.id.str();
+    // Whoever heard no answer says the same once more.
+    const bool repeats = present && plant_file::encode_load_sheet(present->sheet.load) ==
+                                        plant_file::encode_load_sheet(wanted);
+    if (repeats) return std::nullopt;
+    if (present && if_none_match_has(request, etag)) {
+        return problem({Errc::kStale,
+                        {"load_known", {{"load", id}}},
+                        "There is a load of that id already. Choose another id, or change what is "
+                        "known of that one.",
+                        "If-None-Match"},
+                       request);
+    }
+    if (if_match_allows(request, etag) && (present || !request.headers.contains("if-match"))) {
+        return std::nullopt;
+    }
+    return problem({Errc::kStale,
+                    {"stale_load", {{"load", id}}},
+                    "The load has changed meanwhile; read it again, then decide.",
+                    "If-Match"},
+                   request);
 }
 
 Response unknown_load(const Request& request) {
@@ -102,24 +168,48 @@ Result<PlaceBody> read_place(const Request& request) {
 }  // namespace
 
 FleetAnswer list_loads(FleetContext& context, const Request&) {
-    const auto to_json = [&](const fleet::LoadRecord& record) {
-        return load_json(context.plant, record);
+    const auto to_json = [&](const fleet::KnownLoad& known) {
+        return load_json(context.plant, known);
     };
     return {json_response(200, {{"items", list_json(context.fleet.loads(), to_json)}})};
 }
 
 FleetAnswer get_load(FleetContext& context, const Request& request) {
-    const auto record = context.fleet.load(plant::LoadId(request.param("id")));
-    if (!record) return {unknown_load(request)};
-    Response response = json_response(200, load_json(context.plant, *record));
-    response.headers.emplace_back("ETag", etag_of_content(response.body));
+    const auto known = context.fleet.load(plant::LoadId(request.param("id")));
+    if (!known) return {unknown_load(request)};
+    return {load_response(200, context.plant, *known)};
+}
+
+FleetAnswer put_load(FleetContext& context, const Request& request) {
+    const auto sheet = read_sheet(request);
+    if (!sheet) return {problem(400, sheet.error(), request)};
+    const auto present = context.fleet.load(sheet->id);
+    if (auto stale = stale_load(request, context.plant, *sheet, present))
+        return {std::move(*stale)};
+    const auto stored = context.fleet.put_load(*sheet, request.identity.name, context.now);
+    if (!stored) {
+        const bool wrong = stored.error().code == Errc::kInvalid;
+        return {wrong ? problem(400, stored.error(), request) : problem(stored.error(), request)};
+    }
+    Response response = load_response(present ? 200 : 201, context.plant, *stored);
+    if (!present) response.headers.emplace_back("Location", request.path);
     return {std::move(response)};
+}
+
+FleetAnswer retire_load(FleetContext& context, const Request& request) {
+    const auto retired = context.fleet.retire_load(plant::LoadId(request.param("id")),
+                                                   request.identity.name, context.now);
+    if (!retired) return {problem(retired.error(), request)};
+    return {Response{204, "", {}, ""}};
 }
 
 Response list_load_moves(const HistoryContext& context, const Request& request) {
     auto query = read_move_query(request);
     if (!query) return problem(400, query.error(), request);
-    if (plant::find_load(context.plant, query->load) == nullptr) return unknown_load(request);
+    if (plant::find_load(context.plant, query->load) == nullptr &&
+        !context.history.has_load_sheet(query->load)) {
+        return unknown_load(request);
+    }
     const auto limit = static_cast<std::size_t>(query->limit);
     ++query->limit;
     auto moves = context.history.load_moves(*query);

@@ -137,39 +137,39 @@ Json vehicle_json(const plant::Plant& plant, const CameraImages& images,
     const plant::Vehicle* known = plant::find_vehicle(plant, vehicle.id);
     const plant::VehicleType* type =
         known != nullptr ? plant::find_vehicle_type(plant, known->type) : nullptr;
-    const plant::Load* load = plant::find_load(plant, vehicle.carries);
-    Json json = {
-        {"id", vehicle.id.str()},
-        {"name", known != nullptr ? known->name : vehicle.id.str()},
-        {"type", known != nullptr ? known->type.str() : ""},
-        {"link", fleet::to_string(vehicle.link)},
-        {"activity", fleet::to_string(vehicle.activity)},
-        {"pose_known", vehicle.pose_known},
-        {"hall", vehicle.hall},
-        {"at_station", vehicle.at_station.str()},
-        {"paused", vehicle.paused.has_value()},
-        {"pause_confirmed", state.paused},
-        {"needs_resume", vehicle.needs_resume},
-        {"integration", fleet::to_string(vehicle.integration)},
-        {"operating_mode", state.operating_mode},
-        {"battery_percent", state.battery_percent},
-        {"e_stop", state.e_stop},
-        {"field_violation", state.field_violation},
-        {"errors", list_json(state.errors, error_json)},
-        {"brackets", list_json(state.brackets, bracket_json)},
-        {"wheels",
-         list_json(state.wheels,
-                   [&](const vda5050::WheelStatus& wheel) { return wheel_json(type, wheel); })},
-        {"cameras", list_json(state.cameras,
-                              [&](const vda5050::CameraReading& reading) {
-                                  return camera_json(type, images, vehicle.id, reading);
-                              })},
-        {"parking_feet", list_json(state.parking_feet, foot_json)},
-        // Before its first state only the server knows what a vehicle carries.
-        {"load_kg", !vehicle.last_heard && load != nullptr ? load->mass_kg : state.load_kg},
-        {"load_name", load != nullptr ? load->name : ""}};
+    const auto& load = vehicle.carries;
+    Json json = {{"id", vehicle.id.str()},
+                 {"name", known != nullptr ? known->name : vehicle.id.str()},
+                 {"type", known != nullptr ? known->type.str() : ""},
+                 {"link", fleet::to_string(vehicle.link)},
+                 {"activity", fleet::to_string(vehicle.activity)},
+                 {"pose_known", vehicle.pose_known},
+                 {"hall", vehicle.hall},
+                 {"at_station", vehicle.at_station.str()},
+                 {"paused", vehicle.paused.has_value()},
+                 {"pause_confirmed", state.paused},
+                 {"needs_resume", vehicle.needs_resume},
+                 {"integration", fleet::to_string(vehicle.integration)},
+                 {"operating_mode", state.operating_mode},
+                 {"battery_percent", state.battery_percent},
+                 {"e_stop", state.e_stop},
+                 {"field_violation", state.field_violation},
+                 {"errors", list_json(state.errors, error_json)},
+                 {"brackets", list_json(state.brackets, bracket_json)},
+                 {"wheels", list_json(state.wheels,
+                                      [&](const vda5050::WheelStatus& wheel) {
+                                          return wheel_json(type, wheel);
+                                      })},
+                 {"cameras", list_json(state.cameras,
+                                       [&](const vda5050::CameraReading& reading) {
+                                           return camera_json(type, images, vehicle.id, reading);
+                                       })},
+                 {"parking_feet", list_json(state.parking_feet, foot_json)},
+                 // Before its first state only the server knows what a vehicle carries.
+                 {"load_kg", !vehicle.last_heard && load ? load->mass_kg : state.load_kg},
+                 {"load_name", load ? load->name : ""}};
     if (state.in_hand_of) json["in_hand_of"] = *state.in_hand_of;
-    if (load != nullptr) json["load"] = load->id.str();
+    if (load) json["load"] = load->id.str();
     if (const auto& worst = vehicle.load.worst) {
         json["worst_bracket"] = {
             {"bracket", worst->bracket}, {"share", worst->share}, {"limit", worst->limit}};

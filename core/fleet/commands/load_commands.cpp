@@ -66,19 +66,19 @@ Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::
 
 }  // namespace
 
-Result<LoadRecord> Fleet::place_load(const plant::LoadId& id, const LoadPlace& where,
-                                     const std::string& actor, Time now) {
+Result<KnownLoad> Fleet::place_load(const plant::LoadId& id, const LoadPlace& where,
+                                    const std::string& actor, Time now) {
     FleetState& fleet = input<&Fleet::place_load>(now, id, where, actor);
-    const auto* load = plant::find_load(fleet.plant, id);
+    const auto* load = find_load(fleet, id);
     if (!load) {
         return fail(Errc::kNotFound, "unknown_load", "There is no load " + id.str() + ".", {},
                     {{"load", id.str()}});
     }
     const LoadRecord before = fleet.loads.at(id);
-    if (before.vehicle == where.vehicle && before.station == where.station) return before;
+    if (before.vehicle == where.vehicle && before.station == where.station) return *this->load(id);
     LiveVehicle* from = fleet.find(before.vehicle);
-    Status may;
-    if (from) may = may_change(*from, {});
+    Status may = is_not_taken_over(fleet, *load);
+    if (may && from) may = may_change(*from, {});
     if (may && !where.vehicle.empty()) may = may_be_on(fleet, *load, where.vehicle);
     if (may && !where.station.empty()) may = may_be_at(fleet, *load, where.station);
     if (!may) return fail(std::move(may).error());
@@ -90,7 +90,7 @@ Result<LoadRecord> Fleet::place_load(const plant::LoadId& id, const LoadPlace& w
     move_load(fleet, id, where, {actor}, now);
     if (from) settle_load(fleet, *from, now);
     dispatch(fleet, now);
-    return fleet.loads.at(id);
+    return *this->load(id);
 }
 
 }  // namespace pulseline::fleet

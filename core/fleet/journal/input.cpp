@@ -46,6 +46,8 @@ constexpr std::array<const char*, std::variant_size_v<Call>> kNames = {
     "move_lifts",
     "stop_lifts",
     "place_load",
+    "put_load",
+    "retire_load",
 };
 
 /// What `call` gives back: only outputs are of interest, answers went to whoever asked.

@@ -27,21 +27,20 @@ struct To<Method> {
     Arguments arguments;
 };
 
-using Call =
-    std::variant<To<&Fleet::take_outputs>, To<&Fleet::tick>, To<&Fleet::vehicle_heard>,
-                 To<&Fleet::vehicle_state>, To<&Fleet::vehicle_connected>,
-                 To<&Fleet::vehicle_disconnected>, To<&Fleet::vehicle_factsheet>,
-                 To<&Fleet::vehicle_message_refused>, To<&Fleet::vehicle_identity_conflict>,
-                 To<&Fleet::create>, To<&Fleet::control_order>, To<&Fleet::pause_order>,
-                 To<&Fleet::resume_order>, To<&Fleet::cancel_order>, To<&Fleet::store_template>,
-                 To<&Fleet::delete_template>, To<&Fleet::create_schedule>,
-                 To<&Fleet::pause_schedule>, To<&Fleet::delete_schedule>, To<&Fleet::pause_vehicle>,
-                 To<&Fleet::init_position>, To<&Fleet::integrate>, To<&Fleet::pause_fleet>,
-                 To<&Fleet::resume_fleet>, To<&Fleet::close_floor>, To<&Fleet::reopen_floor>,
-                 To<&Fleet::store_failed>, To<&Fleet::store_works_again>,
-                 To<&Fleet::server_stood_still>, To<&Fleet::commands_expired>,
-                 To<&Fleet::clock_differs>, To<&Fleet::clock_agrees>, To<&Fleet::leg_planned>,
-                 To<&Fleet::move_lifts>, To<&Fleet::stop_lifts>, To<&Fleet::place_load>>;
+using Call = std::variant<
+    To<&Fleet::take_outputs>, To<&Fleet::tick>, To<&Fleet::vehicle_heard>,
+    To<&Fleet::vehicle_state>, To<&Fleet::vehicle_connected>, To<&Fleet::vehicle_disconnected>,
+    To<&Fleet::vehicle_factsheet>, To<&Fleet::vehicle_message_refused>,
+    To<&Fleet::vehicle_identity_conflict>, To<&Fleet::create>, To<&Fleet::control_order>,
+    To<&Fleet::pause_order>, To<&Fleet::resume_order>, To<&Fleet::cancel_order>,
+    To<&Fleet::store_template>, To<&Fleet::delete_template>, To<&Fleet::create_schedule>,
+    To<&Fleet::pause_schedule>, To<&Fleet::delete_schedule>, To<&Fleet::pause_vehicle>,
+    To<&Fleet::init_position>, To<&Fleet::integrate>, To<&Fleet::pause_fleet>,
+    To<&Fleet::resume_fleet>, To<&Fleet::close_floor>, To<&Fleet::reopen_floor>,
+    To<&Fleet::store_failed>, To<&Fleet::store_works_again>, To<&Fleet::server_stood_still>,
+    To<&Fleet::commands_expired>, To<&Fleet::clock_differs>, To<&Fleet::clock_agrees>,
+    To<&Fleet::leg_planned>, To<&Fleet::move_lifts>, To<&Fleet::stop_lifts>, To<&Fleet::place_load>,
+    To<&Fleet::put_load>, To<&Fleet::retire_load>>;
 
 /// Place of a method's call in the list; does not compile for a method that is not in it.
 template <auto Method>

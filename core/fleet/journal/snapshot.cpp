@@ -29,8 +29,8 @@ void read_vehicles(Reader& in, FleetState& fleet) {
 /// By the loads, which stand behind the vehicles, and by what a vehicle is about to take over.
 void read_classes(Reader& in, FleetState& fleet) {
     for (const auto& [id, record] : fleet.loads) {
-        if (id != record.id || !plant::find_load(fleet.plant, id)) {
-            return in.refuse("other loads than the plant's");
+        if (id != record.id || !find_load(fleet, id)) {
+            return in.refuse("a place of a load that nobody knows");
         }
     }
     find_loads(fleet);

@@ -106,12 +106,12 @@ void fields(V& visit, S& it) {
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, FleetState>
 void fields(V& visit, S& it) {
-    auto& [its_plant, tables, planner, ids, started, vehicles, loads, orders, idempotency, floor,
-           closures, keys_swept, event_seq, order_number, questions, standing, stored_seq,
-           store_fault, clock_difference, out, stored_vehicles, stored_orders, stored_loads,
-           changed_vehicles, changed_stations, plans_wanted] = it;
-    visit(ids, started, loads, orders, idempotency, floor, closures, keys_swept, event_seq,
-          order_number, questions, standing, stored_seq, store_fault, clock_difference);
+    auto& [its_plant, tables, planner, ids, started, vehicles, load_sheets, loads, orders,
+           idempotency, floor, closures, keys_swept, event_seq, order_number, questions, standing,
+           stored_seq, store_fault, clock_difference, out, stored_vehicles, stored_orders,
+           stored_loads, stored_load_sheets, changed_vehicles, changed_stations, plans_wanted] = it;
+    visit(ids, started, load_sheets, loads, orders, idempotency, floor, closures, keys_swept,
+          event_seq, order_number, questions, standing, stored_seq, store_fault, clock_difference);
 }
 
 }  // namespace fleet

@@ -15,7 +15,7 @@ template <class Steps>
 bool may_carry(const FleetState& fleet, const Steps& steps, const LiveVehicle& live) {
     const auto may = [&](const StepAction& action) {
         if (action.type != vda5050::kPick) return true;
-        const auto* load = plant::find_load(fleet.plant, load_named(action));
+        const auto* load = find_load(fleet, load_named(action));
         return load != nullptr && !plant::cannot_carry(*live.type, *load);
     };
     return std::ranges::all_of(steps, [&](const auto& step) {

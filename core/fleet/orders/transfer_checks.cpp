@@ -41,7 +41,7 @@ private:
         if (id.empty()) {
             return fail(Errc::kInvalid, "missing_field", "Which load? Its id belongs here.", at);
         }
-        const auto* load = plant::find_load(fleet_.plant, id);
+        const auto* load = find_load(fleet_, id);
         if (load == nullptr) {
             return fail(Errc::kUnreachable, "unknown_load",
                         "There is no load \"" + id.str() + "\".", at, {{"load", id.str()}});

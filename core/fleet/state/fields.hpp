@@ -29,6 +29,7 @@ PULSELINE_FIELDS(Param, name, value)
 PULSELINE_FIELDS(Reason, code, params)
 PULSELINE_LAST(plant::MotionMode, kFree)
 PULSELINE_LAST(plant::Tolerance::Shape, kEllipse)
+PULSELINE_LAST(plant::LoadKind, kInstrument)
 PULSELINE_LAST(kinematics::Segment::Kind, kCombined)
 PULSELINE_LAST(vda5050::BlockingType, kHard)
 PULSELINE_LAST(vda5050::ActionStatus, kFailed)
@@ -46,6 +47,11 @@ namespace geometry {
 PULSELINE_FIELDS(Point2, x_m, y_m)
 PULSELINE_FIELDS(Pose2, x_m, y_m, heading_rad)
 }  // namespace geometry
+
+namespace plant {
+PULSELINE_FIELDS(Load, id, name, kind, model, mass_kg, centre, outline, vehicle_types, vehicle,
+                 station, names)
+}  // namespace plant
 
 namespace kinematics {
 PULSELINE_FIELDS(Segment, kind, start, end, turn_rad, length_m, direction_rad, centre, duration_s)
@@ -163,6 +169,7 @@ PULSELINE_FIELDS(StatedPose, pose, sigma_xy_m, sigma_heading_rad)
 PULSELINE_FIELDS(Pause, actor, at, with_fleet)
 PULSELINE_FIELDS(LoadRecord, id, vehicle, station, at, actor)
 PULSELINE_FIELDS(LoadPlace, vehicle, station)
+PULSELINE_FIELDS(LoadSheet, load, at, actor, retired)
 PULSELINE_FIELDS(PoseBasis, kind, station, actor, at, driven_m)
 PULSELINE_FIELDS(VehicleRecord, id, pose_known, pose, hall, claim, at_station, leg, has_leg,
                  leg_data, needs_resume, needs_resume_reason, paused, integration, last_stop,
@@ -202,6 +209,7 @@ void fields(V& visit, S& it) {
 }
 PULSELINE_FIELDS(LoadView, force_n, centre, worst, fault)
 PULSELINE_FIELDS(LiftMove, what, action_id, actor, at, state, why)
+PULSELINE_FIELDS(CarriedLoad, id, name, mass_kg)
 PULSELINE_FIELDS(VehicleView, id, link, activity, reason, last_heard, pose_known, pose_basis, pose,
                  claimed_pose, pose_at, hall, at_station, carries, order, leg, paused,
                  stands_paused, integration, needs_resume, needs_resume_reason, made_way, load,
@@ -212,10 +220,10 @@ PULSELINE_FIELDS(IdempotencyRecord, client, key, body_sha256, order, at)
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Records>
 void fields(V& visit, S& it) {
-    auto& [orders, vehicles, loads, stops, events, idempotency, closures, reopened, schedules,
-           templates, journal_rows] = it;
-    visit(orders, vehicles, loads, stops, events, idempotency, closures, reopened, schedules,
-          templates);
+    auto& [orders, vehicles, loads, load_sheets, stops, events, idempotency, closures, reopened,
+           schedules, templates, journal_rows] = it;
+    visit(orders, vehicles, loads, load_sheets, stops, events, idempotency, closures, reopened,
+          schedules, templates);
 }
 PULSELINE_FIELDS(VehicleMessage, vehicle, order, instant_actions)
 // Closed floor, who stands where, and tables are those of the state it was asked in.

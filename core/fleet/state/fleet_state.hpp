@@ -138,7 +138,8 @@ struct FleetState {
     IdSource ids;
     Time started;
     std::map<plant::VehicleId, LiveVehicle> vehicles;
-    std::map<plant::LoadId, LoadRecord> loads;  // all of the plant
+    std::map<plant::LoadId, LoadSheet> load_sheets;  // the plant's and those said since
+    std::map<plant::LoadId, LoadRecord> loads;       // of all sheets but retired ones
     OrderBook orders;
     std::map<std::pair<std::string, std::string>, IdempotencyRecord> idempotency;
     Floor floor;
@@ -164,6 +165,7 @@ struct FleetState {
     std::set<plant::VehicleId> stored_vehicles;  // records to write
     std::set<JobOrderId> stored_orders;
     std::set<plant::LoadId> stored_loads;
+    std::set<plant::LoadId> stored_load_sheets;
     std::set<plant::VehicleId> changed_vehicles;  // views to show
     std::set<plant::StationId> changed_stations;  // by what came or went without a vehicle
     std::set<plant::VehicleId> plans_wanted;

@@ -239,6 +239,15 @@ struct LoadRecord {
     std::string actor;  // whoever has put it there; empty: the plant has it there at first
 };
 
+/// What is known of a load. It survives a restart, and what people have said of it stands before
+/// what the plant's file says.
+struct LoadSheet {
+    plant::Load load;
+    Time at;               // when it was said
+    std::string actor;     // by whom; empty: the plant's file says it
+    bool retired = false;  // it has left for ever, and its id is never given again
+};
+
 /// What survives a restart about a vehicle.
 struct VehicleRecord {
     plant::VehicleId id;

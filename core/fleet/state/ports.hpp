@@ -52,7 +52,8 @@ struct StoredJournal {
 struct Records {
     std::vector<JobOrder> orders;
     std::vector<VehicleRecord> vehicles;
-    std::vector<LoadRecord> loads;  // upserts by id; the store keeps each move
+    std::vector<LoadRecord> loads;       // upserts by id; the store keeps each move
+    std::vector<LoadSheet> load_sheets;  // upserts by id
     std::vector<StopRecord> stops;
     std::vector<Event> events;
     std::vector<IdempotencyRecord> idempotency;
@@ -63,8 +64,8 @@ struct Records {
     std::vector<JournalRow> journal;  // added by the owner of the journal, not by the fleet
     bool empty() const {
         return journal.empty() && orders.empty() && vehicles.empty() && loads.empty() &&
-               stops.empty() && events.empty() && idempotency.empty() && closures.empty() &&
-               reopened.empty() && schedules.empty() && templates.empty();
+               load_sheets.empty() && stops.empty() && events.empty() && idempotency.empty() &&
+               closures.empty() && reopened.empty() && schedules.empty() && templates.empty();
     }
 };
 
@@ -73,6 +74,7 @@ struct StoredFleet {
     std::vector<JobOrder> orders;  // not final ones, and the final ones of the last 7 days
     std::vector<VehicleRecord> vehicles;
     std::vector<LoadRecord> loads;
+    std::vector<LoadSheet> load_sheets;          // that people have said, retired ones too
     std::vector<IdempotencyRecord> idempotency;  // of the last 7 days
     std::vector<Closure> closures;               // oldest first
     std::vector<Schedule> schedules;
@@ -159,7 +161,9 @@ public:
     /// The events stop.not_measured, newest first, as long as events are kept.
     virtual std::vector<Event> unmeasured_stops(const UnmeasuredQuery& query) = 0;
     virtual std::vector<LoadMove> load_moves(const LoadMoveQuery& query) = 0;  // newest first
-    virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;         // newest first
+    /// Whether people have ever said anything of such a load, retired ones too.
+    virtual bool has_load_sheet(const plant::LoadId& id) = 0;
+    virtual std::vector<JobOrder> orders(const OrderQuery& query) = 0;  // newest first
     virtual std::optional<JobOrder> order(JobOrderId id) = 0;
     virtual std::vector<Event> events_after(std::int64_t seq, int limit) = 0;
     virtual StopStatistics statistics(const std::vector<plant::VehicleId>& vehicles,

@@ -76,6 +76,12 @@ struct CodesUnderWay {
 };
 CodesUnderWay codes_under_way(const vda5050::StateMessage& state);
 
+struct CarriedLoad {
+    plant::LoadId id;
+    std::string name;
+    double mass_kg = 0;  // as its papers say
+};
+
 struct VehicleView {
     plant::VehicleId id;
     Link link = Link::kNever;
@@ -89,8 +95,8 @@ struct VehicleView {
     std::optional<Time> pose_at;
     std::string hall;
     plant::StationId at_station;
-    plant::LoadId carries;  // empty: nothing
-    JobOrderId order;       // empty: none
+    std::optional<CarriedLoad> carries;
+    JobOrderId order;  // empty: none
     std::optional<LegView> leg;
     std::optional<Pause> paused;
     bool stands_paused =
@@ -112,6 +118,12 @@ struct StationView {
     bool ready = false;
     StopRecordId last_stop;
     plant::LoadId holds;  // on its support; empty: nothing
+};
+
+/// A load with all that is known of it.
+struct KnownLoad {
+    LoadSheet sheet;
+    LoadRecord place;
 };
 
 /// Where a person says that a load is; both empty: not in the plant.

@@ -21,9 +21,11 @@ std::vector<PlantClass> classes_of(const plant::Plant& plant) {
         if (!type) continue;  // validate() refuses such a plant
         const bool loaded = plant::first_load(plant, vehicle.id) != nullptr;
         note(type, loaded, 1);
-        const bool may_carry = std::ranges::any_of(plant.loads, [&](const plant::Load& load) {
-            return !plant::cannot_carry(*type, load);
-        });
+        // Loads that nobody knows of yet come to whoever has brackets.
+        const bool may_carry = !type->brackets.empty() ||
+                               std::ranges::any_of(plant.loads, [&](const plant::Load& load) {
+                                   return !plant::cannot_carry(*type, load);
+                               });
         if (loaded || may_carry) note(type, !loaded, 0);
     }
     return classes;

@@ -9,13 +9,12 @@
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/loads.hpp"
 #include "core/plant/load_rules.hpp"
+#include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
 namespace {
 
 using Kind = Interlock::Kind;
-
-constexpr double kUnlike = 0.1;  // of the mass that is known; load cells are far better
 
 std::vector<plant::BracketForce> forces_on(const LiveVehicle& live) {
     std::vector<plant::BracketForce> forces;
@@ -37,9 +36,7 @@ std::optional<Reason> unlike_known(const FleetState& fleet, const LiveVehicle& l
         if (!felt) return std::nullopt;
         return Reason{"load_unknown", {{"measured_kg", measured_kg}}};
     }
-    if (std::abs(measured_kg - load->mass_kg) <= kUnlike * load->mass_kg || load->mass_kg == 0) {
-        return std::nullopt;
-    }
+    if (plant::weighs_as_known(measured_kg, load->mass_kg)) return std::nullopt;
     return Reason{"load_differs",
                   {{"load", load->name}, {"load_kg", load->mass_kg}, {"measured_kg", measured_kg}}};
 }
@@ -47,7 +44,12 @@ std::optional<Reason> unlike_known(const FleetState& fleet, const LiveVehicle& l
 std::optional<Reason> load_fault(const FleetState& fleet, const LiveVehicle& live,
                                  const std::vector<plant::BracketForce>& forces) {
     if (auto fault = plant::load_fault(*live.type, forces)) return fault;
-    return unlike_known(fleet, live, forces);
+    if (auto unlike = unlike_known(fleet, live, forces)) return unlike;
+    // What it has begun only the vehicle knows.
+    const auto half =
+        std::ranges::find(live.state.errors, vda5050::kLoadHalfTaken, &vda5050::VehicleError::type);
+    if (half == live.state.errors.end()) return std::nullopt;
+    return Reason{"load_half_taken", {}};
 }
 
 /// A platform that was measured at a coded station leaves it only when both its cameras still see

@@ -26,7 +26,7 @@ Status may_pick(const FleetState& fleet, const LiveVehicle& live, const plant::S
                 const StepAction& wanted) {
     const std::string& id = live.record.id.str();
     const plant::LoadId named = load_named(wanted);
-    const auto* load = plant::find_load(fleet.plant, named);
+    const auto* load = find_load(fleet, named);
     if (!load) {
         return fail(Errc::kUnreachable, "unknown_load", "There is no load \"" + named.str() + "\".",
                     "/load", {{"load", named.str()}});
@@ -95,18 +95,30 @@ plant::LoadId taken_over_by(const LiveVehicle& live) {
     return id == nullptr ? plant::LoadId() : plant::LoadId(*id);
 }
 
-/// Where the plant has it at first, unless another one has got there.
-LoadPlace first_place(const FleetState& fleet, const plant::Load& load) {
-    if (load_on(fleet, load.vehicle) || load_at(fleet, load.station)) return {};
-    return {load.vehicle, load.station};
+/// Where the plant's file has it at first, unless another one has got there, or its vehicle may not
+/// carry it any more.
+LoadPlace first_place(const FleetState& fleet, const plant::LoadId& id) {
+    const auto* first = plant::find_load(fleet.plant, id);
+    if (!first || load_on(fleet, first->vehicle) || load_at(fleet, first->station)) return {};
+    const LoadRecord there{id, first->vehicle, first->station, {}, {}};
+    if (!may_still_be_there(fleet, *find_load(fleet, id), there)) return {};
+    return {first->vehicle, first->station};
 }
 
 }  // namespace
 
-void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now) {
+void restore_loads(FleetState& fleet, std::vector<LoadSheet> sheets, std::vector<LoadRecord> places,
+                   Time now) {
+    for (auto& sheet : sheets) {
+        const auto id = sheet.load.id;
+        fleet.load_sheets.emplace(id, std::move(sheet));
+    }
+    for (const auto& load : fleet.plant.loads) {
+        fleet.load_sheets.emplace(load.id, LoadSheet{load, {}, {}, false});
+    }
     std::vector<LoadRecord> displaced;
-    for (auto& record : stored) {
-        const auto* load = plant::find_load(fleet.plant, record.id);
+    for (auto& record : places) {
+        const auto* load = find_load(fleet, record.id);
         if (!load) continue;
         if (!may_still_be_there(fleet, *load, record)) {
             displaced.push_back(std::move(record));
@@ -117,22 +129,28 @@ void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now) 
     }
     for (auto& record : displaced) {
         const auto id = record.id;
-        const LoadPlace to = first_place(fleet, *plant::find_load(fleet.plant, id));
+        const LoadPlace to = first_place(fleet, id);
         fleet.loads.emplace(id, std::move(record));
         move_load(fleet, id, to, {}, now);
     }
-    for (const auto& load : fleet.plant.loads) {
-        if (fleet.loads.contains(load.id)) continue;
-        const LoadPlace at = first_place(fleet, load);
-        fleet.loads.emplace(load.id, LoadRecord{load.id, at.vehicle, at.station, now, {}});
+    for (const auto& [id, sheet] : fleet.load_sheets) {
+        if (sheet.retired || fleet.loads.contains(id)) continue;
+        const LoadPlace at = first_place(fleet, id);
+        fleet.loads.emplace(id, LoadRecord{id, at.vehicle, at.station, now, {}});
     }
     find_loads(fleet);
+}
+
+const plant::Load* find_load(const FleetState& fleet, const plant::LoadId& id) {
+    const auto sheet = fleet.load_sheets.find(id);
+    return sheet == fleet.load_sheets.end() || sheet->second.retired ? nullptr
+                                                                     : &sheet->second.load;
 }
 
 void find_loads(FleetState& fleet) {
     for (auto& [id, live] : fleet.vehicles) {
         live.load = load_on(fleet, id);
-        if (!live.load) live.load = plant::find_load(fleet.plant, taken_over_by(live));
+        if (!live.load) live.load = find_load(fleet, taken_over_by(live));
     }
 }
 
@@ -144,7 +162,7 @@ plant::LoadId load_named(const StepAction& wanted) {
 const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehicle) {
     if (vehicle.empty()) return nullptr;
     for (const auto& [id, record] : fleet.loads) {
-        if (record.vehicle == vehicle) return plant::find_load(fleet.plant, id);
+        if (record.vehicle == vehicle) return find_load(fleet, id);
     }
     return nullptr;
 }
@@ -152,7 +170,7 @@ const plant::Load* load_on(const FleetState& fleet, const plant::VehicleId& vehi
 const plant::Load* load_at(const FleetState& fleet, const plant::StationId& station) {
     if (station.empty()) return nullptr;
     for (const auto& [id, record] : fleet.loads) {
-        if (record.station == station) return plant::find_load(fleet.plant, id);
+        if (record.station == station) return find_load(fleet, id);
     }
     return nullptr;
 }
@@ -179,7 +197,7 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
                                 const StepAction& wanted) {
     const bool picks = wanted.type == vda5050::kPick;
     const auto* load =
-        picks ? plant::find_load(fleet.plant, load_named(wanted)) : load_on(fleet, live.record.id);
+        picks ? find_load(fleet, load_named(wanted)) : load_on(fleet, live.record.id);
     vda5050::Action action;
     action.type = wanted.type;
     action.params = {{kLoadId, load->id.str()}, {"weight", load->mass_kg}};
@@ -189,7 +207,7 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
                       const MovedBy& by, Time now) {
     if (done.type == vda5050::kPick) {
-        // The plant may have lost it since: then nobody here knows of it any more.
+        // It may have been lost to the plant's file since: then nobody here knows of it any more.
         if (!fleet.loads.contains(load_named(done))) return;
         move_load(fleet, load_named(done), {live.record.id, {}}, by, now);
     } else if (const auto* load = load_on(fleet, live.record.id)) {
@@ -197,10 +215,21 @@ void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& do
     }
 }
 
+Status is_not_taken_over(const FleetState& fleet, const plant::Load& load) {
+    for (const auto& [id, live] : fleet.vehicles) {
+        if (live.load != &load || fleet.loads.at(load.id).vehicle == id) continue;
+        return fail(Errc::kConflict, "load_in_transfer",
+                    "Vehicle " + id.str() + " is just taking " + load.name +
+                        " over. Say it when that has ended.",
+                    {}, {{"load", load.name}, {"vehicle", id.str()}});
+    }
+    return {};
+}
+
 void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to, const MovedBy& by,
                Time now) {
     LoadRecord& record = fleet.loads.at(id);
-    Params params{{"load", plant::find_load(fleet.plant, id)->name}};
+    Params params{{"load", find_load(fleet, id)->name}};
     tell_place(fleet, record, "from_", params);
     const LoadRecord before =
         std::exchange(record, LoadRecord{id, to.vehicle, to.station, now, by.actor});

@@ -9,9 +9,13 @@
 /// an aircraft over). Each is in one place, and no place has two.
 namespace pulseline::fleet {
 
-/// Where each load of the plant is: as stored, or where nothing is stored, or the plant forbids it
-/// there by now, as the plant has it at first (event load.moved).
-void restore_loads(FleetState& fleet, std::vector<LoadRecord> stored, Time now);
+/// What is known of each load: as stored, the others as the plant has them. Where each is: as
+/// stored, or where nothing is stored, or the plant forbids it there by now, as the plant has it at
+/// first (event load.moved).
+void restore_loads(FleetState& fleet, std::vector<LoadSheet> sheets, std::vector<LoadRecord> places,
+                   Time now);
+/// nullptr: nobody knows it, or it has left for ever. Lives until it is retired.
+const plant::Load* find_load(const FleetState& fleet, const plant::LoadId& id);
 /// What each vehicle holds floor with follows from the loads (LiveVehicle::load).
 void find_loads(FleetState& fleet);
 
@@ -40,6 +44,8 @@ struct MovedBy {
 /// The vehicle has done what it was asked for: the load has another place.
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
                       const MovedBy& by, Time now);
+/// Nobody is just taking it over. Errors: load_in_transfer {load, vehicle}.
+Status is_not_taken_over(const FleetState& fleet, const plant::Load& load);
 /// The load is there from now on.
 void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to, const MovedBy& by,
                Time now);

@@ -23,15 +23,18 @@ std::vector<VehicleView> Fleet::vehicles(Time now) const {
     return views;
 }
 
-std::vector<LoadRecord> Fleet::loads() const {
-    std::vector<LoadRecord> records;
-    for (const auto& [id, record] : state_->loads) records.push_back(record);
-    return records;
+std::vector<KnownLoad> Fleet::loads() const {
+    std::vector<KnownLoad> loads;
+    for (const auto& [id, place] : state_->loads) {
+        loads.push_back({state_->load_sheets.at(id), place});
+    }
+    return loads;
 }
 
-std::optional<LoadRecord> Fleet::load(const plant::LoadId& id) const {
-    const auto found = state_->loads.find(id);
-    return found == state_->loads.end() ? std::nullopt : std::optional(found->second);
+std::optional<KnownLoad> Fleet::load(const plant::LoadId& id) const {
+    const auto place = state_->loads.find(id);
+    if (place == state_->loads.end()) return std::nullopt;
+    return KnownLoad{state_->load_sheets.at(id), place->second};
 }
 
 std::vector<StationView> Fleet::stations() const { return station_views(*state_); }

@@ -12,6 +12,7 @@
 #include "core/fleet/orders/transfer_checks.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/leg_request.hpp"
+#include "core/fleet/vehicle/loads.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/fleet/views/start_checks.hpp"
 
@@ -22,6 +23,7 @@ struct PreviewState {
     std::shared_ptr<const PlantTables> tables;
     Time started;
     std::vector<LiveVehicle> vehicles;
+    std::map<plant::LoadId, LoadSheet> load_sheets;
     std::map<plant::LoadId, LoadRecord> loads;
     std::vector<JobOrder> orders;
     std::vector<planning::ClosedFloor> closures;
@@ -45,7 +47,6 @@ LiveVehicle known_of(const LiveVehicle& live) {
     copy.factsheet = live.factsheet;
     copy.delivery = live.delivery;
     copy.lift = live.lift;
-    copy.load = live.load;
     return copy;
 }
 
@@ -113,8 +114,14 @@ Preview Fleet::preview(const NewOrder& order, Time now) const {
 
 OrderPreviewTask Fleet::preview_task(const NewOrder& order, Time now, JobOrderId self) const {
     const FleetState& fleet = *state_;
-    auto known = std::make_shared<PreviewState>(PreviewState{
-        fleet.plant, fleet.tables, fleet.started, {}, fleet.loads, {}, closed_floors()});
+    auto known = std::make_shared<PreviewState>(PreviewState{fleet.plant,
+                                                             fleet.tables,
+                                                             fleet.started,
+                                                             {},
+                                                             fleet.load_sheets,
+                                                             fleet.loads,
+                                                             {},
+                                                             closed_floors()});
     for (const auto& [id, live] : fleet.vehicles) known->vehicles.push_back(known_of(live));
     for (const JobOrderId& id : fleet.orders.open()) {
         if (id == self) continue;
@@ -140,7 +147,9 @@ void OrderPreviewer::know(const PreviewState& known) {
     fleet_->started = known.started;
     fleet_->vehicles.clear();
     for (const auto& live : known.vehicles) fleet_->vehicles.emplace(live.record.id, live);
+    fleet_->load_sheets = known.load_sheets;
     fleet_->loads = known.loads;
+    find_loads(*fleet_);
     fleet_->orders = {};
     for (const auto& order : known.orders) fleet_->orders.add(order);
     fleet_->planner.set_closures(known.closures);

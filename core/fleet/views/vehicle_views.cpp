@@ -198,7 +198,9 @@ VehicleView view_of(const FleetState& fleet, const LiveVehicle& live, Time now, 
         view.order = order->id;
     }
     if (with_leg && live.has_leg()) view.leg = leg_view(fleet, live, now);
-    if (const auto* load = load_on(fleet, live.record.id)) view.carries = load->id;
+    if (const auto* load = load_on(fleet, live.record.id)) {
+        view.carries = CarriedLoad{load->id, load->name, load->mass_kg};
+    }
     view.load = load_view(fleet, live);
     view.lift = live.lift;
     view.paused = live.record.paused;

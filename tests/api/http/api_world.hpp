@@ -43,6 +43,9 @@ public:
     std::optional<fleet::JobOrder> order(fleet::JobOrderId id) override;
     std::vector<fleet::Event> unmeasured_stops(const fleet::UnmeasuredQuery& query) override;
     std::vector<fleet::LoadMove> load_moves(const fleet::LoadMoveQuery& query) override;
+    bool has_load_sheet(const plant::LoadId& id) override {
+        return store_.load_sheets.contains(id);
+    }
     std::vector<fleet::Event> events_after(std::int64_t seq, int limit) override;
     fleet::StopStatistics statistics(const std::vector<plant::VehicleId>& vehicles,
                                      plant::MotionMode mode, int newest) override;

@@ -85,6 +85,69 @@ TEST_F(Loads, EachMoveIsKeptNewestFirst) {
     EXPECT_EQ(api.get(kLoads + "/none/moves").code(), "unknown_load");
 }
 
+TEST_F(Loads, ANewOneIsRegisteredOnceAndChangedByWhoHasSeenIt) {
+    const std::string path = kLoads + "/A-105";
+    const std::string sheet =
+        R"({"kind":"product","model":"Wing","mass_kg":350,"centre":{"x_m":0.1,"y_m":0}})";
+    const Answer made = api.call("PUT", path, sheet, {{"if-none-match", "*"}});
+    ASSERT_EQ(made.status, 201) << made.body;
+    EXPECT_EQ(made.header("Location"), path);
+    const Json json = made.json();
+    EXPECT_EQ(json["name"], "A-105");
+    EXPECT_EQ(json["registered_by"], "token:test");
+    EXPECT_EQ(json["carriers"], Json::parse(R"(["small"])"));
+    EXPECT_FALSE(json.contains("vehicle") || json.contains("station"));
+    EXPECT_EQ(api.get(path).header("ETag"), made.header("ETag"));
+
+    EXPECT_EQ(api.call("PUT", path, R"({"mass_kg":1})", {{"if-none-match", "*"}}).code(),
+              "load_known");
+    EXPECT_EQ(api.call("PUT", path, sheet, {{"if-none-match", "*"}}).status, 200)
+        << "the same once more, by whoever heard no answer";
+    const std::string weighed = R"({"kind":"product","model":"Wing","mass_kg":361.5})";
+    const Answer stale = api.call("PUT", path, weighed, {{"if-match", "\"other\""}});
+    EXPECT_EQ(stale.status, 412);
+    EXPECT_EQ(stale.code(), "stale_load");
+    const Answer changed = api.call("PUT", path, weighed, {{"if-match", made.header("ETag")}});
+    ASSERT_EQ(changed.status, 200) << changed.body;
+    EXPECT_EQ(changed.json()["mass_kg"], 361.5);
+    EXPECT_NE(changed.header("ETag"), made.header("ETag"));
+    EXPECT_EQ(api.call("PUT", kLoads + "/A-9", weighed, {{"if-match", "*"}}).status, 412);
+    EXPECT_EQ(api.get(kLoads).json()["items"].size(), 2u);
+    EXPECT_EQ(api.get(path + "/moves").status, 200) << "it has not moved yet, and is known";
+}
+
+TEST_F(Loads, WhatIsWrongOfASheetIsNamedWithItsField) {
+    const auto expect = [&](const std::string& id, const std::string& body, int status,
+                            const std::string& code, const std::string& field) {
+        const Answer answer = api.call("PUT", kLoads + "/" + id, body);
+        EXPECT_EQ(answer.status, status) << body;
+        EXPECT_EQ(answer.code(), code) << body;
+        EXPECT_EQ(answer.json()["field"], field) << answer.body;
+    };
+    expect("N", R"({"mass_kg":1e5})", 422, "load_too_heavy", "/mass_kg");
+    expect("N", R"({"mass_kg":-1})", 400, "negative", "/mass_kg");
+    expect("N", R"({"kind":"whale"})", 400, "not_one_of", "/kind");
+    expect("N", R"({"vehicle":"V1"})", 400, "unknown_field", "/vehicle");
+    expect("N", R"({"name":""})", 400, "wrong_length", "/name");
+    expect("N", R"({"outline":[{"x_m":0,"y_m":0}]})", 400, "too_few_points", "/outline");
+    expect("N", R"({"vehicle_types":["none"]})", 422, "unknown_vehicle_type", "/vehicle_types/0");
+    expect(std::string(65, 'x'), "{}", 400, "wrong_length", "/id");
+    for (const char* id : {"..", ".", "a%2Fb"}) expect(id, "{}", 400, "bad_id", "/id");
+    EXPECT_EQ(api.get(kLoads).json()["items"].size(), 1u);
+}
+
+TEST_F(Loads, WhatHasLeftForEverIsRetiredAndItsMovesStay) {
+    const std::string path = kLoads + "/J-1";
+    EXPECT_EQ(api.call("DELETE", path).code(), "load_in_plant");
+    ASSERT_EQ(api.call("PUT", path + "/place", "{}").status, 202);
+    EXPECT_EQ(api.call("DELETE", path).status, 204);
+    EXPECT_EQ(api.call("DELETE", path).code(), "unknown_load") << "pressed twice";
+    EXPECT_EQ(api.get(path).status, 404);
+    EXPECT_TRUE(api.get(kLoads).json()["items"].empty());
+    EXPECT_EQ(api.get(path + "/moves").json()["items"].size(), 1u);
+    EXPECT_EQ(api.call("PUT", path, R"({"mass_kg":400})").code(), "load_retired");
+}
+
 TEST_F(Loads, WhatIsNoPlaceIsNamed) {
     const auto put = [&](const std::string& body) {
         return api.call("PUT", kLoads + "/J-1/place", body);

@@ -79,7 +79,8 @@ const std::set<std::string> kForOperators = {"pauseVehicle",     "initPosition",
                                              "closeFloor",       "reopenFloor",
                                              "localize",         "measureByLight",
                                              "previewMotions",   "moveLifts",
-                                             "stopLifts",        "placeLoad"};
+                                             "stopLifts",        "placeLoad",
+                                             "putLoad",          "retireLoad"};
 const std::set<std::string> kForPeople = {"handHeld"};  // operators who are no program
 
 TEST(Authorisation, EveryOperationTimesEveryKindOfCaller) {

@@ -92,6 +92,11 @@ void MemoryStore::commit(const Records& records) {
     for (const auto& vehicle : records.vehicles) vehicles[vehicle.id] = vehicle;
     for (const auto& load : records.loads) {
         const LoadRecord before = std::exchange(loads[load.id], load);
+        const bool is_new = load.vehicle.empty() && load.station.empty() &&
+                            std::ranges::any_of(records.load_sheets, [&](const LoadSheet& sheet) {
+                                return sheet.load.id == load.id;
+                            });
+        if (is_new) continue;  // it has not moved
         load_moves.push_back({load.id,
                               {static_cast<std::int64_t>(load_moves.size() + 1),
                                {before.vehicle, before.station},
@@ -99,6 +104,7 @@ void MemoryStore::commit(const Records& records) {
                                load.at,
                                load.actor}});
     }
+    for (const auto& sheet : records.load_sheets) load_sheets[sheet.load.id] = sheet;
     stops.insert(stops.end(), records.stops.begin(), records.stops.end());
     events.insert(events.end(), records.events.begin(), records.events.end());
     idempotency.insert(idempotency.end(), records.idempotency.begin(), records.idempotency.end());
@@ -130,6 +136,7 @@ StoredFleet MemoryStore::load() const {
     }
     for (const auto& [id, vehicle] : vehicles) stored.vehicles.push_back(vehicle);
     for (const auto& [id, load] : loads) stored.loads.push_back(load);
+    for (const auto& [id, sheet] : load_sheets) stored.load_sheets.push_back(sheet);
     stored.idempotency = idempotency;
     stored.closures = closures;
     for (const auto& [id, schedule] : schedules) stored.schedules.push_back(schedule);

@@ -27,6 +27,7 @@ public:
     std::map<JobOrderId, JobOrder> orders;
     std::map<plant::VehicleId, VehicleRecord> vehicles;
     std::map<plant::LoadId, LoadRecord> loads;
+    std::map<plant::LoadId, LoadSheet> load_sheets;
     std::vector<std::pair<plant::LoadId, LoadMove>> load_moves;
     std::vector<StopRecord> stops;
     std::vector<Event> events;

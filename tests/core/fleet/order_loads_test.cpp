@@ -62,7 +62,7 @@ protected:
         EXPECT_FALSE(preview.accepted) << "and Send says so before";
         return made.error().reason.code;
     }
-    LoadRecord jig() const { return *world.fleet->load(kJig); }
+    LoadRecord jig() const { return world.fleet->load(kJig)->place; }
     std::vector<Event> moves() const {
         std::vector<Event> moves;
         std::ranges::copy_if(world.store.events, std::back_inserter(moves),
@@ -87,7 +87,7 @@ TEST_F(OrderLoads, ALoadIsTakenOverBroughtAndSetDownByOneOrder) {
         EXPECT_EQ(event.vehicle, kV1);
     }
     const auto view = world.fleet->vehicle(kV1, world.now);
-    EXPECT_TRUE(view->carries.empty());
+    EXPECT_FALSE(view->carries);
     EXPECT_FALSE(view->load.fault);
 }
 
@@ -299,7 +299,7 @@ TEST(OrderLoadsOf, AboveFloorOfAnotherItWaits) {
     world.run(10);
     EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded)
         << world.stored(made->order.id).reason.code;
-    EXPECT_EQ(world.fleet->load(kJig)->vehicle, kV1);
+    EXPECT_EQ(world.fleet->load(kJig)->place.vehicle, kV1);
 }
 
 }  // namespace

@@ -250,12 +250,23 @@ TEST_F(LiftsTest, OnItsFeetOrWithHalfALoadNobodyDrivesItByHand) {
     EXPECT_GT(motion.true_pose().x_m, 0.005);
 }
 
-TEST_F(LiftsTest, WithHalfALoadAnOrderWaits) {
+TEST_F(LiftsTest, WithHalfALoadAnOrderWaitsAndItSaysWhy) {
+    const auto says = [&] {
+        vda5050::StateMessage state;
+        fitted.write_state(state);
+        return std::ranges::count(state.errors, vda5050::kLoadHalfTaken,
+                                  &vda5050::VehicleError::type);
+    };
     lifts.half = true;
     fitted.handle(order("o1", 2, 2));
     pass(5);
     EXPECT_EQ(motion.true_pose().x_m, 0);
+    EXPECT_EQ(says(), 1);
+    lifts.moving = true;
+    EXPECT_EQ(says(), 0) << "while it is at it, it is no half";
+    lifts.moving = false;
     lifts.half = false;
+    EXPECT_EQ(says(), 0);
     pass(30);
     EXPECT_NEAR(motion.true_pose().x_m, 2, 0.05);
 }

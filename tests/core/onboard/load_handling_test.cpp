@@ -283,6 +283,19 @@ TEST_F(LoadHandlingTest, HalfTakenItNeitherDrivesNorRisesUntilItIsTakenOrGivenBa
     EXPECT_FALSE(handling->begun_kg());
 }
 
+TEST_F(LoadHandlingTest, OneThatNobodyHasWeighedIsTakenWholeAndSetDownWhole) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    ASSERT_FALSE(handling->begin(pick(0)));
+    run();
+    EXPECT_FALSE(handling->failure()) << *handling->failure();
+    EXPECT_FALSE(handling->half_transferred()) << "it may drive with it";
+    ASSERT_FALSE(handling->begin(drop()));
+    run();
+    EXPECT_FALSE(handling->failure()) << *handling->failure();
+    EXPECT_FALSE(handling->half_transferred());
+    EXPECT_TRUE(hoist().load);
+}
+
 TEST_F(LoadHandlingTest, AProgramThatStartsAnewIsToldOfWhatHadBeenBegun) {
     build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
     break_off_pick();

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/gravity.hpp"
+#include "core/plant/carrying.hpp"
 
 namespace pulseline::plant {
 namespace {
@@ -112,6 +113,59 @@ TEST(LoadRules, AllOnOneEndIsNoUnbalanceOfTheOther) {
     const auto worst = worst_bracket(platform(), forces);
     ASSERT_TRUE(worst);
     EXPECT_EQ(worst->share, 0);
+}
+
+TEST(LoadRules, OneThatHasBeenWeighedWeighsThatWithinAFewPerCent) {
+    EXPECT_TRUE(weighs_as_known(18200, 18200));
+    EXPECT_TRUE(weighs_as_known(1.049 * 18200, 18200));
+    EXPECT_FALSE(weighs_as_known(1.051 * 18200, 18200));
+    EXPECT_FALSE(weighs_as_known(0.949 * 18200, 18200));
+    EXPECT_TRUE(weighs_as_known(500, 0)) << "nobody has weighed it";
+}
+
+TEST(LoadRules, PapersThatNoTypeCanKeepAreNamedByTheTypeThatComesNearest) {
+    Plant plant;
+    plant.vehicle_types = {platform(), platform()};
+    VehicleType& weak = plant.vehicle_types.front();
+    VehicleType& strong = plant.vehicle_types.back();
+    weak.id = VehicleTypeId("weak");
+    weak.max_load_kg = 100;
+    strong.id = VehicleTypeId("strong");
+    for (auto* type : {&weak, &strong}) type->footprint = geometry::rectangle(6, 3);
+    Load load;
+    load.name = "A-105";
+    const auto why_not = [&] {
+        const auto reason = nobody_can_carry(plant, load);
+        return reason ? reason->code : "";
+    };
+    load.mass_kg = 900;
+    EXPECT_EQ(why_not(), "");
+    load.mass_kg = 1100;
+    EXPECT_EQ(why_not(), "load_too_heavy");
+    load.mass_kg = 900;
+    load.centre = {1.3, 0};
+    EXPECT_EQ(why_not(), "load_outside_wheel_base") << "the weak one is too weak, too";
+    load.centre = {};
+    load.vehicle_types = {weak.id};
+    EXPECT_EQ(why_not(), "load_too_heavy");
+    load.vehicle_types = {VehicleTypeId("none")};
+    EXPECT_EQ(why_not(), "load_not_for_type");
+}
+
+/// Papers tell a centre from the middle of the brackets, which need not be that of the vehicle.
+TEST(LoadRules, TheCentreIsToldFromTheMiddleOfTheBrackets) {
+    VehicleType type = platform();
+    type.footprint = geometry::rectangle(6, 3);
+    for (auto& bracket : type.brackets) bracket.position.x_m += 0.15;
+    EXPECT_NEAR(bracket_middle(type).x_m, 0.15, 1e-12);
+    Load load;
+    load.centre = {1.0, 0};
+    EXPECT_FALSE(cannot_carry_by_papers(type, load));
+    load.centre = {1.1, 0};  // 1.25 m, and the wheels are 1.2 m ahead
+    EXPECT_EQ(cannot_carry_by_papers(type, load)->code, "load_outside_wheel_base");
+    type.load_rules.centre = geometry::rectangle(0.6, 0.4);
+    load.centre = {0.2, 0};
+    EXPECT_EQ(cannot_carry_by_papers(type, load)->code, "load_outside_limits");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@ import { createRoot } from "react-dom/client";
 import { ApiProblem } from "@/shared/api/problem";
 import { startI18n } from "@/shared/i18n/setup";
 import { whenLinkIsBack } from "@/shared/live/linkBack";
+import { kLoads, watchLoads } from "@/shared/live/loads";
 import { loadSession } from "@/shared/live/session";
 import { liveStore } from "@/shared/live/store";
 import "./app.css";
@@ -26,6 +27,8 @@ whenLinkIsBack(
   liveStore,
   () => void queries.refetchQueries({ type: "active", predicate: (query) => query.state.status === "error" }),
 );
+
+watchLoads(liveStore, () => void queries.invalidateQueries({ queryKey: kLoads }));
 
 const root = document.getElementById("root");
 if (root === null) throw new Error("index.html has no #root");

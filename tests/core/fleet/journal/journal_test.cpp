@@ -19,6 +19,20 @@ std::string bytes_of(const Outputs& out) {
     return writer.take();
 }
 
+plant::Load papers() {
+    plant::Load load;
+    load.id = plant::LoadId("A-105");
+    load.name = "Five";
+    load.names = {{"zh", "5"}};
+    load.kind = plant::LoadKind::kInstrument;
+    load.model = "T";
+    load.mass_kg = 20.5;
+    load.centre = {0.1, -0.2};
+    load.outline = {{0, 0}, {1, 0}, {0, 1}};
+    load.vehicle_types = {plant::VehicleTypeId("small")};
+    return load;
+}
+
 /// Every call of the journal's vocabulary at least once, into a fleet that makes of it what it can.
 std::string every_call(Recorder& recorder) {
     World world;
@@ -74,6 +88,8 @@ std::string every_call(Recorder& recorder) {
     static_cast<void>(fleet.stop_lifts(v1, "me", kNow));
     const LoadPlace there{v1, plant::StationId("s1")};
     static_cast<void>(fleet.place_load(plant::LoadId("A-101"), there, "me", kNow));
+    static_cast<void>(fleet.put_load(papers(), "me", kNow));
+    static_cast<void>(fleet.retire_load(plant::LoadId("A-105"), "me", kNow));
     planning::LegPlan plan;
     plan.segments.resize(2);
     plan.route = {plant::NodeId("n1")};

@@ -3,9 +3,8 @@ import type { Point } from "@/shared/api/types";
 import { usePlant, useVehicle } from "@/shared/live";
 import { Card } from "@/shared/ui";
 import { length } from "@/shared/words/format";
-import { carriers } from "./places";
 import { sheetOf } from "./sheet";
-import type { LiveLoad } from "./useLoads";
+import type { LiveLoad } from "./useLiveLoads";
 
 const ring = (points: readonly Point[]) => points.map((p) => `${p.x_m},${-p.y_m}`).join(" ");
 
@@ -14,7 +13,8 @@ export function LoadDrawing({ load }: { load: LiveLoad }) {
   const { t } = useTranslation("loads");
   const types = usePlant().data?.vehicle_types ?? [];
   const carrier = useVehicle(load.place.vehicle);
-  const type = types.find(({ id }) => id === carrier?.type) ?? carriers(load, types)[0];
+  const type =
+    types.find(({ id }) => id === carrier?.type) ?? types.find(({ id }) => load.carriers.includes(id));
   const sheet = sheetOf(load, type);
   const { box, centre, scale_m } = sheet;
   const arm = 0.028 * box.width;

@@ -1,79 +1,30 @@
 import { useTranslation } from "react-i18next";
-import { useServerNow } from "@/shared/live";
-import { Link, navigate } from "@/shared/router";
-import { Card, PanelEmpty, PanelLoading } from "@/shared/ui";
-import { dateTime, kNone, mass } from "@/shared/words/format";
-import { useWords } from "@/shared/words/useWords";
-import { PlaceName } from "./PlaceName";
-import { useLoads, type LiveLoad } from "./useLoads";
+import { useMayCommand } from "@/shared/live";
+import { navigate, useLocation } from "@/shared/router";
+import { useNarrow } from "@/shared/ui/useNarrow";
+import { LoadList } from "./LoadList";
+import { RegisterCard } from "./RegisterCard";
 import "./loads.css";
 
-/** What the plant's vehicles carry: each with where it is, since when and by whom. */
+const closeForm = () => navigate("/loads", { replace: true });
+
+/** The loads, and beside them the form of a new one (/loads?new). On a small screen one of the two. */
 export function LoadListPage() {
   const { t } = useTranslation("loads");
-  const { loads, pending } = useLoads();
-  const on = loads.filter(({ place }) => place.vehicle !== undefined).length;
-  return (
-    <Card
-      className="listpage"
-      level={1}
-      title={t("title")}
-      {...(!pending && loads.length > 0 && { summary: t("summary", { on, total: loads.length }) })}
-      flush
-    >
-      {pending ? (
-        <PanelLoading what={t("title")} />
-      ) : loads.length === 0 ? (
-        <PanelEmpty what={t("empty")} when={t("empty_hint")} />
-      ) : (
-        <div className="scroll" tabIndex={0} role="group" aria-label={t("title")}>
-          <table className="rows lrows">
-            <thead>
-              <tr>
-                <th>{t("col.load")}</th>
-                <th>{t("col.kind")}</th>
-                <th>{t("col.model")}</th>
-                <th className="n">{t("col.mass")}</th>
-                <th className="lplace">{t("col.where")}</th>
-                <th>{t("col.since")}</th>
-                <th>{t("col.by")}</th>
-              </tr>
-            </thead>
-            <tbody>
-              {loads.map((load) => (
-                <Row key={load.id} load={load} />
-              ))}
-            </tbody>
-          </table>
-        </div>
-      )}
-    </Card>
-  );
-}
-
-function Row({ load }: { load: LiveLoad }) {
-  const { t } = useTranslation("loads");
-  const words = useWords();
-  const now = useServerNow(60_000);
-  const to = `/loads/${encodeURIComponent(load.id)}`;
-  const by = load.told?.by;
-  return (
-    <tr className="go" onClick={() => navigate(to)}>
-      <td className="b">
-        <Link className="cell-link" to={to} onClick={(event) => event.stopPropagation()}>
-          {load.name}
-        </Link>
-      </td>
-      <td>{t(`kind.${load.kind}`)}</td>
-      <td>{load.model ?? ""}</td>
-      <td className="n" data-label={t("col.mass")}>
-        {load.mass_kg > 0 ? mass(load.mass_kg) : kNone}
-      </td>
-      <td className="lplace" data-label={t("col.where")}>
-        <PlaceName place={load.place} />
-      </td>
-      <td data-label={t("col.since")}>{load.told ? dateTime(load.told.since, now) : ""}</td>
-      <td>{load.told && (by === undefined ? t("by_plant") : words.actor(by))}</td>
-    </tr>
+  const may = useMayCommand();
+  const narrow = useNarrow();
+  const writing = useLocation().query.has("new") && may;
+  if (!writing) return <LoadList mayRegister={may} />;
+  const form = <RegisterCard onClose={closeForm} />;
+  return narrow ? (
+    <>
+      <h1 className="sr-only">{t("title")}</h1>
+      {form}
+    </>
+  ) : (
+    <div className="lgrid">
+      <LoadList mayRegister={false} />
+      {form}
+    </div>
   );
 }

@@ -1,33 +1,37 @@
 import { useTranslation } from "react-i18next";
 import { Link } from "@/shared/router";
-import { Card, Chip, PanelEmpty, PanelLoading } from "@/shared/ui";
+import { Card, Chip, PanelEmpty, PanelFailed, PanelLoading } from "@/shared/ui";
 import { mass } from "@/shared/words/format";
 import { FactsCard } from "./FactsCard";
 import { LoadDrawing } from "./LoadDrawing";
 import { MovesCard } from "./MovesCard";
-import { useLoads, type LiveLoad } from "./useLoads";
+import { useLiveLoads, type LiveLoad } from "./useLiveLoads";
 import { WhereCard } from "./WhereCard";
 import "./loads.css";
 
 /** One load, or the words that there is none of that name. */
 export function LoadPage({ id }: { id: string }) {
   const { t } = useTranslation("loads");
-  const { loads, pending } = useLoads();
+  const { loads, pending, failed, again } = useLiveLoads();
   const load = loads.find((one) => one.id === id);
   if (load) return <Detail load={load} />;
   if (pending) return <PanelLoading what={id} />;
   return (
     <Card>
       <h1 className="sr-only">{t("title")}</h1>
-      <PanelEmpty
-        what={t("not_found", { id: id.slice(0, 64) })}
-        when={t("not_found_hint")}
-        action={
-          <Link className="btn" to="/loads">
-            {t("to_list")}
-          </Link>
-        }
-      />
+      {failed ? (
+        <PanelFailed what={t("failed")} error={failed} onRetry={again} />
+      ) : (
+        <PanelEmpty
+          what={t("not_found", { id: id.slice(0, 64) })}
+          when={t("not_found_hint")}
+          action={
+            <Link className="btn" to="/loads">
+              {t("to_list")}
+            </Link>
+          }
+        />
+      )}
     </Card>
   );
 }

@@ -4,14 +4,14 @@ import { Button, Card, PanelEmpty, PanelFailed, PanelLoading } from "@/shared/ui
 import { dateTime } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { PlaceName } from "./PlaceName";
-import { useLoadMoves, type LiveLoad } from "./useLoads";
+import { useLoadMoves, type LiveLoad } from "./useLiveLoads";
 
 /** Where it has been, and who has put it there. */
 export function MovesCard({ load }: { load: LiveLoad }) {
   const { t } = useTranslation("loads");
   const words = useWords();
   const now = useServerNow(60_000);
-  const { moves, pages } = useLoadMoves(load);
+  const { moves, pages } = useLoadMoves(load.id);
   const title = t("moves.title");
   return (
     <Card className="lmoves" title={title} flush>

@@ -2,11 +2,11 @@ import { useState } from "react";
 import { useTranslation } from "react-i18next";
 import { usePlaceLoad } from "@/shared/body/usePlaceLoad";
 import { CommandFailed, useRefusal } from "@/shared/commands";
-import { usePlant, useStations, useVehicles } from "@/shared/live";
+import { useStations, useVehicles } from "@/shared/live";
 import { Button, CommandButton } from "@/shared/ui";
 import { useWords } from "@/shared/words/useWords";
 import { placesFor, same, type Place } from "./places";
-import type { LiveLoad } from "./useLoads";
+import type { LiveLoad } from "./useLiveLoads";
 
 /** A person says where it is, for when nobody saw it come or go. Nothing moves by it. */
 export function SayPlace({ load }: { load: LiveLoad }) {
@@ -26,8 +26,7 @@ function Form({ load }: { load: LiveLoad }) {
   const { t } = useTranslation(["loads", "common"]);
   const words = useWords();
   const refused = useRefusal();
-  const types = usePlant().data?.vehicle_types ?? [];
-  const free = placesFor(load, load.place, types, useVehicles(), useStations());
+  const free = placesFor(load, load.place, useVehicles(), useStations());
   const places: Place[] = [
     ...free.vehicles.map((vehicle) => ({ vehicle })),
     ...free.stations.map((station) => ({ station })),

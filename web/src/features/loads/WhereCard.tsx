@@ -5,7 +5,7 @@ import { dateTime } from "@/shared/words/format";
 import { useWords } from "@/shared/words/useWords";
 import { PlaceName } from "./PlaceName";
 import { SayPlace } from "./SayPlace";
-import type { LiveLoad } from "./useLoads";
+import type { LiveLoad } from "./useLiveLoads";
 
 /** Where it is now, since when and by whom; and where somebody says that it is. */
 export function WhereCard({ load }: { load: LiveLoad }) {

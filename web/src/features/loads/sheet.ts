@@ -4,7 +4,7 @@ import { fixed } from "@/shared/words/format";
 /** What is drawn of a load, in metres, in the body frame of the vehicle below it: forward is right, left is up. */
 export interface LoadSheet {
   outline: readonly Point[];
-  /** The plant has no outline of it: drawn is what the type usually carries. */
+  /** Nobody has told its outline: drawn is what the type usually carries. */
   usual: boolean;
   /** Of the vehicle below it. */
   body: readonly Point[];
@@ -30,8 +30,8 @@ export function sheetOf(load: Load, type: VehicleType | undefined): LoadSheet {
   const mean = (pick: (p: Point) => number) =>
     brackets.length === 0 ? 0 : brackets.reduce((sum, p) => sum + pick(p), 0) / brackets.length;
   const centre = {
-    x_m: mean((p) => p.x_m) + (load.centre?.x_m ?? 0),
-    y_m: mean((p) => p.y_m) + (load.centre?.y_m ?? 0),
+    x_m: mean((p) => p.x_m) + load.centre.x_m,
+    y_m: mean((p) => p.y_m) + load.centre.y_m,
   };
   const all = [...outline, ...body, ...brackets, centre];
   const xs = all.map((p) => p.x_m);

@@ -5,6 +5,7 @@ import {
   useClosures,
   useCommandsEnabled,
   useJobOrders,
+  useLoads,
   useMayCommand,
   usePlant,
   useStations,
@@ -35,6 +36,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const states = useMemo(() => stations.flatMap((s) => (s.state ? [s.state] : [])), [stations]);
   const orders = useJobOrders();
   const closures = useClosures();
+  const loads = useLoads().data;
   const linkUp = useCommandsEnabled();
   const mayCommand = useMayCommand();
   const onScreen = useOnScreen();
@@ -46,7 +48,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const park = choice.park ?? station?.parks ?? false;
   const { raise, lower } = feetPlan(vehicle, busy !== undefined, park);
   const feet = useMemo(() => ({ raise, lower }), [raise, lower]);
-  const offered = transferAt(station, states, vehicle, plant?.loads ?? []);
+  const offered = transferAt(station, states, vehicle, loads ?? []);
   const transfer = offered?.key === choice.transfer ? offered : undefined;
   const type = plant?.vehicle_types.find(({ id }) => id === vehicle?.type);
   const lift = liftOf([type]);

@@ -59,3 +59,12 @@ export async function call<T>(pending: Promise<Answer<T>>): Promise<T> {
   if (response.status === 401) onUnauthorised();
   throw problemOf(response.status, error);
 }
+
+/** As `call`, with the ETag that a change of what has come names. */
+export async function callTagged<T>(pending: Promise<Answer<T>>): Promise<{ data: T; etag: string }> {
+  const data = await call(pending);
+  const { response } = await pending;
+  const etag = response.headers.get("ETag");
+  if (etag === null) throw problemOf(response.status, undefined);
+  return { data, etag };
+}

@@ -1,4 +1,4 @@
-export { api, call, kRequestTimeoutMs } from "./client";
+export { api, call, callTagged, kRequestTimeoutMs } from "./client";
 export { openHandHeld } from "./handHeldSocket";
 export { ApiProblem } from "./problem";
 export type * from "./types";

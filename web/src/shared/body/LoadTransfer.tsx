@@ -1,14 +1,14 @@
 import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { LiftCommand, Vehicle } from "@/shared/api/types";
-import { usePlant, useStations } from "@/shared/live";
+import { useLoads, useStations } from "@/shared/live";
 import { LoadButton } from "./LoadButton";
 import { useLift } from "./useLift";
 
 /** Taking over what hangs or stands where the vehicle stands, or setting down there what it carries. */
 export function LoadTransfer({ vehicle, refused }: { vehicle: Vehicle; refused: string | undefined }) {
   const { t } = useTranslation("body");
-  const loads = usePlant().data?.loads ?? [];
+  const loads = useLoads().data ?? [];
   const here = useStations().find((station) => station.id === vehicle.at_station);
   const wanted = vehicle.load ?? here?.state?.load;
   const type = vehicle.load === undefined ? "pick" : "drop";

@@ -1,6 +1,6 @@
 import { useTranslation } from "react-i18next";
 import type { Vehicle } from "@/shared/api/types";
-import { usePlant, useStations, useVehicles } from "@/shared/live";
+import { useLoads, useStations, useVehicles } from "@/shared/live";
 import { useWords } from "@/shared/words/useWords";
 import { LoadButton } from "./LoadButton";
 import { placesToSay, type SaidPlace } from "./lifts";
@@ -16,7 +16,7 @@ interface Props {
 export function PlaceLoad({ vehicle, refused }: Props) {
   const { t } = useTranslation("body");
   const words = useWords();
-  const loads = usePlant().data?.loads ?? [];
+  const loads = useLoads().data ?? [];
   const stations = useStations();
   const vehicles = useVehicles();
   const here = stations.find((station) => station.id === vehicle.at_station);

@@ -45,7 +45,7 @@ export interface SaidPlace {
   station?: number;
 }
 
-const kUnlike = 0.1; // of its mass, where somebody has weighed it: the server bars a drive with what is further off
+const kUnlike = 0.05; // of its mass, where somebody has weighed it: the server bars a drive with what is further off
 
 /** What may be so while the brackets contradict what is known. `nowhere`: loads that have no place now. */
 export function placesToSay(

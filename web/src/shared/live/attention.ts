@@ -58,8 +58,8 @@ const kAsidesMs = 300_000;
 const kFootFaults = new Set(["footLostContact", "footOverloaded"]);
 /** Of a wheel's drive that has switched itself off until it has cooled. */
 const kTooHot = "servo_overtemperature";
-/** What is told as an error and needs nobody. */
-const kNoFault = new Set(["going_round", "obstacle"]);
+/** What is told as an error and needs nobody, or is told otherwise, as the fault of its load. */
+const kNoFault = new Set(["going_round", "obstacle", "loadHalfTaken"]);
 /** Why it does not know its place: nothing to clear at the vehicle, it only has to be told. */
 const kPoseFaults = new Set(["poseUncertain", "contoursLost"]);
 

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { Plant } from "../api/types";
-import { inLanguage } from "./inLanguage";
+import { inLanguage, namedIn } from "./inLanguage";
 
 const thing = (name: string, zh?: string) => ({ name, ...(zh === undefined ? {} : { names: { zh } }) });
 const plant = {
@@ -21,4 +21,9 @@ test("everything that has a name in the language is called by it, the rest as th
 
 test("a language that the plant does not speak leaves its own names", () => {
   expect(inLanguage(plant, "en")).toEqual(plant);
+});
+
+test("a load is called by its name in the language, and by its own without one", () => {
+  expect(namedIn(thing("A-105", "教练机"), "zh").name).toBe("教练机");
+  expect(namedIn(thing("A-105", "教练机"), "en").name).toBe("A-105");
 });

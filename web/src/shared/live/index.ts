@@ -5,6 +5,7 @@ export { useMayCommand, useSession } from "./session";
 export * from "./attention";
 export * from "./pause";
 export { whenLinkIsBack } from "./linkBack";
+export { kLoads, takeChange, useLoads, watchLoads } from "./loads";
 export { legProgress } from "./legProgress";
 export { sinceOf, type Since } from "./since";
 export { blockerOf, eachOther, waitChain, type WaitChain } from "./waitChain";

@@ -101,6 +101,29 @@ describe("reduce", () => {
   });
 });
 
+describe("what is asked for again", () => {
+  const event = (type: string) => ({ type: "event", event: { type } }) as unknown as StreamFrame;
+  const turns = (frame: StreamFrame) => {
+    const { loadsTurn, floorTurn, unmeasuredTurn } = reduce(emptyState, frame, 0);
+    return [loadsTurn, floorTurn, unmeasuredTurn];
+  };
+  it.each<[string, StreamFrame, number[]]>([
+    ["loads, when one is registered", event("load.registered"), [1, 0, 0]],
+    ["loads, when more is known of one", event("load.changed"), [1, 0, 0]],
+    ["loads, when one has left for ever", event("load.retired"), [1, 0, 0]],
+    ["loads, when one gets elsewhere", event("load.moved"), [1, 0, 0]],
+    ["floor, when some is closed", event("floor.closed"), [0, 1, 0]],
+    ["stops, when one goes unmeasured", event("stop.not_measured"), [0, 0, 1]],
+    ["everything at a snapshot", snapshot([]), [1, 1, 1]],
+    ["nothing at any other event", event("vehicle.lost"), [0, 0, 0]],
+    [
+      "loads, for each event of several changes",
+      { type: "changes", changes: [event("load.registered"), event("load.moved")] } as StreamFrame,
+      [2, 0, 0],
+    ],
+  ])("%s", (_, frame, expected) => expect(turns(frame)).toEqual(expected));
+});
+
 describe("LiveStore", () => {
   function held() {
     const queue: (() => void)[] = [];

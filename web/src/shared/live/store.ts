@@ -36,6 +36,8 @@ export interface LiveState {
   closures: readonly Closure[];
   /** Goes up when floor may have been closed or opened: `closures` is asked for again. */
   floorTurn: number;
+  /** Goes up when something about loads may have changed: they are asked for again. */
+  loadsTurn: number;
   /** Goes up when a stop may have gone unmeasured: such stops are asked for again. */
   unmeasuredTurn: number;
   /** Server clock minus browser clock, ms; ages of server times are computed with it. */
@@ -54,6 +56,7 @@ export const emptyState: LiveState = {
   stopRecords: new Map(),
   closures: [],
   floorTurn: 0,
+  loadsTurn: 0,
   unmeasuredTurn: 0,
   clockOffsetMs: 0,
   since: new Map(),
@@ -93,6 +96,7 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
         ...state,
         ready: true,
         floorTurn: state.floorTurn + 1,
+        loadsTurn: state.loadsTurn + 1,
         unmeasuredTurn: state.unmeasuredTurn + 1,
         fleet: frame.fleet,
         vehicles: byKey(frame.vehicles, (v) => v.id),
@@ -124,6 +128,7 @@ export function reduce(state: LiveState, frame: StreamFrame, wallMs: number): Li
       return frame.changes.reduce((next, change) => reduce(next, change, wallMs), state);
     case "event":
       if (frame.event.type.startsWith("floor.")) return { ...state, floorTurn: state.floorTurn + 1 };
+      if (frame.event.type.startsWith("load.")) return { ...state, loadsTurn: state.loadsTurn + 1 };
       if (frame.event.type !== "stop.not_measured") return state;
       return { ...state, unmeasuredTurn: state.unmeasuredTurn + 1 };
     case "poses":

@@ -73,6 +73,7 @@ const kPlaces: [where: string, word: string][] = [
   ["common.nav.send", "发车"],
   ["common.nav.loads", "载荷"],
   ["loads.title", "载荷"],
+  ["loads.new", "登记载荷"],
 ];
 
 describe("in Chinese one thing has one name", () => {

@@ -2,7 +2,7 @@ import { useMemo } from "react";
 import { useTranslation } from "react-i18next";
 import type { ApiProblem } from "@/shared/api";
 import type { MotionMode, Reason, Vehicle } from "@/shared/api/types";
-import { usePlant } from "@/shared/live";
+import { useLoads, usePlant } from "@/shared/live";
 import { actionText, type StepAction } from "./actions";
 import { actorText } from "./actor";
 import { closureName } from "./closures";
@@ -38,11 +38,12 @@ export interface Words {
 export function useWords(): Words {
   const { t: translate } = useTranslation(["common", "words", "reasons"]);
   const plant = usePlant().data;
+  const allLoads = useLoads().data;
   return useMemo(() => {
     const t: Translate = (key, values) => translate(key, values ?? {});
     const vehicles = new Map((plant?.vehicles ?? []).map((v) => [v.id, v.name]));
     const stations = new Map((plant?.stations ?? []).map((s) => [s.id, String(s.number)]));
-    const loads = new Map((plant?.loads ?? []).map((l) => [l.id, l.name]));
+    const loads = new Map((allLoads ?? []).map((l) => [l.id, l.name]));
     const areas = new Map((plant?.areas ?? []).map((a) => [a.id, a.name]));
     const obstacles: Readonly<Record<string, string>> = {
       wall: t("words:wall"),
@@ -76,5 +77,5 @@ export function useWords(): Words {
       modeShort: (mode) => t(`words:mode_short.${mode}`),
       action: (action) => actionText(action, t, names),
     };
-  }, [plant, translate]);
+  }, [plant, allLoads, translate]);
 }

@@ -6,7 +6,7 @@ const station = { id: "s1", number: 1, support: { height_m: 0.02 } } as Station;
 const platform = (load?: string, type = "platform") =>
   ({ id: "TP-01", type, load, brackets: [{ name: "front left" }] }) as unknown as Vehicle;
 const holds = (load?: string) => [{ station: "s1", load }] as unknown as StationState[];
-const loads = [{ id: "A-101", vehicle_types: ["platform"] }] as Load[];
+const loads = [{ id: "A-101", carriers: ["platform"] }] as Load[];
 const told = (...at: Parameters<typeof transferAt>) => {
   const found = transferAt(...at);
   return found && `${found.type} ${found.load}`;

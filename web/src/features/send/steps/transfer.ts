@@ -19,8 +19,8 @@ export function transferAt(
   const there = states.find((s) => s.station === station.id)?.load;
   const key = (type: string, load: string) => [type, load, vehicle.id, station.id].join(" ");
   if (vehicle.load === undefined && there !== undefined) {
-    const types = loads.find((load) => load.id === there)?.vehicle_types ?? [];
-    if (types.length > 0 && !types.includes(vehicle.type)) return undefined;
+    const known = loads.find((load) => load.id === there);
+    if (known && !known.carriers.includes(vehicle.type)) return undefined;
     return { type: "pick", load: there, key: key("pick", there) };
   }
   if (vehicle.load !== undefined && there === undefined)
