@@ -117,7 +117,8 @@ public:
     /// load}, too_many_loads {most}, why nobody may carry it (plant::nobody_can_carry), or the
     /// vehicle below it may not any more, vehicle_busy, load_in_transfer {load, vehicle}.
     Result<KnownLoad> put_load(const plant::Load& known, const std::string& actor, Time now);
-    /// It has left for ever; its id is never given again. Errors: unknown_load, load_in_plant.
+    /// It has left for ever; its id is never given again. Errors: unknown_load, load_in_plant,
+    /// load_in_order {load, order}: an open one will take it over.
     Status retire_load(const plant::LoadId& id, const std::string& actor, Time now);
     void pause_fleet(const std::string& actor, Time now);
     Status resume_fleet(const std::vector<plant::VehicleId>& vehicles, const std::string& actor,

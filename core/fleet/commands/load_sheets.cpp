@@ -5,6 +5,7 @@
 #include "core/fleet/dispatch/dispatch.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/journal/recorder.hpp"
+#include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
@@ -36,7 +37,19 @@ tl::unexpected<Error> not_carried(Reason reason, const std::string& who, const p
                 std::move(field), std::move(reason.params));
 }
 
+/// Thousands of corners or types of many loads would fill every list of them.
+constexpr std::size_t kMostCorners = 64;
+
 Status is_sound(const FleetState& fleet, const plant::Load& known) {
+    const bool corners = known.outline.size() > kMostCorners;
+    const std::size_t types = fleet.plant.vehicle_types.size();
+    if (corners || known.vehicle_types.size() > types) {
+        const std::size_t most = corners ? kMostCorners : types;
+        return fail(Errc::kInvalid, "too_many",
+                    "At most " + std::to_string(most) + " of them. Leave out what is not needed.",
+                    corners ? "/outline" : "/vehicle_types",
+                    {{"most", static_cast<std::int64_t>(most)}});
+    }
     if (const auto faults = plant::validate_load(fleet.plant, known); !faults.empty()) {
         const auto& fault = faults.front();
         const bool unknown = fault.code == "unknown_vehicle_type";
@@ -143,6 +156,12 @@ Status Fleet::retire_load(const plant::LoadId& id, const std::string& actor, Tim
         return fail(Errc::kConflict, "load_in_plant",
                     name + " is still in the plant. Say first that it has left.", {},
                     {{"load", name}});
+    }
+    if (const JobOrder* order = order_of_load(fleet, id)) {
+        const std::string number = "JO-" + std::to_string(order->number);
+        return fail(Errc::kConflict, "load_in_order",
+                    number + " will take " + name + " over. Cancel it first.", {},
+                    {{"load", name}, {"order", number}});
     }
     sheet.retired = true;
     sheet.at = now;

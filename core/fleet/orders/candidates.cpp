@@ -82,7 +82,7 @@ std::vector<Candidate> nearest_of_each_type(const FleetState& fleet, const NewOr
     for (const auto& [id, live] : fleet.vehicles) {
         if (is_gone(fleet, live, now) || !is_candidate(fleet, order, live)) continue;
         if (live.record.integration != Integration::kUtilise || !announces_all(order, live) ||
-            !may_carry_all(fleet, order, live))
+            cannot_carry_all(fleet, order, live))
             continue;
         const auto pose = pose_after(fleet, live, last);
         const double away_m =

@@ -12,15 +12,19 @@ namespace pulseline::fleet {
 namespace {
 
 template <class Steps>
-bool may_carry(const FleetState& fleet, const Steps& steps, const LiveVehicle& live) {
-    const auto may = [&](const StepAction& action) {
-        if (action.type != vda5050::kPick) return true;
-        const auto* load = find_load(fleet, load_named(action));
-        return load != nullptr && !plant::cannot_carry(*live.type, *load);
-    };
-    return std::ranges::all_of(steps, [&](const auto& step) {
-        return std::ranges::all_of(step.before, may) && std::ranges::all_of(step.after, may);
-    });
+std::optional<Reason> cannot_carry(const FleetState& fleet, const Steps& steps,
+                                   const LiveVehicle& live) {
+    for (const auto& step : steps) {
+        for (const auto* actions : {&step.before, &step.after}) {
+            for (const StepAction& action : *actions) {
+                if (action.type != vda5050::kPick) continue;
+                const auto* load = find_load(fleet, load_named(action));
+                if (!load) return Reason{"unknown_load", {{"load", load_named(action).str()}}};
+                if (auto why_not = plant::cannot_carry(*live.type, *load)) return why_not;
+            }
+        }
+    }
+    return std::nullopt;
 }
 
 /// Whether it is loaded behind these actions, from `done` on.
@@ -43,12 +47,30 @@ void change_by_rest(bool& loaded, const JobOrder& order) {
 
 }  // namespace
 
-bool may_carry_all(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live) {
-    return may_carry(fleet, order.steps, live);
+std::optional<Reason> cannot_carry_all(const FleetState& fleet, const NewOrder& order,
+                                       const LiveVehicle& live) {
+    return cannot_carry(fleet, order.steps, live);
 }
 
-bool may_carry_all(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
-    return may_carry(fleet, order.steps, live);
+std::optional<Reason> cannot_carry_all(const FleetState& fleet, const JobOrder& order,
+                                       const LiveVehicle& live) {
+    return cannot_carry(fleet, order.steps, live);
+}
+
+const JobOrder* order_of_load(const FleetState& fleet, const plant::LoadId& load) {
+    const auto takes_it = [&](const StepAction& action) {
+        return action.type == vda5050::kPick && load_named(action) == load;
+    };
+    for (const JobOrderId& id : fleet.orders.open()) {
+        const JobOrder& order = *fleet.find(id);
+        for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
+            const Step& step = order.steps[i];
+            if (std::ranges::any_of(step.before, takes_it) ||
+                std::ranges::any_of(step.after, takes_it))
+                return &order;
+        }
+    }
+    return nullptr;
 }
 
 std::vector<bool> drives_loaded(const FleetState& fleet, const NewOrder& order, JobOrderId self,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/fleet/state/fleet_state.hpp"
@@ -8,9 +9,14 @@
 /// drive to the next.
 namespace pulseline::fleet {
 
-/// Its type may carry all that the order has it take over.
-bool may_carry_all(const FleetState& fleet, const NewOrder& order, const LiveVehicle& live);
-bool may_carry_all(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live);
+/// Why its type may not carry all that the order has it take over: unknown_load {load}, or the
+/// first one's of plant::cannot_carry; nothing: it may.
+std::optional<Reason> cannot_carry_all(const FleetState& fleet, const NewOrder& order,
+                                       const LiveVehicle& live);
+std::optional<Reason> cannot_carry_all(const FleetState& fleet, const JobOrder& order,
+                                       const LiveVehicle& live);
+/// The open order that will take the load over; nullptr: none will.
+const JobOrder* order_of_load(const FleetState& fleet, const plant::LoadId& load);
 
 /// A step each: whether the vehicle drives it with a load, behind all else that a vehicle
 /// that is named has to do.

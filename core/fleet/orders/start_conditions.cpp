@@ -96,7 +96,7 @@ std::optional<Reason> waits_for_condition(const FleetState& fleet, const JobOrde
         return Reason{"actions_not_announced",
                       {{"vehicle", vehicle.str()}, {"action", action->type}}};
     }
-    return std::nullopt;
+    return cannot_carry_all(fleet, order, *live);  // by what is known of its loads since
 }
 
 bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const LiveVehicle& live) {
@@ -106,7 +106,7 @@ bool vehicle_fits(const FleetState& fleet, const JobOrder& order, const LiveVehi
     const auto bound = fleet.orders.vehicle_of_sequence(order.sequence);
     if (!bound.empty() && bound != id) return false;
     if (!keeper(fleet, order, id).empty()) return false;
-    return unannounced_action(order, live) == nullptr && may_carry_all(fleet, order, live);
+    return unannounced_action(order, live) == nullptr && !cannot_carry_all(fleet, order, live);
 }
 
 void settle_dependencies(FleetState& fleet) {

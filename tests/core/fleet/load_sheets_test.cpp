@@ -135,9 +135,13 @@ TEST_F(LoadSheets, WhatNobodyMayCarryIsNotKnownAndTheFieldIsNamed) {
     expect(load, "load_too_large", "/outline");
     load.outline = {{0, 0}, {1, 1}, {1, 0}, {0, 1}};
     expect(load, "not_simple", "/outline");
+    load.outline.assign(65, {0, 0});
+    expect(load, "too_many", "/outline");
     load = papers();
     load.vehicle_types = {plant::VehicleTypeId("none")};
     expect(load, "unknown_vehicle_type", "/vehicle_types/0");
+    load.vehicle_types.assign(9, plant::VehicleTypeId("small"));
+    expect(load, "too_many", "/vehicle_types");
     load = papers();
     load.centre = {0, 1e300};
     expect(load, "load_outside_wheel_base", "/centre");
@@ -191,6 +195,48 @@ TEST_F(LoadSheets, WhatHasLeftForEverIsGoneAndItsIdIsNotGivenAgain) {
     auto other = papers();
     other.name = jig().name;
     EXPECT_EQ(refusal(other), "") << "its name is free";
+}
+
+/// What an open order will take over is not retired under it.
+TEST_F(LoadSheets, AnOrderThatWillTakeItOverKeepsIt) {
+    ASSERT_EQ(refusal(papers()), "");
+    NewOrder order;
+    order.vehicle = kV1;
+    order.earliest_start = world.now + std::chrono::seconds(30);
+    order.steps = {{3, plant::MotionMode::kLinear, {}, {{"pick", {{"load", std::string("J-9")}}}}}};
+    ASSERT_TRUE(world.fleet->create(order, world.now));
+    world.settle();
+    EXPECT_EQ(retired(kNew), "load_in_order");
+    const JobOrderId id = world.only_order().id;
+    ASSERT_TRUE(world.fleet->cancel_order(id, std::nullopt, "op", world.now));
+    world.run(1);
+    EXPECT_EQ(retired(kNew), "");
+}
+
+TEST(LoadSheetsOfTypes, AnOrderSaysThatItsVehicleMayNotCarryWhatIsKnownOtherwiseSince) {
+    plant::Plant plant = with_load();
+    plant.vehicle_types.push_back(plant.vehicle_types.front());
+    plant.vehicle_types.back().id = plant::VehicleTypeId("other");
+    World world(plant);
+    world.connect_all();
+    world.announce({"setBracketHeight", "stopLifts", "pick", "drop"});
+    for (const char* id : {"V1", "V2"}) testing::weigh(world.vehicle(id), world.plant, 0, 0);
+    world.run(1);
+    NewOrder order;
+    order.vehicle = kV1;
+    order.earliest_start = world.now + std::chrono::seconds(5);
+    order.steps = {{1, plant::MotionMode::kLinear, {}, {kPick}}};
+    ASSERT_TRUE(world.fleet->create(order, world.now));
+    plant::Load known = plant.loads.front();
+    known.vehicle_types = {plant::VehicleTypeId("other")};
+    ASSERT_TRUE(world.fleet->put_load(known, "ann", world.now));
+    world.run(10);
+    EXPECT_EQ(world.only_order().state, JobState::kAllowedToStart);
+    EXPECT_EQ(world.only_order().reason.code, "load_not_for_type");
+    known.vehicle_types.clear();
+    ASSERT_TRUE(world.fleet->put_load(known, "ann", world.now));
+    world.run(30);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded);
 }
 
 TEST_F(LoadSheets, NoMoreThanAPlantCanHave) {
