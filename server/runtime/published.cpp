@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "core/fleet/state/event_types.hpp"
@@ -34,16 +35,12 @@ bool goes_on(const fleet::Event& event) {
 }  // namespace
 
 void append(fleet::Records& to, const fleet::Records& from) {
-    append(to.orders, from.orders);
-    append(to.vehicles, from.vehicles);
-    append(to.stops, from.stops);
-    append(to.events, from.events);
-    append(to.idempotency, from.idempotency);
-    append(to.closures, from.closures);
-    append(to.reopened, from.reopened);
-    append(to.journal, from.journal);
-    append(to.schedules, from.schedules);
-    append(to.templates, from.templates);
+    std::apply(
+        [&](auto&... into) {
+            std::apply([&](const auto&... lists) { (append(into, lists), ...); },
+                       fleet::lists_of(from));
+        },
+        fleet::lists_of(to));
 }
 
 void append(Published& to, Published from) {

@@ -35,6 +35,7 @@ async function open({ path, size = [1920, 1080], lang = "en", theme = "light", c
       if (url.pathname.endsWith("/plant")) return json(model);
       if (url.pathname.includes("/cameras/"))
         return route.fulfill({ body: picture, contentType: "image/svg+xml" });
+      if (url.pathname.endsWith("/loads")) return json({ items: (model.loads ?? []).map(asKnown) });
       if (url.pathname.endsWith("/stop-records")) return json({ items: first.stop_records });
       if (url.pathname.endsWith("/job-orders") && request.method() === "GET")
         return json({ items: first.job_orders });
@@ -65,6 +66,12 @@ async function open({ path, size = [1920, 1080], lang = "en", theme = "light", c
   await page.goto(`http://pulse.test${path}${mark}lang=${lang}&theme=${theme}`);
   await page.waitForTimeout(1300);
   return { page, first, model, sent, send: (frame) => socket.send(JSON.stringify(frame)) };
+}
+
+/** A load of the plant's file as the server tells it. */
+function asKnown(load) {
+  const place = { vehicle: undefined, station: undefined }; // comes with the stream
+  return { centre: { x_m: 0, y_m: 0 }, carriers: [], ...load, ...place, since: new Date().toISOString() };
 }
 
 async function sent67(ctx) {

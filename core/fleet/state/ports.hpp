@@ -1,7 +1,10 @@
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/result.hpp"
@@ -62,12 +65,23 @@ struct Records {
     std::vector<Schedule> schedules;  // upserts by id; deleted ones say so
     std::vector<OrderTemplate> templates;
     std::vector<JournalRow> journal;  // added by the owner of the journal, not by the fleet
-    bool empty() const {
-        return journal.empty() && orders.empty() && vehicles.empty() && loads.empty() &&
-               load_sheets.empty() && stops.empty() && events.empty() && idempotency.empty() &&
-               closures.empty() && reopened.empty() && schedules.empty() && templates.empty();
-    }
+    bool empty() const;
 };
+
+/// All lists of the records. They are bound by place: one that is added does not compile until it
+/// stands here, and so is never left out where records are put together.
+template <class R>
+requires std::same_as<std::remove_const_t<R>, Records>
+auto lists_of(R& records) {
+    auto& [orders, vehicles, loads, load_sheets, stops, events, idempotency, closures, reopened,
+           schedules, templates, journal] = records;
+    return std::tie(orders, vehicles, loads, load_sheets, stops, events, idempotency, closures,
+                    reopened, schedules, templates, journal);
+}
+
+inline bool Records::empty() const {
+    return std::apply([](const auto&... lists) { return (lists.empty() && ...); }, lists_of(*this));
+}
 
 /// Everything the fleet needs to go on after a restart.
 struct StoredFleet {
