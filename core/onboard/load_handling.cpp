@@ -16,7 +16,8 @@ constexpr double kStep_m = 0.004;
 constexpr double kClear_m = 0.010;   // between the load and what held it, in the end
 constexpr double kFeel_mps = 0.002;  // nobody knows yet where the load is
 constexpr double kTransfer_mps = 0.004;
-constexpr double kNoMore = 0.01;  // of the weight so far: a step has brought nothing
+constexpr double kLevel_m = 0.001;  // of heights that are the same
+constexpr double kNoMore = 0.01;    // of the weight so far: a step has brought nothing
 
 }  // namespace
 
@@ -35,6 +36,7 @@ LoadHandling::Cells LoadHandling::read_cells() {
         forces.push_back({bracket.name, bracket.force_a_n + bracket.force_b_n});
         cells.force_n += forces.back().force_n;
         cells.lowest_m = std::min(cells.lowest_m, bracket.height_m.value_or(0));
+        cells.highest_m = std::max(cells.highest_m, bracket.height_m.value_or(0));
     }
     cells.feels = plant::load_on(type_, forces).has_value();
     cells.fault = plant::load_fault(type_, forces);
@@ -57,6 +59,10 @@ std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
     told_kg_ = number_param(action.params, "weight").value_or(0);
     began_m_ = cells.lowest_m;
     before_n_ = 0;
+    if (!begun_kg_) {
+        free_m_ = cells.feels ? std::nullopt : std::optional(cells.highest_m);
+        lowest_felt_m_.reset();
+    }
     if (action.type == vda5050::kDrop) {
         if (!cells.feels) return "load_not_felt";
         if (!begun_kg_) begun_kg_ = told_kg_ > 0 ? told_kg_ : cells.force_n / kGravity_mps2;
@@ -101,11 +107,23 @@ bool LoadHandling::move_to(double height_m, double speed_mps) {
     return false;
 }
 
+bool LoadHandling::is_clear(const Cells& cells) const {
+    const auto is_at = [&](double height_m) { return cells.highest_m <= height_m + kLevel_m; };
+    return is_at(0) || (free_m_ && is_at(*free_m_)) ||
+           (lowest_felt_m_ && is_at(*lowest_felt_m_ - kClear_m));
+}
+
+void LoadHandling::note_felt() {
+    const Cells cells = read_cells();
+    if (!cells.feels) return;
+    lowest_felt_m_ = std::min(lowest_felt_m_.value_or(cells.lowest_m), cells.lowest_m);
+}
+
 /// All of the load on its brackets, or none of it, is no half.
 bool LoadHandling::half_transferred() {
     if (!begun_kg_) return false;
     const Cells cells = read_cells();
-    if (!cells.feels) return false;
+    if (!cells.feels) return !is_clear(cells);
     const double measured_kg = cells.force_n / kGravity_mps2;
     return *begun_kg_ == 0 || !plant::weighs_as_known(measured_kg, *begun_kg_);
 }
@@ -113,6 +131,7 @@ bool LoadHandling::half_transferred() {
 void LoadHandling::step() {
     const bool moves = machine_.busy();
     const bool came_to_rest = std::exchange(machine_moved_, moves) && !moves;
+    if (begun_kg_ && (moves || came_to_rest)) note_felt();
     if (phase_ == Phase::kRests) {
         // Brackets that were lowered by hand have given it back.
         if (came_to_rest && begun_kg_ && !half_transferred()) begun_kg_.reset();

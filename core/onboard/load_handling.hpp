@@ -59,10 +59,15 @@ private:
     struct Cells {
         double force_n = 0;
         double lowest_m = 0;
+        double highest_m = 0;
         bool feels = false;  // something lies on the brackets
         std::optional<Reason> fault;
     };
     Cells read_cells();
+    /// Its brackets are so low that they touch nothing, which is more than to feel nothing: load
+    /// cells do not tell a light touch from their noise.
+    bool is_clear(const Cells& cells) const;
+    void note_felt();
     bool move_to(double height_m, double speed_mps);
     void take(const Cells& cells);
     void set_down(const Cells& cells);
@@ -78,6 +83,9 @@ private:
     bool machine_moved_ = false;  // in the step before
     double told_kg_ = 0;
     std::optional<double> begun_kg_;
+    // Of a transfer that was begun and has not come to its end.
+    std::optional<double> free_m_;         // where it began, nothing on its brackets yet
+    std::optional<double> lowest_felt_m_;  // where it has felt the load
     double began_m_ = 0;
     double before_n_ = 0;  // one step ago
     std::optional<std::string> failure_;

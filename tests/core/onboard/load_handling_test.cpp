@@ -283,6 +283,28 @@ TEST_F(LoadHandlingTest, HalfTakenItNeitherDrivesNorRisesUntilItIsTakenOrGivenBa
     EXPECT_FALSE(handling->begun_kg());
 }
 
+// A light touch is below the noise of its load cells, and it would drag at what it touches.
+TEST_F(LoadHandlingTest, BrokenOffAtTheFirstTouchItStaysUntilItsBracketsAreClear) {
+    build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
+    ASSERT_FALSE(handling->begin(pick(kMass_kg)));
+    for (double t_s = 0; machine->load_kg() == 0 && t_s < 300; t_s += kStep_s) {
+        machine->step(kStep_s, 0);
+        handling->step();
+    }
+    handling->abort();
+    for (int i = 0; i < 10; ++i) {
+        machine->step(kStep_s, 0);
+        handling->step();
+    }
+    ASSERT_GT(machine->load_kg(), 0);
+    ASSERT_FALSE(handling->carries()) << "it does not feel it";
+    EXPECT_TRUE(handling->half_transferred());
+    raise_to(0);
+    EXPECT_EQ(machine->load_kg(), 0);
+    EXPECT_FALSE(handling->half_transferred());
+    EXPECT_FALSE(handling->begun_kg());
+}
+
 TEST_F(LoadHandlingTest, OneThatNobodyHasWeighedIsTakenWholeAndSetDownWhole) {
     build(simulation::TrueLoad{plant::LoadId("A-101"), kMass_kg, {}});
     ASSERT_FALSE(handling->begin(pick(0)));
