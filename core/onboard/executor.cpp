@@ -365,11 +365,7 @@ void Executor::write_state(vda5050::StateMessage& state) const {
     state.errors = errors_;
     if (lost_) state.errors.push_back(*lost_);
     if (equipment_ != nullptr && !equipment_->busy() && equipment_->half_transferred()) {
-        state.errors.push_back({vda5050::kLoadHalfTaken,
-                                false,
-                                "A part of the load still hangs or stands. Take it over or set it "
-                                "down first.",
-                                {}});
+        state.errors.push_back({vda5050::kLoadHalfTaken, false, vda5050::kLoadHalfTakenWords, {}});
     }
     if (procedure_.searching()) {
         state.errors.push_back({"codesNotInView",

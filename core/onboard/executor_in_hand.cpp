@@ -1,5 +1,7 @@
 #include "core/onboard/executor.hpp"
 
+#include "core/vda5050/actions.hpp"
+
 /// What the executor does in a person's hands.
 namespace pulseline::onboard {
 
@@ -52,8 +54,7 @@ Status Executor::drive_by_hand(const kinematics::Twist& wanted) {
                     "charging.");
     }
     if (equipment_ != nullptr && equipment_->half_transferred()) {
-        return fail(Errc::kConflict, "load_half_taken",
-                    "A part of the load still hangs or stands. Take it over or set it down first.");
+        return fail(Errc::kConflict, "load_half_taken", vda5050::kLoadHalfTakenWords);
     }
     if (const auto cause = motion_.stop_cause()) {
         return fail(

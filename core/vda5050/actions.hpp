@@ -36,9 +36,11 @@ inline constexpr const char* kStopLifts = "stopLifts";
 
 // Takes a load over from what holds it, and sets it down there (VDA 5050, 6.8.2: loadId, weight).
 inline constexpr const char* kPick = "pick";
+inline constexpr const char* kDrop = "drop";
 /// Error of a vehicle: a transfer was broken off, and it stays where it is with a part of the load.
 inline constexpr const char* kLoadHalfTaken = "loadHalfTaken";
-inline constexpr const char* kDrop = "drop";
+inline constexpr const char* kLoadHalfTakenWords =
+    "A part of the load still hangs or stands. Take it over or set it down first.";
 
 inline bool is_transfer(std::string_view action_type) {
     return action_type == kPick || action_type == kDrop;

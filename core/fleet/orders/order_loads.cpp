@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
 
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/loads.hpp"
@@ -25,6 +26,11 @@ std::optional<Reason> cannot_carry(const FleetState& fleet, const Steps& steps,
         }
     }
     return std::nullopt;
+}
+
+std::span<const Step> steps_left(const JobOrder& order) {
+    const auto done = static_cast<std::size_t>(order.current_step);
+    return std::span(order.steps).subspan(std::min(done, order.steps.size()));
 }
 
 /// Whether it is loaded behind these actions, from `done` on.
@@ -54,7 +60,7 @@ std::optional<Reason> cannot_carry_all(const FleetState& fleet, const NewOrder& 
 
 std::optional<Reason> cannot_carry_all(const FleetState& fleet, const JobOrder& order,
                                        const LiveVehicle& live) {
-    return cannot_carry(fleet, order.steps, live);
+    return cannot_carry(fleet, steps_left(order), live);
 }
 
 const JobOrder* order_of_load(const FleetState& fleet, const plant::LoadId& load) {
@@ -63,8 +69,7 @@ const JobOrder* order_of_load(const FleetState& fleet, const plant::LoadId& load
     };
     for (const JobOrderId& id : fleet.orders.open()) {
         const JobOrder& order = *fleet.find(id);
-        for (std::size_t i = order.current_step; i < order.steps.size(); ++i) {
-            const Step& step = order.steps[i];
+        for (const Step& step : steps_left(order)) {
             if (std::ranges::any_of(step.before, takes_it) ||
                 std::ranges::any_of(step.after, takes_it))
                 return &order;

@@ -9,8 +9,8 @@
 /// drive to the next.
 namespace pulseline::fleet {
 
-/// Why its type may not carry all that the order has it take over: unknown_load {load}, or the
-/// first one's of plant::cannot_carry; nothing: it may.
+/// Why its type may not carry all that the order has it take over yet: unknown_load {load}, or the
+/// first one's of plant::cannot_carry; nothing: it may. What lies behind it may be gone meanwhile.
 std::optional<Reason> cannot_carry_all(const FleetState& fleet, const NewOrder& order,
                                        const LiveVehicle& live);
 std::optional<Reason> cannot_carry_all(const FleetState& fleet, const JobOrder& order,

@@ -239,6 +239,35 @@ TEST(LoadSheetsOfTypes, AnOrderSaysThatItsVehicleMayNotCarryWhatIsKnownOtherwise
     EXPECT_EQ(world.only_order().state, JobState::kEnded);
 }
 
+/// What an order has behind it may have left for ever: that does not hold it up.
+TEST_F(LoadSheets, OnlyWhatAnOrderHasYetToTakeOverCounts) {
+    ASSERT_EQ(refusal(papers()), "");
+    NewOrder order;
+    order.vehicle = kV1;
+    order.steps = {{1, plant::MotionMode::kLinear, {}, {}},
+                   {3, plant::MotionMode::kLinear, {}, {}},
+                   {2, plant::MotionMode::kLinear, {}, {}}};
+    order.steps[0].after = {{"pick", {{"load", std::string("J-9")}}}};
+    order.steps[1].after = {kDrop};
+    ASSERT_EQ(refusal(kJig, {}), "");
+    ASSERT_EQ(refusal(kNew, {{}, kS1}), "");
+    world.vehicle("V1").lifts_end = true;
+    world.vehicle("V1").on_action = [&](const std::string& action) {
+        weigh("V1", action == "pick" ? kMass_kg : 0, 0.15);
+    };
+    ASSERT_TRUE(world.fleet->create(order, world.now));
+    world.settle();
+    for (int i = 0; i < 600 && world.only_order().current_step < 2; ++i) world.run(0.1);
+    ASSERT_EQ(world.only_order().current_step, 2);
+    const JobOrderId id = world.only_order().id;
+    ASSERT_TRUE(world.fleet->pause_order(id, std::nullopt, "op", world.now));
+    ASSERT_EQ(refusal(kNew, {}), "");
+    EXPECT_EQ(retired(kNew), "");
+    ASSERT_TRUE(world.fleet->resume_order(id, std::nullopt, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.only_order().state, JobState::kEnded) << world.only_order().reason.code;
+}
+
 TEST_F(LoadSheets, NoMoreThanAPlantCanHave) {
     for (int i = 0; i < 999; ++i) {
         ASSERT_TRUE(world.fleet->put_load(papers(plant::LoadId("X-" + std::to_string(i))), "ann",
