@@ -119,7 +119,7 @@ void LoadHandling::note_felt() {
     lowest_felt_m_ = std::min(lowest_felt_m_.value_or(cells.lowest_m), cells.lowest_m);
 }
 
-/// All of the load on its brackets, or none of it, is no half.
+/// With all of the load it may drive, and with its brackets clear of it.
 bool LoadHandling::half_transferred() {
     if (!begun_kg_) return false;
     const Cells cells = read_cells();

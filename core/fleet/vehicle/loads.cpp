@@ -207,7 +207,7 @@ vda5050::Action transfer_action(const FleetState& fleet, const LiveVehicle& live
 void note_transferred(FleetState& fleet, LiveVehicle& live, const StepAction& done,
                       const MovedBy& by, Time now) {
     if (done.type == vda5050::kPick) {
-        // It may have been lost to the plant's file since: then nobody here knows of it any more.
+        // The plant's file may have lost it since: then nobody here knows of it any more.
         if (!fleet.loads.contains(load_named(done))) return;
         move_load(fleet, load_named(done), {live.record.id, {}}, by, now);
     } else if (const auto* load = load_on(fleet, live.record.id)) {
