@@ -15,8 +15,8 @@ namespace pulseline::onboard {
 /// weight is spread, and gives back what breaks a rule of its type (plant/load_rules.hpp). The load
 /// is its own when a step brings no more weight. To set down (`drop`), the same the other way. What
 /// is broken off stays as it is; begun again it goes on from there, and until then, or until its
-/// brackets are clear of the load, it stays and its feet do (load_half_taken). All other actions go through to the machine. Thread safety: none. No
-/// clock: what it waits for is seen in step().
+/// brackets are clear of the load, it stays and its feet do (load_half_taken). All other actions go
+/// through to the machine. Thread safety: none. No clock: what it waits for is seen in step().
 class LoadHandling final : public Equipment {
 public:
     /// Both must outlive it.
