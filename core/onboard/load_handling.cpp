@@ -59,28 +59,34 @@ std::optional<std::string> LoadHandling::begin(const vda5050::Action& action) {
     told_kg_ = number_param(action.params, "weight").value_or(0);
     began_m_ = cells.lowest_m;
     before_n_ = 0;
-    if (!begun_kg_) {
-        free_m_ = cells.feels ? std::nullopt : std::optional(cells.highest_m);
-        lowest_felt_m_.reset();
-    }
-    if (action.type == vda5050::kDrop) {
-        if (!cells.feels) return "load_not_felt";
-        if (!begun_kg_) begun_kg_ = told_kg_ > 0 ? told_kg_ : cells.force_n / kGravity_mps2;
+    const bool drops = action.type == vda5050::kDrop;
+    if (drops && !cells.feels) return "load_not_felt";
+    const bool anew = !begun_;
+    if (anew) note_begun(cells, drops);
+    if (drops) {
         phase_ = Phase::kSetsDown;
         return std::nullopt;
     }
-    begun_kg_ = told_kg_;
+    begun_->load_kg = told_kg_;
     // Of one that was broken off a part is on the brackets already.
     if (cells.feels) {
         phase_ = Phase::kTakes;
         return std::nullopt;
     }
     if (!move_to(type_.bracket_lift.stroke_m, kFeel_mps)) {
-        begun_kg_.reset();
+        if (anew) begun_.reset();
         return failure_;
     }
     phase_ = Phase::kFeels;
     return std::nullopt;
+}
+
+void LoadHandling::note_begun(const Cells& cells, bool drops) {
+    const double measured_kg = cells.force_n / kGravity_mps2;
+    begun_.emplace().load_kg = drops && told_kg_ == 0 ? measured_kg : told_kg_;
+    lowest_felt_m_.reset();
+    if (!cells.feels) begun_->empty_m = cells.highest_m;
+    if (drops && plant::weighs_as_known(measured_kg, told_kg_)) begun_->laden_m = cells.lowest_m;
 }
 
 std::optional<std::string> LoadHandling::failure() const {
@@ -109,8 +115,13 @@ bool LoadHandling::move_to(double height_m, double speed_mps) {
 
 bool LoadHandling::is_clear(const Cells& cells) const {
     const auto is_at = [&](double height_m) { return cells.highest_m <= height_m + kLevel_m; };
-    return is_at(0) || (free_m_ && is_at(*free_m_)) ||
+    return is_at(0) || (begun_->empty_m && is_at(*begun_->empty_m)) ||
            (lowest_felt_m_ && is_at(*lowest_felt_m_ - kClear_m));
+}
+
+bool LoadHandling::has_all(const Cells& cells) const {
+    if (!begun_->laden_m || cells.lowest_m < *begun_->laden_m - kLevel_m) return false;
+    return plant::weighs_as_known(cells.force_n / kGravity_mps2, begun_->load_kg);
 }
 
 void LoadHandling::note_felt() {
@@ -119,22 +130,19 @@ void LoadHandling::note_felt() {
     lowest_felt_m_ = std::min(lowest_felt_m_.value_or(cells.lowest_m), cells.lowest_m);
 }
 
-/// With all of the load it may drive, and with its brackets clear of it.
 bool LoadHandling::half_transferred() {
-    if (!begun_kg_) return false;
+    if (!begun_) return false;
     const Cells cells = read_cells();
-    if (!cells.feels) return !is_clear(cells);
-    const double measured_kg = cells.force_n / kGravity_mps2;
-    return *begun_kg_ == 0 || !plant::weighs_as_known(measured_kg, *begun_kg_);
+    return cells.feels ? !has_all(cells) : !is_clear(cells);
 }
 
 void LoadHandling::step() {
     const bool moves = machine_.busy();
     const bool came_to_rest = std::exchange(machine_moved_, moves) && !moves;
-    if (begun_kg_ && (moves || came_to_rest)) note_felt();
+    if (begun_ && (moves || came_to_rest)) note_felt();
     if (phase_ == Phase::kRests) {
         // Brackets that were lowered by hand have given it back.
-        if (came_to_rest && begun_kg_ && !half_transferred()) begun_kg_.reset();
+        if (came_to_rest && begun_ && !half_transferred()) begun_.reset();
         return;
     }
     if (moves && phase_ != Phase::kFeels) return;
@@ -167,11 +175,11 @@ void LoadHandling::step() {
                     {"load_differs", {{"load_kg", told_kg_}, {"measured_kg", measured_kg}}},
                     Phase::kGivesBack);
             }
-            begun_kg_.reset();
+            begun_.reset();
             return end();
         }
         case Phase::kLeaves:
-            begun_kg_.reset();
+            begun_.reset();
             return end();
         case Phase::kGivesBack:
         case Phase::kTakesBack:
@@ -216,7 +224,7 @@ void LoadHandling::give_up(Reason why, Phase back) {
 
 void LoadHandling::end() {
     phase_ = Phase::kRests;
-    if (!half_transferred()) begun_kg_.reset();
+    if (!half_transferred()) begun_.reset();
 }
 
 }  // namespace pulseline::onboard

@@ -9,14 +9,25 @@
 
 namespace pulseline::onboard {
 
+/// A transfer that has begun and not come to its end: a part of the load may hang beside the
+/// vehicle. Heights are those of brackets above their lower ends.
+struct BegunTransfer {
+    double load_kg = 0;              // what it weighs; 0: nobody knows
+    std::optional<double> empty_m;   // where it began with nothing on the brackets
+    std::optional<double> laden_m;   // where it began with all of the load on them
+    bool operator==(const BegunTransfer&) const = default;
+};
+
 /// Takes loads over from a hoist or stands, and sets them down, with the brackets of the machine
 /// below it (Tang 2020, section 2, workflow; Li 2022, Fig. 1). To take over (`pick`), all brackets
 /// go up in step until they feel the load, and then by small steps; after each it looks how the
 /// weight is spread, and gives back what breaks a rule of its type (plant/load_rules.hpp). The load
 /// is its own when a step brings no more weight. To set down (`drop`), the same the other way. What
-/// is broken off stays as it is; begun again it goes on from there, and until then, or until its
-/// brackets are clear of the load, it stays and its feet do (load_half_taken). All other actions go
-/// through to the machine. Thread safety: none. No clock: what it waits for is seen in step().
+/// is broken off stays as it is; begun again it goes on from there. Until then it stays and its feet
+/// do (load_half_taken), unless its brackets are clear of the load, or have all of it and are back
+/// where it began to set it down: load cells alone tell neither a light touch nor a small part that
+/// still hangs. All other actions go through to the machine. Thread safety: none. No clock: what it
+/// waits for is seen in step().
 class LoadHandling final : public Equipment {
 public:
     /// Both must outlive it.
@@ -36,10 +47,9 @@ public:
 
     /// Once a step of the machine.
     void step();
-    /// Of a transfer that was begun and has not come to its end: what the load weighs, kg, or 0
-    /// where nobody knows. To be kept, and told to the next program by begun_before().
-    const std::optional<double>& begun_kg() const { return begun_kg_; }
-    void begun_before(double load_kg) { begun_kg_ = load_kg; }
+    /// nullopt: none, or it has ended. To be kept, and told to the next program by begun_before().
+    const std::optional<BegunTransfer>& begun() const { return begun_; }
+    void begun_before(const BegunTransfer& begun) { begun_ = begun; }
 
     /// What the load cells say; a vehicle without brackets does not know.
     bool carries() { return read_cells().feels; }
@@ -67,6 +77,9 @@ private:
     /// Its brackets are so low that they touch nothing, which is more than to feel nothing: load
     /// cells do not tell a light touch from their noise.
     bool is_clear(const Cells& cells) const;
+    /// All of the load is on its brackets, and they are so high that nothing else holds it.
+    bool has_all(const Cells& cells) const;
+    void note_begun(const Cells& cells, bool drops);
     void note_felt();
     bool move_to(double height_m, double speed_mps);
     void take(const Cells& cells);
@@ -82,10 +95,8 @@ private:
     bool transfers_ = false;  // what was begun last is a transfer
     bool machine_moved_ = false;  // in the step before
     double told_kg_ = 0;
-    std::optional<double> begun_kg_;
-    // Of a transfer that was begun and has not come to its end.
-    std::optional<double> free_m_;         // where it began, nothing on its brackets yet
-    std::optional<double> lowest_felt_m_;  // where it has felt the load
+    std::optional<BegunTransfer> begun_;
+    std::optional<double> lowest_felt_m_;  // where it has felt the load of this transfer
     double began_m_ = 0;
     double before_n_ = 0;  // one step ago
     std::optional<std::string> failure_;

@@ -54,9 +54,9 @@ Vehicle::Vehicle(const plant::Vehicle& vehicle, const plant::VehicleType& type, 
       headers_(vehicle.manufacturer, vehicle.serial_number),
       look_every_(kLookInterval) {
     if (!settings_.learned.empty()) {
-        begun_.emplace(settings_.learned, vehicle.id.str());
-        kept_transfer_kg_ = begun_->load();
-        if (kept_transfer_kg_) handling_.begun_before(*kept_transfer_kg_);
+        transfer_file_.emplace(settings_.learned, vehicle.id.str());
+        kept_transfer_ = transfer_file_->load();
+        if (kept_transfer_) handling_.begun_before(*kept_transfer_);
     }
     loaded_ = type_.brackets.empty() ? settings_.loaded : handling_.carries();
     if (!drive_.wheels().empty()) guard_.emplace(type_, loaded_);
@@ -137,9 +137,9 @@ void Vehicle::feel_load() {
 /// In the step in which it begins, before any weight can have come or gone: a program that starts
 /// anew has to know of it.
 void Vehicle::keep_transfer() {
-    if (!begun_ || kept_transfer_kg_ == handling_.begun_kg()) return;
-    kept_transfer_kg_ = handling_.begun_kg();
-    if (const auto kept = begun_->save(kept_transfer_kg_); !kept) {
+    if (!transfer_file_ || kept_transfer_ == handling_.begun()) return;
+    kept_transfer_ = handling_.begun();
+    if (const auto kept = transfer_file_->save(kept_transfer_); !kept) {
         server::log::warn("transfer.not_kept",
                           {{"vehicle", vehicle_.id.str()}, {"what", kept.error().what}});
     }

@@ -21,7 +21,7 @@
 #include "core/onboard/pose/pose_guard.hpp"
 #include "core/onboard/pose/reflector_watch.hpp"
 #include "core/onboard/pose/rest_watch.hpp"
-#include "server/agent/begun_transfer.hpp"
+#include "server/agent/kept_transfer.hpp"
 #include "server/agent/learned_moves.hpp"
 #include "server/agent/machine.hpp"
 #include "server/agent/outbox.hpp"
@@ -112,8 +112,8 @@ private:
     StopSenses stop_senses_;
     onboard::LoadHandling handling_;
     std::optional<LearnedMoves> learned_;
-    std::optional<BegunTransfer> begun_;
-    std::optional<double> kept_transfer_kg_;  // as its file has it
+    std::optional<KeptTransfer> transfer_file_;
+    std::optional<onboard::BegunTransfer> kept_transfer_;  // as its file has it
     onboard::Executor executor_;
     onboard::HandControls hands_;
     std::optional<onboard::LookOut> look_out_;        // with scanners

@@ -63,6 +63,7 @@ void Vehicle::boot(const Pose2& pose) {
     motion_ = std::make_unique<simulation::VehicleMotion>(type_, pose, random_(), 1, errors);
     cameras_ = std::make_unique<Cameras>(*motion_, random_);
     if (equipment_) handling_ = std::make_unique<onboard::LoadHandling>(*equipment_, type_);
+    if (begun_transfer_) handling_->begun_before(*begun_transfer_);
     executor_ = std::make_unique<onboard::Executor>(*motion_, *cameras_, plant_.halls[0].id.str(),
                                                     handling_.get());
     stands_ = pose;
@@ -108,6 +109,7 @@ void Vehicle::step(double dt_s) {
     if (equipment_) {
         equipment_->step(dt_s, 0);
         handling_->step();
+        begun_transfer_ = handling_->begun();
     }
     if (manual || broken || safety_stopped) return;
     const Pose2 before = motion_->true_pose();

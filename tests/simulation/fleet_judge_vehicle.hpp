@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -72,6 +73,7 @@ private:
     std::unique_ptr<Cameras> cameras_;
     std::unique_ptr<simulation::VehicleEquipment> equipment_;  // of a type with parking feet
     std::unique_ptr<onboard::LoadHandling> handling_;          // of one with brackets
+    std::optional<onboard::BegunTransfer> begun_transfer_;     // as its disk has it
     std::unique_ptr<onboard::Executor> executor_;
     Pose2 stands_;  // as its feet know it
     std::vector<std::string> lifts_begun_;

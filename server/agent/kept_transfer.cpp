@@ -1,4 +1,4 @@
-#include "server/agent/begun_transfer.hpp"
+#include "server/agent/kept_transfer.hpp"
 
 #include <fstream>
 #include <iterator>
@@ -10,26 +10,33 @@
 
 namespace pulseline::agent {
 
-BegunTransfer::BegunTransfer(const std::filesystem::path& folder, const std::string& vehicle)
+KeptTransfer::KeptTransfer(const std::filesystem::path& folder, const std::string& vehicle)
     : file_(folder / (vehicle + ".transfer.json")) {
     std::error_code unwritable;  // save() says so
     std::filesystem::create_directories(folder, unwritable);
 }
 
-std::optional<double> BegunTransfer::load() const {
+std::optional<onboard::BegunTransfer> KeptTransfer::load() const {
     std::ifstream file(file_, std::ios::binary);
     if (!file) return std::nullopt;
+    onboard::BegunTransfer begun;
     const auto parsed = json::parse_json(std::string(std::istreambuf_iterator<char>(file), {}));
-    if (!parsed) return 0;
+    if (!parsed) return begun;
     json::FieldErrors errors;
     json::ObjectReader in(*parsed, "", errors);
-    const double load_kg = in.number("load_kg");
-    return errors.empty() && load_kg >= 0 ? load_kg : 0;
+    begun.load_kg = in.number("load_kg");
+    if (in.has("empty_m")) begun.empty_m = in.number("empty_m");
+    if (in.has("laden_m")) begun.laden_m = in.number("laden_m");
+    const bool usable = errors.empty() && begun.load_kg >= 0;
+    return usable ? begun : onboard::BegunTransfer{};
 }
 
-Status BegunTransfer::save(const std::optional<double>& load_kg) const {
-    if (load_kg) {
-        return api::plant_file::write_file(file_, json::Json{{"load_kg", *load_kg}}.dump() + "\n");
+Status KeptTransfer::save(const std::optional<onboard::BegunTransfer>& begun) const {
+    if (begun) {
+        json::Json text{{"load_kg", begun->load_kg}};
+        if (begun->empty_m) text["empty_m"] = *begun->empty_m;
+        if (begun->laden_m) text["laden_m"] = *begun->laden_m;
+        return api::plant_file::write_file(file_, text.dump() + "\n");
     }
     std::error_code failed;
     std::filesystem::remove(file_, failed);
