@@ -146,6 +146,7 @@ void restore(FleetState& fleet, StoredFleet stored, Time now) {
     }
     restore_loads(fleet, std::move(stored.load_sheets), std::move(stored.loads), now);
     rebuild_floor(fleet, now);
+    close_below_loads(fleet, now);
     restore_closures(fleet, std::move(stored.closures), now);
     interrupt_after_restart(fleet, now);
     for (auto& [id, live] : fleet.vehicles) {

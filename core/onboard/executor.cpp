@@ -238,9 +238,15 @@ void Executor::run_equipment() {
             return;
         }
     }
-    if (equipment_->busy()) return;
+    note_equipment_end();
+}
+
+/// What an order wanted of it is done, or has failed.
+void Executor::note_equipment_end() {
+    if (waiting_.empty() || waiting_.front().id != running_equipment_) return;
+    if (equipment_held_ || equipment_->busy()) return;
     const auto failure = equipment_->failure();
-    set_action(action.id, failure ? ActionStatus::kFailed : ActionStatus::kFinished,
+    set_action(running_equipment_, failure ? ActionStatus::kFailed : ActionStatus::kFinished,
                failure.value_or(""));
     waiting_.pop_front();
 }

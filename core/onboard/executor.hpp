@@ -108,6 +108,7 @@ private:
     void queue_edges();
     void run_actions(double dt_s);
     void run_equipment();
+    void note_equipment_end();
     void run_lift();
     void hold_equipment();
     void stop_equipment(const char* why);

@@ -132,6 +132,7 @@ void Executor::cancel_order(const Action& action) {
 }
 
 void Executor::abort_actions(const char* why) {
+    if (equipment_ != nullptr) note_equipment_end();  // it may have ended since the last step
     stop_equipment(why);
     for (auto& state : order_actions_) {
         const bool on_edge = is_edge_action(state.type) && !is_final(state.status);

@@ -16,8 +16,9 @@ using geometry::Polygon;
 constexpr int kCoordinateBits = 24;  // +-4,194 km in tiles of 0.5 m
 constexpr std::int64_t kOffset = std::int64_t{1} << (kCoordinateBits - 1);
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kCoordinateBits) - 1;
-constexpr double kTouch_m = 1e-9;  // rounding: touching counts
-constexpr int kCorners = 8;        // of the polygon around the margin's circle: 8 % too large
+constexpr TileId kStorey = TileId{1} << 63;  // beyond all indexes of halls
+constexpr double kTouch_m = 1e-9;            // rounding: touching counts
+constexpr int kCorners = 8;  // of the polygon around the margin's circle: 8 % too large
 
 TileId tile_id(std::size_t hall, std::int64_t col, std::int64_t row) {
     const auto place = [](std::int64_t index) {
@@ -159,6 +160,10 @@ TileSet tiles_under(std::size_t hall_index, const std::vector<Polygon>& pieces, 
     }
     return tiles;
 }
+
+TileId above(TileId tile) { return tile | kStorey; }
+
+bool is_above_floor(TileId tile) { return (tile & kStorey) != 0; }
 
 geometry::Box tile_box(TileId tile) {
     const auto index = [](TileId bits) {

@@ -5,6 +5,7 @@
 #include "api/plant/plant_file.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/fleet/tables/layout.hpp"
+#include "core/fleet/tables/overhead.hpp"
 #include "tests/bench/traffic_world.hpp"
 
 // The vehicles of a plant file on the floor that the fleet makes of it.
@@ -24,6 +25,7 @@ World plant_world(const std::string& path) {
     world.real_plant = true;
     world.well_formed = fleet::check_layout(*plant).empty();
     const planning::LegPlanner planner(*plant);
+    const auto overhead = fleet::overhead_of(*plant);
     std::vector<fleet::FloorClass> classes;
     for (const auto& vehicle : plant->vehicles) {
         const auto* type = plant::find_vehicle_type(*plant, vehicle.type);
@@ -32,9 +34,9 @@ World plant_world(const std::string& path) {
             return c.type == type && c.loaded == loaded;
         });
         if (known == classes.end()) {
-            classes.push_back(fleet::floor_class(*plant, planner, *type, loaded));
+            classes.push_back(fleet::floor_class(*plant, planner, overhead, *type, loaded));
             known = classes.end() - 1;
-            world.graphs.push_back(fleet::move_graph(*plant, *known));
+            world.graphs.push_back(fleet::move_graph(*plant, overhead, *known));
             auto& goals = world.goals.emplace_back();
             for (std::size_t p = 0; p < known->motion.places.size(); ++p) {
                 if (known->motion.places[p].station.empty()) continue;

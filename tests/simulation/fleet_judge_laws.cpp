@@ -313,13 +313,14 @@ bool World::all_over() const {
     if (static_cast<int>(asked_.size()) < wanted_orders_) return false;
     const bool taken = std::all_of(asked_.begin(), asked_.end(),
                                    [](const Asked& asked) { return asked.acknowledged; });
-    return taken && load_is_known() &&
+    return taken && !unknown_load() &&
            std::all_of(store_.orders.begin(), store_.orders.end(),
                        [](const auto& entry) { return fleet::is_final(entry.second.state); });
 }
 
 void World::check_end() {
-    if (!load_is_known()) violate("a load is elsewhere than the server has it");
+    if (const auto of = unknown_load())
+        violate("a load is elsewhere than the server has it: " + *of);
     for (const auto& asked : asked_) {
         if (!asked.acknowledged) violate("order " + asked.order.idempotency_key + " is not taken");
     }

@@ -57,12 +57,15 @@ void World::weigh_load() {
 
 void World::retire_load() {
     const auto& first = plant_.loads.front().id;
-    if (fleet_->retire_load(first, "planner", now())) {
+    const auto place = fleet_->load(first)->place;
+    const bool is_away = place.vehicle.empty() && place.station.empty();
+    if (!is_away && fleet_->retire_load(first, "planner", now())) {
         return violate("the load that is at work was retired");
     }
     std::vector<plant::LoadId> others;
     for (const auto& known : fleet_->loads()) {
-        if (known.sheet.load.id != first) others.push_back(known.sheet.load.id);
+        if (plant::find_load(plant_, known.sheet.load.id)) continue;  // at work
+        others.push_back(known.sheet.load.id);
     }
     if (others.empty()) return;
     const int which = fleet_judge::pick(papers_random_, 0, static_cast<int>(others.size()) - 1);

@@ -42,7 +42,7 @@ plant::VehicleType type_of(const char* id, double length_m, double width_m, doub
 
 class Builder {
 public:
-    Builder(std::mt19937_64& random, bool free) : random_(random) {
+    Builder(std::mt19937_64& random, bool free, bool several) : random_(random), several_(several) {
         rows_ = pick(random, 1, 3);
         columns_ = pick(random, 3, rows_ == 1 ? 7 : 6);
         plant_.id = "judge";
@@ -80,7 +80,9 @@ public:
 
     Plant build() {
         const int platform_row = pick(random_, 0, rows_ - 1);
-        for (int row = 0; row < rows_; ++row) add_row(row, row == platform_row);
+        for (int row = 0; row < rows_; ++row) {
+            add_row(row, row == platform_row || (several_ && pick(random_, 0, 1) == 0));
+        }
         add_cross_lanes();
         add_bays(0, -1);
         add_bays(rows_ - 1, 1);
@@ -93,8 +95,18 @@ public:
             const bool carrier = i == 0 || (i > 1 && pick(random_, 0, 2) == 0);
             add_vehicle(i + 1, carrier ? "carrier" : "cart", bays_[static_cast<std::size_t>(i)]);
         }
-        add_vehicle(vehicles + 1, "platform", platform_bays_[random_() % 2]);
-        add_load();
+        int platforms = 1;
+        const auto most_platforms = static_cast<int>(platform_bays_.size());
+        if (several_) {
+            platforms = pick(random_, 2, most_platforms);
+            std::shuffle(platform_bays_.begin(), platform_bays_.end(), random_);
+        } else {
+            std::swap(platform_bays_[0], platform_bays_[random_() % 2]);
+        }
+        for (int i = 0; i < platforms; ++i) {
+            add_vehicle(vehicles + 1 + i, "platform", platform_bays_[static_cast<std::size_t>(i)]);
+            add_load(101 + i);
+        }
         return std::move(plant_);
     }
 
@@ -162,12 +174,15 @@ private:
         for (std::size_t i = 1; i < chain.size(); ++i) add_lane(chain[i - 1], chain[i], {});
         if (!platform) return;
         const double end_m = (columns_ - 1) * kColumn_m;
-        add_node("west", {-kPlatformBay_m, y_m});
-        add_node("east", {end_m + kPlatformBay_m, y_m});
-        add_lane("west", chain.front(), {"platform"});
-        add_lane(chain.back(), "east", {"platform"});
-        platform_bays_ = {add_station("west", {-kPlatformBay_m, y_m}, true, {"platform"}),
-                          add_station("east", {end_m + kPlatformBay_m, y_m}, true, {"platform"})};
+        const std::string west = "west" + std::to_string(row);
+        const std::string east = "east" + std::to_string(row);
+        add_node(west, {-kPlatformBay_m, y_m});
+        add_node(east, {end_m + kPlatformBay_m, y_m});
+        add_lane(west, chain.front(), {"platform"});
+        add_lane(chain.back(), east, {"platform"});
+        platform_bays_.push_back(add_station(west, {-kPlatformBay_m, y_m}, true, {"platform"}));
+        platform_bays_.push_back(
+            add_station(east, {end_m + kPlatformBay_m, y_m}, true, {"platform"}));
     }
 
     /// Rows hang together by their first or last column, the others are drawn.
@@ -206,16 +221,16 @@ private:
         plant_.vehicles.push_back(vehicle);
     }
 
-    /// An aircraft that hangs where the platform is at home; all along its row something can hold
-    /// it.
-    void add_load() {
+    /// An aircraft that hangs where the newest platform is at home; all along its row something can
+    /// hold it.
+    void add_load(int number) {
         const auto home = *plant::find_station(plant_, plant_.vehicles.back().home);
         for (auto& station : plant_.stations) {
             if (station.pose.y_m == home.pose.y_m) station.support = plant::Support{0.05};
         }
         plant::Load load;
-        load.id = plant::LoadId("A-101");
-        load.name = "A-101";
+        load.name = "A-" + std::to_string(number);
+        load.id = plant::LoadId(load.name);
         load.mass_kg = 9000;
         load.station = home.id;
         plant_.loads.push_back(std::move(load));
@@ -226,6 +241,7 @@ private:
     }
 
     std::mt19937_64& random_;
+    bool several_;
     Plant plant_;
     int rows_ = 1;
     int columns_ = 1;
@@ -239,6 +255,8 @@ int pick(std::mt19937_64& random, int low, int high) {
     return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }
 
-Plant random_plant(std::mt19937_64& random, bool free) { return Builder(random, free).build(); }
+Plant random_plant(std::mt19937_64& random, bool free, bool several) {
+    return Builder(random, free, several).build();
+}
 
 }  // namespace pulseline::fleet_judge

@@ -28,7 +28,8 @@ private:
     std::mt19937_64& random_;
 };
 
-Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::uint64_t seed)
+Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle,
+                 std::shared_ptr<simulation::Supports> supports, std::uint64_t seed)
     : plant_(plant),
       vehicle_(vehicle),
       type_(*plant::find_vehicle_type(plant, vehicle.type)),
@@ -40,8 +41,7 @@ Vehicle::Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::
         equipment_ = std::make_unique<simulation::VehicleEquipment>(
             type_, stands_, std::vector<Pose2>{}, kBattery_percent, 1,
             load == nullptr ? 0 : load->mass_kg, seed);
-        equipment_->work_below(std::make_shared<simulation::Supports>(plant, seed),
-                               plant.halls[0].id, carried);
+        equipment_->work_below(std::move(supports), plant.halls[0].id, carried);
     }
     shows_codes = !type_.brackets.empty();  // it leaves a station only when it sees them
     boot(plant::find_station(plant, vehicle.home)->pose);
@@ -101,6 +101,11 @@ void Vehicle::receive(const fleet::VehicleMessage& message) {
         }
     }
     if (message.order) executor_->handle(*message.order);
+}
+
+std::optional<plant::LoadId> Vehicle::load() const {
+    const auto& carried = equipment_ ? equipment_->carried() : std::nullopt;
+    return carried ? std::optional(carried->id) : std::nullopt;
 }
 
 void Vehicle::step(double dt_s) {

@@ -20,7 +20,9 @@ using geometry::Pose2;
 
 class Vehicle {
 public:
-    Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle, std::uint64_t seed);
+    /// `supports`: what all vehicles of the hall share.
+    Vehicle(const plant::Plant& plant, const plant::Vehicle& vehicle,
+            std::shared_ptr<simulation::Supports> supports, std::uint64_t seed);
     ~Vehicle();
 
     void receive(const fleet::VehicleMessage& message);
@@ -53,6 +55,8 @@ public:
     const std::vector<std::string>& lifts_begun() const { return lifts_begun_; }
     /// What truly weighs on its brackets.
     double load_kg() const { return equipment_ ? equipment_->load_kg() : 0; }
+    /// Of which that is all or a part.
+    std::optional<plant::LoadId> load() const;
 
     bool dead = false;            // without power: silent and standing
     bool manual = false;          // a person has taken it over

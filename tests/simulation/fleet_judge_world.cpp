@@ -12,9 +12,10 @@ namespace {
 constexpr double kTick_s = 0.2;
 constexpr double kStall_s = 1;  // of the server: its runtime takes as much for one
 constexpr double kStateEvery_s = 1;
-constexpr double kDrain_s = 3600;        // at most, after the faults have stopped
-constexpr int kRounds = 4;               // of commits in one tick
-constexpr std::uint64_t kFreeEvery = 4;  // so many seeds have vehicles that may leave the lanes
+constexpr double kDrain_s = 3600;           // at most, after the faults have stopped
+constexpr int kRounds = 4;                  // of commits in one tick
+constexpr std::uint64_t kFreeEvery = 4;     // so many seeds have vehicles that may leave the lanes
+constexpr std::uint64_t kSeveralEvery = 3;  // and several platforms
 
 }  // namespace
 
@@ -25,10 +26,12 @@ Outcome judge_seed(std::uint64_t seed, const Options& options) {
 World::World(std::uint64_t seed, const Options& options)
     : random_(seed), options_(options), foot_random_(seed), papers_random_(seed) {
     free_ = seed % kFreeEvery == 0;
-    plant_ = random_plant(random_, free_);
+    plant_ = random_plant(random_, free_, seed % kSeveralEvery == 2);
+    supports_ = std::make_shared<simulation::Supports>(plant_, seed);
     for (const auto& vehicle : plant_.vehicles) {
         vehicles_.emplace(std::piecewise_construct, std::forward_as_tuple(vehicle.id),
-                          std::forward_as_tuple(plant_, vehicle, random_()));
+                          std::forward_as_tuple(plant_, vehicle, supports_, random_()));
+        if (vehicles_.at(vehicle.id).type().parking) platforms_.push_back(vehicle.id);
         lines_[vehicle.id];
         watch_[vehicle.id];
     }

@@ -71,6 +71,7 @@ private:
         double safety_until_s = 0;   // its safety stop is pulled
         bool needs_person = false;   // since a restart of the server or a pause
         std::size_t lifts_seen = 0;  // of those that it has begun
+        double next_lift_s = 0;      // when somebody works at it where it stands
         /// What the server has been told of it, and of that what its present outputs know.
         struct Told {
             bool unfit = false;
@@ -135,14 +136,18 @@ private:
 
     // fleet_judge_people.cpp: the client and the person
     void order_some();
-    void transfer_at_times(std::vector<fleet::NewStep>& steps);
+    void transfer_at_times(const plant::VehicleId& id, std::vector<fleet::NewStep>& steps);
     void ask(Asked& asked);
     void let_person_act();
     void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
     void help_orders();
-    void work_platform();
+    void work_platform(const plant::VehicleId& id);
     std::optional<fleet::StepAction> mend_load(const plant::VehicleId& id,
                                                const fleet::VehicleView& view);
+    const plant::Load* load_to_take(const plant::VehicleId& id);
+    void work_crane();
+    void move_by_crane(const plant::Load& load, const plant::StationId& from,
+                       const plant::StationId& to);
 
     // fleet_judge_papers.cpp: what people say of loads, and that it is kept
     void keep_papers();
@@ -159,6 +164,8 @@ private:
     void check_lifts(const plant::VehicleId& id, const Vehicle& vehicle);
     void check_place_of_load();
     void check_load(const plant::VehicleId& id, const Vehicle& vehicle);
+    const plant::Load* stored_load_on(const plant::VehicleId& id) const;
+    void check_loads_apart(const plant::VehicleId& id, const Vehicle& vehicle);
     void check_records(const fleet::Records& records);
     void check_one_order_each(const fleet::Records& records);
     void check_link(const fleet::Event& event);
@@ -167,7 +174,7 @@ private:
     void check_all();
     void check_end();
     bool all_over() const;
-    bool load_is_known() const;
+    std::optional<std::string> unknown_load() const;
     void violate(const std::string& what);
     void check_way(const fleet::VehicleMessage& message);
     void check_given_floor(const plant::VehicleId& id);
@@ -193,7 +200,9 @@ private:
     std::optional<Shadow> shadow_;  // with options.journal; a restored fleet has all views, too
     bool has_dashboards_ = false;
     std::map<plant::StationId, fleet::StationView> shown_;  // what a dashboard has been told
+    std::shared_ptr<simulation::Supports> supports_;
     std::map<plant::VehicleId, Vehicle> vehicles_;
+    std::vector<plant::VehicleId> platforms_;
     std::map<plant::VehicleId, Line> lines_;
     std::map<plant::VehicleId, Watch> watch_;
     bool free_ = false;  // vehicles may leave the lanes: such ways are planned beside the fleet
@@ -220,11 +229,11 @@ private:
     double retry_s_ = 0;
     double next_order_s_ = 0;
     double next_person_s_ = 0;
+    double next_crane_s_ = 0;
     std::mt19937_64 foot_random_;    // of its own, so that the seeds stay what they were
     std::mt19937_64 papers_random_;  // likewise
     double next_papers_s_ = 0;       // when somebody says something of a load
     int registered_loads_ = 0;
-    double next_feet_s_ = 0;             // when somebody lowers or raises the platform's feet
     std::set<std::string> lifts_asked_;  // by a person, and not yet begun: ids of actions
     int wanted_orders_ = 0;
     std::uint64_t servers_ = 0;

@@ -102,6 +102,10 @@ Json mode_option_json(const planning::ModeOption& option, const Arrivals& arriva
     if (!plan.closures.empty()) {
         json["closures"] = list_json(plan.closures, [](const std::string& id) { return Json(id); });
     }
+    if (!plan.loads.empty()) {
+        json["loads_in_the_way"] =
+            list_json(plan.loads, [](const std::string& id) { return Json(id); });
+    }
     if (std::isfinite(plan.blind.at_most_m)) {
         json["codes_on_way"] = {{"widest_gap_m", plan.blind.way_m},
                                 {"at_most_m", plan.blind.at_most_m}};

@@ -81,7 +81,8 @@ Json bar_json(const planning::WhatIf& question, const planning::WhatIfBar& bar) 
     Json json{{"edge", bar.edge.str()}, {"why", text(bar.bar)}};
     for (const std::size_t i : bar.closures) {
         const auto& closure = question.closures[i];
-        json["closures"].push_back({{"id", closure.id}, {"name", closure.name}});
+        const char* what = closure.to_loads_only ? "loads" : "closures";
+        json[what].push_back({{"id", closure.id}, {"name", closure.name}});
     }
     return json;
 }
@@ -119,6 +120,9 @@ FleetAnswer find_routes(FleetContext& context, const Request& request) {
     auto question = read_what_if(request);
     if (!question) return {problem(400, question.error(), request)};
     question->closures = context.fleet.closed_floors();
+    std::erase_if(question->closures, [&](const planning::ClosedFloor& closed) {
+        return closed.to_loads_only && !question->loaded;
+    });
     // The search takes its time, and not the fleet's.
     return {{},
             [question = std::move(*question), &plant = context.plant,

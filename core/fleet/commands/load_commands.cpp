@@ -4,6 +4,8 @@
 #include "core/fleet/dispatch/dispatch.hpp"
 #include "core/fleet/fleet.hpp"
 #include "core/fleet/floor/carrying.hpp"
+#include "core/fleet/floor/closures.hpp"
+#include "core/fleet/floor/standing_loads.hpp"
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/loads.hpp"
@@ -45,7 +47,8 @@ Status may_be_on(const FleetState& fleet, const plant::Load& load, const plant::
     return may_change(*live, "/vehicle");
 }
 
-Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::StationId& id) {
+Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::StationId& id,
+                 const plant::VehicleId& from) {
     const auto* station = plant::find_station(fleet.plant, id);
     if (!station) {
         return fail(Errc::kUnreachable, "unknown_station", "There is no station " + id.str() + ".",
@@ -61,7 +64,7 @@ Status may_be_at(const FleetState& fleet, const plant::Load& load, const plant::
                     there->name + " is there already. Say first where that has gone.", "/station",
                     {{"load", there->name}});
     }
-    return {};
+    return has_room_at(fleet, load, *station, from);
 }
 
 }  // namespace
@@ -80,7 +83,7 @@ Result<KnownLoad> Fleet::place_load(const plant::LoadId& id, const LoadPlace& wh
     Status may = is_not_taken_over(fleet, *load);
     if (may && from) may = may_change(*from, {});
     if (may && !where.vehicle.empty()) may = may_be_on(fleet, *load, where.vehicle);
-    if (may && !where.station.empty()) may = may_be_at(fleet, *load, where.station);
+    if (may && !where.station.empty()) may = may_be_at(fleet, *load, where.station, before.vehicle);
     if (!may) return fail(std::move(may).error());
     if (LiveVehicle* to = fleet.find(where.vehicle)) {
         if (Status held = hold_floor_with(fleet, *to, load, now); !held) {
@@ -88,6 +91,7 @@ Result<KnownLoad> Fleet::place_load(const plant::LoadId& id, const LoadPlace& wh
         }
     }
     move_load(fleet, id, where, {actor}, now);
+    close_below_loads(fleet, now);
     if (from) settle_load(fleet, *from, now);
     dispatch(fleet, now);
     return *this->load(id);

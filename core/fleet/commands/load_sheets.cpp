@@ -4,6 +4,7 @@
 #include "core/base/params.hpp"
 #include "core/fleet/dispatch/dispatch.hpp"
 #include "core/fleet/fleet.hpp"
+#include "core/fleet/floor/closures.hpp"
 #include "core/fleet/journal/recorder.hpp"
 #include "core/fleet/orders/order_loads.hpp"
 #include "core/fleet/state/event_types.hpp"
@@ -135,6 +136,8 @@ Result<KnownLoad> Fleet::put_load(const plant::Load& known, const std::string& a
         fleet.loads.emplace(known.id, LoadRecord{known.id, {}, {}, now, actor});
         fleet.stored_loads.insert(known.id);
     }
+    fleet.floor.loads_moved = true;  // its outline may be another one
+    close_below_loads(fleet, now);
     const auto& at = fleet.loads.at(known.id);
     if (!at.vehicle.empty()) fleet.changed_vehicles.insert(at.vehicle);
     add_event(fleet, now, is_new ? event::kLoadRegistered : event::kLoadChanged, {}, {}, at.vehicle,

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/fleet/floor/closures.hpp"
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/holding.hpp"
 #include "core/fleet/vehicle/loads.hpp"
@@ -54,6 +55,7 @@ Status hold_floor_with(FleetState& fleet, LiveVehicle& live, const plant::Load* 
 }
 
 void settle_load(FleetState& fleet, LiveVehicle& live, Time now) {
+    close_below_loads(fleet, now);
     if (live.has_leg() || is_transferring(live)) return;
     // It can only be less than it holds floor with: a load was not taken over, or was set down.
     static_cast<void>(hold_floor_with(fleet, live, load_on(fleet, live.record.id), now));

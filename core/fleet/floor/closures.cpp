@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/fleet/floor/standing_loads.hpp"
 #include "core/fleet/floor/watch.hpp"
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
@@ -173,8 +174,15 @@ void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now
     floor_is_sound(fleet, now);
 }
 
+void close_below_loads(FleetState& fleet, Time now) {
+    if (!update_standing_loads(fleet, now)) return;
+    tell_planner(fleet);
+    fleet.out.fleet_changed = true;
+    fleet.floor.improved.reset();
+}
+
 std::vector<planning::ClosedFloor> closed_floors(const FleetState& fleet) {
-    std::vector<planning::ClosedFloor> floors;
+    std::vector<planning::ClosedFloor> floors = closed_to_loads(fleet);
     const auto add = [&](const Closure& closure, const plant::HallId& hall,
                          std::vector<geometry::Polygon> pieces) {
         floors.push_back({closure.id.str(), closure.name, hall, std::move(pieces), kFloorMargin_m});

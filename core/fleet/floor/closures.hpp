@@ -13,6 +13,8 @@ Result<Closure> close_floor(FleetState& fleet, const NewClosure& wanted, const s
 Status reopen_floor(FleetState& fleet, ClosureId id, const std::string& actor, Time now);
 /// Closes again what was closed when the server went down.
 void restore_closures(FleetState& fleet, std::vector<Closure> closures, Time now);
+/// The same for who carries something, where loads stand: after any of them has moved.
+void close_below_loads(FleetState& fleet, Time now);
 /// What is closed, as planning takes it.
 std::vector<planning::ClosedFloor> closed_floors(const FleetState& fleet);
 /// Legs lead round closed floor from now on.

@@ -3,9 +3,11 @@
 #include <algorithm>
 
 #include "core/fleet/floor/closures.hpp"
+#include "core/fleet/floor/standing_loads.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/state/reason_codes.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/readiness.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
@@ -21,8 +23,8 @@ constexpr std::size_t kMostSwept = 256;  // segments of one leg or two
 }  // namespace
 
 TileSet floor_under(const FleetState& fleet, const LiveVehicle& live, const Pose2& pose) {
-    return traffic::tiles_under(hall_index(fleet, hall_of(fleet, live)), outline_at(live, pose),
-                                kFloorMargin_m);
+    return tiles_of_body(fleet.tables->overhead, hall_index(fleet, hall_of(fleet, live)),
+                         outline_at(live, pose), kFloorMargin_m, is_loaded(live));
 }
 
 traffic::TileSet floor_of_edge(const FleetState& fleet, const LiveVehicle& live,
@@ -39,7 +41,8 @@ traffic::TileSet floor_of_edge(const FleetState& fleet, const LiveVehicle& live,
     const auto floor =
         floor_along(plant::outline_with_load(*live.type, loaded), edge.segment, edge.corridor);
     live.swept.push_back({edge.segment, edge.corridor, loaded, hall,
-                          traffic::tiles_under(hall_index(fleet, hall), floor, kFloorMargin_m)});
+                          tiles_of_body(fleet.tables->overhead, hall_index(fleet, hall), floor,
+                                        kFloorMargin_m, loaded)});
     return live.swept.back().tiles;
 }
 
@@ -53,8 +56,8 @@ traffic::TileSet floor_at_node(const FleetState& fleet, const LiveVehicle& live,
     if (!room) return under;
     const auto about =
         room_about(plant::outline_with_load(*live.type, is_loaded(live)), next.segment, *room);
-    return traffic::merge(
-        under, traffic::tiles_under(hall_index(fleet, leg.hall), {about}, kFloorMargin_m));
+    return traffic::merge(under, tiles_of_body(fleet.tables->overhead, hall_index(fleet, leg.hall),
+                                               {about}, kFloorMargin_m, is_loaded(live)));
 }
 
 /// An aircraft is moved aside last, and so is who waits to begin a drive of its own.
@@ -83,6 +86,8 @@ Reason floor_reason(const FleetState& fleet, const traffic::Block& block) {
         reason.code = "floor_held";
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
     } else if (block.cause == traffic::BlockCause::kClosed) {
+        const auto* load = block.tile ? standing_load_at(fleet, *block.tile) : nullptr;
+        if (load) return load_in_the_way(fleet, *load);
         reason.code = reasons::kFloorClosed;
         std::erase_if(reason.params, [](const Param& p) { return p.name == "by"; });
         if (const Closure* closure = block.tile ? closure_at(fleet, *block.tile) : nullptr) {

@@ -8,6 +8,7 @@
 #include "core/fleet/state/event_types.hpp"
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
+#include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 
@@ -249,8 +250,8 @@ void hold_both_floors(FleetState& fleet, LiveVehicle& live, Time now) {
     const Whereabouts& claim = *live.record.claim;
     TileSet claimed;
     if (is_in_hall(fleet, claim)) {
-        claimed = traffic::tiles_under(hall_index(fleet, claim.hall), outline_at(live, claim.pose),
-                                       kFloorMargin_m);
+        claimed = tiles_of_body(fleet.tables->overhead, hall_index(fleet, claim.hall),
+                                outline_at(live, claim.pose), kFloorMargin_m, is_loaded(live));
     }
     const auto known = stored_floor(fleet, live);
     TileSet both = traffic::merge(known.stand, claimed);

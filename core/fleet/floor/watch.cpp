@@ -4,6 +4,7 @@
 #include "core/fleet/state/events.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/plant_tables.hpp"
 #include "core/fleet/vehicle/body.hpp"
 #include "core/fleet/vehicle/whereabouts.hpp"
 
@@ -27,8 +28,9 @@ bool keeps_to_its_floor(FleetState& fleet, const LiveVehicle& live, std::size_t 
     const auto body = plant::outline_with_load(*live.type, is_loaded(live));
     for (std::size_t i = leg.released_nodes; i < nodes; ++i) {
         const vda5050::OrderEdge& edge = leg.edges[i - 1];
-        const auto under = traffic::tiles_under(hall_index(fleet, leg.hall),
-                                                floor_along(body, edge.segment, edge.corridor), 0);
+        const auto under =
+            tiles_of_body(fleet.tables->overhead, hall_index(fleet, leg.hall),
+                          floor_along(body, edge.segment, edge.corridor), 0, is_loaded(live));
         const auto outside = fleet.floor.monitor.check_footprint(live.floor.vehicle, under);
         if (outside.empty()) continue;
         stop_floor(fleet, outside.front(), now);

@@ -13,7 +13,7 @@ namespace pulseline::fleet::journal {
 
 /// Of the bytes' meaning, to be raised with every change of a struct they hold and of what the
 /// fleet does with it. A snapshot of another format is passed over.
-constexpr std::int64_t kFormat = 18;
+constexpr std::int64_t kFormat = 19;
 
 /// Bytes with their checksum in front.
 std::string sealed(std::string_view bytes);

@@ -72,6 +72,7 @@ PULSELINE_FIELDS(FloorStand, of_class, vehicle, moves_before_leg, leg_planned, p
 PULSELINE_FIELDS(LiveVehicle::Seen, pose, at, moving, speed_mps)
 PULSELINE_FIELDS(LiveVehicle::Statement, where, at, actor)
 PULSELINE_FIELDS(FleetState::ClosedFloor, closure, tiles, in_traffic)
+PULSELINE_FIELDS(StandingLoad, load, room, in_traffic)
 
 PULSELINE_FIELDS(AwaitedPlan, question, request, asked, answer)
 
@@ -97,8 +98,9 @@ void fields(V& visit, S& it) {
 template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, Floor>
 void fields(V& visit, S& it) {
-    auto& [its_traffic, monitor, classes, stopped, improved, checked] = it;
-    visit(its_traffic, stopped, improved, checked);
+    auto& [its_traffic, monitor, classes, stopped, improved, checked, standing_loads, loads_moved] =
+        it;
+    visit(its_traffic, stopped, improved, checked, standing_loads);
 }
 
 /// All but plant, planner and vehicles, which snapshot.cpp puts together, and what a step puts out,

@@ -12,6 +12,11 @@
 #include "core/vda5050/actions.hpp"
 
 namespace pulseline::fleet {
+namespace {
+
+constexpr Duration kCancelAgain = std::chrono::seconds(5);
+
+}  // namespace
 
 bool is_final(vda5050::ActionStatus status) {
     return status == vda5050::ActionStatus::kFinished || status == vda5050::ActionStatus::kFailed;
@@ -37,8 +42,12 @@ void handle_action_states(FleetState& fleet, LiveVehicle& live, Time now) {
             // It knew of no order to cancel: that may still be on its way, or have come since.
             const bool failed = found->status == vda5050::ActionStatus::kFailed;
             if (failed && live.has_leg() && is_on_its_way(live)) return false;
-            again = failed && live.has_leg() && live.state.order_id == live.leg().id.str() &&
-                    !has_nothing_left(live.state);
+            const bool left = failed && live.has_leg() &&
+                              live.state.order_id == live.leg().id.str() &&
+                              !has_nothing_left(live.state);
+            // One that says so for ever is not asked as often as it speaks.
+            if (left && now - pending.first_sent < kCancelAgain) return false;
+            again = left;
             cancelled = !again;
         }
         note_lift_ended(fleet, live, *found, now);

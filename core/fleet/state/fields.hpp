@@ -71,10 +71,10 @@ template <class V, class S>
 requires std::same_as<std::remove_const_t<S>, LegPlan>
 void fields(V& visit, S& it) {
     auto& [mode, segments, max_speed_mps, route, length_m, turns, cost, accuracy, duration_s,
-           expected, closures, blind, clearance_m, nearest, wheels, swept_area_m2, swept, chain] =
-        it;
+           expected, closures, loads, blind, clearance_m, nearest, wheels, swept_area_m2, swept,
+           chain] = it;
     visit(mode, segments, max_speed_mps, route, length_m, turns, cost, duration_s, expected,
-          closures);
+          closures, loads);
 }
 }  // namespace planning
 

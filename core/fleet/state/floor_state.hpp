@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -29,6 +30,13 @@ struct FloorStand {
     std::optional<Time> idle_since;
 };
 
+/// One on a hoist or on stands: those that carry something do not come there.
+struct StandingLoad {
+    plant::LoadId load;
+    traffic::TileSet room;  // above the floor
+    traffic::ClosureIndex in_traffic = 0;
+};
+
 struct Floor {
     explicit Floor(const std::vector<FloorClass>& of_plant) : classes(of_plant) {}
 
@@ -39,6 +47,8 @@ struct Floor {
     std::optional<Reason> stopped;
     std::optional<Time> improved;
     std::optional<Time> checked;
+    std::map<plant::StationId, StandingLoad> standing_loads;
+    bool loads_moved = true;  // `standing_loads` is to be brought up to date
 };
 
 }  // namespace pulseline::fleet

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/fleet/tables/overhead.hpp"
 #include "core/plant/carrying.hpp"
 
 namespace pulseline::fleet {
@@ -31,13 +32,6 @@ std::vector<PlantClass> classes_of(const plant::Plant& plant) {
     return classes;
 }
 
-std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall) {
-    for (std::size_t i = 0; i < plant.halls.size(); ++i) {
-        if (plant.halls[i].id == hall) return i;
-    }
-    return 0;
-}
-
 namespace {
 
 constexpr double kSameLine_rad = 0.02;
@@ -47,8 +41,8 @@ double travel_rad(const kinematics::Segment& straight) {
 }
 
 /// Where the body may be beside the line, too, when it stops between two lanes with corridors.
-void widen_stands(const plant::Plant& plant, const std::vector<geometry::Polygon>& body,
-                  FloorClass& of_class) {
+void widen_stands(const plant::Plant& plant, const traffic::TileSet& overhead,
+                  const std::vector<geometry::Polygon>& body, FloorClass& of_class) {
     const auto& motion = of_class.motion;
     std::vector<std::vector<std::size_t>> into(motion.places.size());
     for (std::size_t i = 0; i < motion.ways.size(); ++i) {
@@ -64,8 +58,8 @@ void widen_stands(const plant::Plant& plant, const std::vector<geometry::Polygon
             auto& stand = of_class.stands[next.from];
             const std::size_t hall = hall_index(plant, motion.places[next.from].hall);
             stand = traffic::merge(
-                stand, traffic::tiles_under(hall, {room_about(body, next.segment, *room)},
-                                            kFloorMargin_m));
+                stand, tiles_of_body(overhead, hall, {room_about(body, next.segment, *room)},
+                                     kFloorMargin_m, of_class.loaded));
         }
     }
 }
@@ -107,7 +101,8 @@ geometry::Polygon room_about(const std::vector<geometry::Polygon>& outline,
 }
 
 FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& planner,
-                       const plant::VehicleType& type, bool loaded) {
+                       const traffic::TileSet& overhead, const plant::VehicleType& type,
+                       bool loaded) {
     FloorClass made;
     made.type = &type;
     made.loaded = loaded;
@@ -118,8 +113,8 @@ FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& pl
         for (const auto& piece : body) {
             standing.push_back(geometry::transformed(place.pose, piece));
         }
-        made.stands.push_back(
-            traffic::tiles_under(hall_index(plant, place.hall), standing, kFloorMargin_m));
+        made.stands.push_back(tiles_of_body(overhead, hall_index(plant, place.hall), standing,
+                                            kFloorMargin_m, loaded));
     }
     for (std::size_t i = 0; i < made.motion.ways.size(); ++i) {
         made.way_between[{made.motion.ways[i].from, made.motion.ways[i].to}] = i;
@@ -129,11 +124,12 @@ FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& pl
         made.corridors.push_back(
             lines.along(made.motion.places[way.from].hall, way.segment).corridor);
     }
-    widen_stands(plant, body, made);
+    widen_stands(plant, overhead, body, made);
     return made;
 }
 
-traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_class) {
+traffic::MoveGraph move_graph(const plant::Plant& plant, const traffic::TileSet& overhead,
+                              const FloorClass& of_class) {
     traffic::MoveGraph graph;
     const auto body = plant::outline_with_load(*of_class.type, of_class.loaded);
     const auto& motion = of_class.motion;
@@ -154,10 +150,10 @@ traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_cl
         move.to = static_cast<traffic::PlaceIndex>(way.to);
         move.duration_s = way.duration_s;
         // Coarse pieces hold all of the sweep, too, and there are many turns.
-        move.swept = traffic::tiles_under(
-            hall_index(plant, motion.places[way.from].hall),
+        move.swept = tiles_of_body(
+            overhead, hall_index(plant, motion.places[way.from].hall),
             floor_along(body, way.segment, of_class.corridors[i], kinematics::kOutlineDetail),
-            kFloorMargin_m);
+            kFloorMargin_m, of_class.loaded);
         graph.moves.push_back(std::move(move));
     }
     return graph;

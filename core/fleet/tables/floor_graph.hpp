@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/fleet/tables/hall_index.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/planning/roads/lane_lines.hpp"
 #include "core/traffic/move_graph.hpp"
@@ -34,11 +35,10 @@ struct PlantClass {
 };
 std::vector<PlantClass> classes_of(const plant::Plant& plant);
 
-/// Number of a hall in the ids of tiles.
-std::size_t hall_index(const plant::Plant& plant, const plant::HallId& hall);
-
+/// `overhead`: overhead_of the plant.
 FloorClass floor_class(const plant::Plant& plant, const planning::LegPlanner& planner,
-                       const plant::VehicleType& type, bool loaded);
+                       const traffic::TileSet& overhead, const plant::VehicleType& type,
+                       bool loaded);
 /// Floor of a move along `way`: what the outline sweeps, and all of its corridor, in which the
 /// vehicle may be anywhere meanwhile.
 std::vector<geometry::Polygon> floor_along(const std::vector<geometry::Polygon>& outline,
@@ -56,6 +56,7 @@ geometry::Polygon room_about(const std::vector<geometry::Polygon>& outline,
                              const kinematics::Segment& next, const plant::Corridor& corridor);
 /// The class's motions with the tiles that they sweep. Vehicles rest at stations that are resting
 /// places; a plant that names none for a type lets it rest where it works.
-traffic::MoveGraph move_graph(const plant::Plant& plant, const FloorClass& of_class);
+traffic::MoveGraph move_graph(const plant::Plant& plant, const traffic::TileSet& overhead,
+                              const FloorClass& of_class);
 
 }  // namespace pulseline::fleet

@@ -8,6 +8,7 @@
 #include "core/fleet/tables/code_speeds.hpp"
 #include "core/fleet/tables/floor_graph.hpp"
 #include "core/fleet/tables/light_gaps.hpp"
+#include "core/fleet/tables/overhead.hpp"
 #include "core/traffic/layout_check.hpp"
 
 namespace pulseline::fleet {
@@ -61,14 +62,15 @@ std::vector<Reason> check_free_floor(const plant::Plant& plant, const planning::
 
 std::vector<Reason> check_layout(const plant::Plant& plant) {
     const planning::LegPlanner planner(plant);
+    const auto overhead = overhead_of(plant);
     std::vector<FloorClass> classes;
     std::vector<std::size_t> vehicles;
     for (const auto& [type, loaded, count] : classes_of(plant)) {
-        classes.push_back(floor_class(plant, planner, *type, loaded));
+        classes.push_back(floor_class(plant, planner, overhead, *type, loaded));
         vehicles.push_back(count);
     }
     std::vector<traffic::MoveGraph> graphs;
-    for (const auto& of_class : classes) graphs.push_back(move_graph(plant, of_class));
+    for (const auto& of_class : classes) graphs.push_back(move_graph(plant, overhead, of_class));
     std::vector<traffic::LayoutClass> layout;
     for (std::size_t c = 0; c < classes.size(); ++c) {
         traffic::LayoutClass entry;

@@ -9,8 +9,8 @@ namespace pulseline::fleet {
 std::shared_ptr<const PlantTables> plant_tables(const plant::Plant& plant) {
     auto tables = std::make_shared<PlantTables>(plant);
     for (const auto& [type, loaded, vehicles] : classes_of(plant)) {
-        FloorClass made = floor_class(plant, tables->planner, *type, loaded);
-        made.graph = tables->empty_floor.add_graph(move_graph(plant, made));
+        FloorClass made = floor_class(plant, tables->planner, tables->overhead, *type, loaded);
+        made.graph = tables->empty_floor.add_graph(move_graph(plant, tables->overhead, made));
         tables->classes.push_back(std::move(made));
     }
     return tables;

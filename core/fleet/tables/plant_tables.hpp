@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fleet/tables/floor_graph.hpp"
+#include "core/fleet/tables/overhead.hpp"
 #include "core/planning/legs/leg_planner.hpp"
 #include "core/plant/plant.hpp"
 #include "core/traffic/traffic.hpp"
@@ -13,10 +14,12 @@
 namespace pulseline::fleet {
 
 struct PlantTables {
-    explicit PlantTables(const plant::Plant& plant) : planner(plant), lanes(plant) {}
+    explicit PlantTables(const plant::Plant& plant)
+        : planner(plant), lanes(plant), overhead(overhead_of(plant)) {}
 
     planning::LegPlanner planner;
     planning::LaneLines lanes;
+    traffic::TileSet overhead;           // where loads may stand, above the floor
     std::vector<FloorClass> classes;     // of all vehicles; classes[i].graph is i
     traffic::Traffic empty_floor{true};  // the classes' graphs without a vehicle; for the monitor
 };

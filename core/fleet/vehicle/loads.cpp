@@ -237,6 +237,7 @@ void move_load(FleetState& fleet, const plant::LoadId& id, const LoadPlace& to, 
     add_event(fleet, now, event::kLoadMoved, by.order, by.leg,
               to.vehicle.empty() ? before.vehicle : to.vehicle, by.actor, std::move(params));
     fleet.stored_loads.insert(id);
+    fleet.floor.loads_moved = true;
     for (const auto* at : {&before, &std::as_const(record)}) {
         if (!at->vehicle.empty()) fleet.changed_vehicles.insert(at->vehicle);
         if (!at->station.empty()) fleet.changed_stations.insert(at->station);

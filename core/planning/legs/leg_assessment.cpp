@@ -72,6 +72,11 @@ std::vector<std::size_t> closed_floor_on(const LegTask& task, const std::vector<
     return driven_over(task.closures, task.request.hall, swept);
 }
 
+/// Lanes of two halls may be one closure.
+void add_once(std::vector<std::string>& ids, const std::string& id) {
+    if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+}
+
 /// The plan of a draft that keeps clear; `pieces` are its swept area.
 LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
                 const std::vector<Polygon>& pieces) {
@@ -90,9 +95,8 @@ LegPlan cleared(const LegTask& task, MotionMode mode, LegDraft draft,
     plan.blind = blind_way(task, plan.segments);
     if (plan.route.empty()) draft.closures = closed_floor_on(task, plan.segments, pieces);
     for (const std::size_t closure : draft.closures) {
-        const std::string& id = task.closures[closure].id;  // lanes of two halls may be one closure
-        auto& ids = plan.closures;
-        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
+        const ClosedFloor& closed = task.closures[closure];
+        add_once(closed.to_loads_only ? plan.loads : plan.closures, closed.id);
     }
     return plan;
 }
@@ -144,10 +148,8 @@ LegPlan joined(const plant::VehicleType& type, const LegPlan& first, const LegPl
     plan.expected = expected_of(type, plan.segments);
     plan.turns += first.turns;
     plan.cost += first.cost;
-    for (const std::string& id : first.closures) {
-        auto& ids = plan.closures;
-        if (std::find(ids.begin(), ids.end(), id) == ids.end()) ids.push_back(id);
-    }
+    for (const std::string& id : first.closures) add_once(plan.closures, id);
+    for (const std::string& id : first.loads) add_once(plan.loads, id);
     return plan;
 }
 

@@ -1,6 +1,7 @@
 #include "core/planning/legs/leg_planner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -82,13 +83,16 @@ struct LegPlanner::Tables {
     using Key = std::pair<plant::VehicleTypeId, bool>;
     /// What legs of one body need to know of the roadmap.
     struct Prepared {
-        Prepared(const Tables& of, std::shared_ptr<const Passage> shared_passage, CodeReach known)
-            : shared(std::move(shared_passage)),
+        Prepared(const Tables& of, bool is_loaded, std::shared_ptr<const Passage> shared_passage,
+                 CodeReach known)
+            : loaded(is_loaded),
+              shared(std::move(shared_passage)),
               passage(*shared),
               reach(std::move(known)),
               lanes(of.roads, passage, of.plant.routing) {
-            if (!of.closures.empty()) lanes.set_closures(of.closures);
+            lanes.set_closures(of.closures[loaded ? 1 : 0]);
         }
+        bool loaded;
         std::shared_ptr<const Passage> shared;
         const Passage& passage;
         CodeReach reach;
@@ -99,7 +103,7 @@ struct LegPlanner::Tables {
         : plant(p), shared(std::make_shared<const RoadmapIndex>(p)), roads(*shared), free(p) {
         for (const plant::VehicleType& type : plant.vehicle_types) {
             prepare(type, false);
-            if (!type.load_footprint.empty()) prepare(type, true);
+            if (!type.load_footprint.empty() || !type.brackets.empty()) prepare(type, true);
         }
     }
 
@@ -111,13 +115,14 @@ struct LegPlanner::Tables {
           grid(free, other.grid),
           memo(other.memo) {
         for (const auto& [key, known] : other.prepared) {
-            prepared.emplace(key, std::make_unique<Prepared>(*this, known->shared, known->reach));
+            prepared.emplace(
+                key, std::make_unique<Prepared>(*this, known->loaded, known->shared, known->reach));
         }
     }
 
     std::unique_ptr<Prepared> prepare_for(const plant::VehicleType& type, bool loaded) const {
         return std::make_unique<Prepared>(
-            *this, std::make_shared<const Passage>(roads.passage(type, loaded)),
+            *this, loaded, std::make_shared<const Passage>(roads.passage(type, loaded)),
             CodeReach(type, loaded));
     }
 
@@ -158,7 +163,7 @@ struct LegPlanner::Tables {
                        by.passage,
                        by.reach,
                        by.lanes,
-                       closures,
+                       closures[by.loaded ? 1 : 0],
                        *obstacles,
                        obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
@@ -218,8 +223,11 @@ struct LegPlanner::Tables {
     const plant::Plant& plant;
     std::shared_ptr<const RoadmapIndex> shared;
     const RoadmapIndex& roads;
-    std::vector<ClosedFloor> closures;
-    LegMemo::Closures closed = std::make_shared<const std::string>();  // names them
+    // To those without a load, and to those with one.
+    std::array<std::vector<ClosedFloor>, 2> closures;
+    std::array<LegMemo::Closures, 2> closed = {
+        std::make_shared<const std::string>(),
+        std::make_shared<const std::string>()};  // names them
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
     GridLegs grid{free};
@@ -238,24 +246,23 @@ class LegPlanner::GoingRound {
 public:
     GoingRound(Tables& tables, Tables::Prepared& by, const plant::HallId& hall,
                const std::vector<StandingBody>& standing)
-        : tables_(tables), by_(by), closed_(tables.closures.size()) {
+        : closures_(tables.closures[by.loaded ? 1 : 0]), by_(by), closed_(closures_.size()) {
         for (const StandingBody& body : standing) {
-            tables.closures.push_back(
-                {id_of(body), body.vehicle.str(), hall, body.outline, 0, true});
+            closures_.push_back({id_of(body), body.vehicle.str(), hall, body.outline, 0, true});
         }
         changed_ = !standing.empty();
-        if (changed_) by.lanes.set_closures(tables.closures);
+        if (changed_) by.lanes.set_closures(closures_);
     }
     ~GoingRound() {
         if (!changed_) return;
-        tables_.closures.resize(closed_);
-        by_.lanes.set_closures(tables_.closures);
+        closures_.resize(closed_);
+        by_.lanes.set_closures(closures_);
     }
     GoingRound(const GoingRound&) = delete;
     GoingRound& operator=(const GoingRound&) = delete;
 
 private:
-    Tables& tables_;
+    std::vector<ClosedFloor>& closures_;
     Tables::Prepared& by_;
     std::size_t closed_;
     bool changed_;
@@ -303,10 +310,10 @@ Result<LegPlan> LegPlanner::plan_known(const LegRequest& request, bool with_free
     const bool own = plant::find_vehicle_type(tables_->plant, request.type->id) == request.type;
     if (!own || !from || !(from->pose == request.start) || request.target_pose)
         return tables_->plan(request, with_free);
-    if (auto known = tables_->memo->find(request, with_free, tables_->closed))
-        return std::move(*known);
+    const auto& closed = tables_->closed[request.loaded ? 1 : 0];
+    if (auto known = tables_->memo->find(request, with_free, closed)) return std::move(*known);
     auto plan = tables_->plan(request, with_free);
-    tables_->memo->keep(request, with_free, tables_->closed, plan);
+    tables_->memo->keep(request, with_free, closed, plan);
     return plan;
 }
 
@@ -322,7 +329,7 @@ Result<LegPlan> LegPlanner::plan_leg(const LegRequest& request,
     }
     if (!standing.empty()) {
         auto round = tables_->plan(request, true, standing);
-        if (round && round->closures.empty()) return round;
+        if (round && round->closures.empty() && round->loads.empty()) return round;
     }
     return plan_known(request, true);
 }
@@ -370,13 +377,20 @@ std::vector<LegAlternative> LegPlanner::alternatives(
     return found;
 }
 
-void LegPlanner::set_closures(std::vector<ClosedFloor> closures) {
-    tables_->closures = std::move(closures);
-    std::string closed;
-    for (const auto& closure : tables_->closures) closed += key_of(closure);
-    tables_->closed = std::make_shared<const std::string>(std::move(closed));
+void LegPlanner::set_closures(const std::vector<ClosedFloor>& closures) {
+    for (const bool loaded : {false, true}) {
+        auto& to_these = tables_->closures[loaded ? 1 : 0];
+        to_these.clear();
+        std::string closed;
+        for (const auto& closure : closures) {
+            if (closure.to_loads_only && !loaded) continue;
+            to_these.push_back(closure);
+            closed += key_of(closure);
+        }
+        tables_->closed[loaded ? 1 : 0] = std::make_shared<const std::string>(std::move(closed));
+    }
     for (auto& [key, prepared] : tables_->prepared) {
-        prepared->lanes.set_closures(tables_->closures);
+        prepared->lanes.set_closures(tables_->closures[prepared->loaded ? 1 : 0]);
     }
 }
 

@@ -58,6 +58,7 @@ struct LegPlan {
     /// Closed floor it leads over because there is no other way: ids of a smallest set that has to
     /// be reopened.
     std::vector<std::string> closures;
+    std::vector<std::string> loads;  // likewise those that stand or hang in its way, with a load
     BlindWay blind;
     // For people, filled in by assess_modes only: it costs more than the planning.
     double clearance_m = 0;  // least distance to walls, obstacles and standing bodies
@@ -68,7 +69,7 @@ struct LegPlan {
     std::optional<Result<LegChain>> chain;  // by which codes it finds its way, or why it has none
 
     Drawback drawback() const {
-        if (!closures.empty()) return Drawback::kClosedFloor;
+        if (!closures.empty() || !loads.empty()) return Drawback::kClosedFloor;
         return blind.loses_itself() ? Drawback::kLosesItself : Drawback::kNone;
     }
 };
@@ -148,7 +149,7 @@ public:
                                              const std::vector<StandingBody>& standing) const;
 
     /// Floor closed from now on, instead of what was: legs lead round it where they can.
-    void set_closures(std::vector<ClosedFloor> closures);
+    void set_closures(const std::vector<ClosedFloor>& closures);
 
     /// What a vehicle of the type may do on the roadmap, for traffic.
     MotionGraph motion_graph(const plant::VehicleType& type, bool loaded) const;

@@ -32,8 +32,8 @@ double caution_s(const LegTask& task, const LegPlan& plan) {
 /// have left by then.
 bool is_barred_without_lanes(const LegTask& task, const LegPlan& plan) {
     return plan.route.empty() && std::ranges::any_of(task.closures, [&](const ClosedFloor& one) {
-               return !one.stands_only &&
-                      std::ranges::find(plan.closures, one.id) != plan.closures.end();
+               const auto& over = one.to_loads_only ? plan.loads : plan.closures;
+               return !one.stands_only && std::ranges::find(over, one.id) != over.end();
            });
 }
 

@@ -9,14 +9,15 @@
 
 namespace pulseline::planning {
 
-/// Floor that people have closed for a while.
+/// Floor that people have closed for a while, or below a load that stands or hangs there.
 struct ClosedFloor {
-    std::string id;
+    std::string id;  // of the closure, or, with to_loads_only, of the load
     std::string name;
     plant::HallId hall;
     std::vector<geometry::Polygon> pieces;  // convex, hall frame
     double margin_m = 0;                    // bodies keep this far away
     bool stands_only = false;               // a vehicle that may have left by the time one comes
+    bool to_loads_only = false;             // who carries nothing passes below
 };
 
 /// Text that no other closed floor has.

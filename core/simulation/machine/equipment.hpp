@@ -47,6 +47,8 @@ public:
                     std::optional<TrueLoad> carried);
     /// That its wheels carry now.
     double load_kg() const { return load_kg_; }
+    /// All or a part of it is on its brackets.
+    const std::optional<TrueLoad>& carried() const { return carried_; }
 
     // Faults, from outside. False: there is no such part.
     bool displace_bracket(const std::string& name, double by_m);

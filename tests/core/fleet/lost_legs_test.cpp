@@ -277,6 +277,41 @@ TEST(LostLegs, ACancelThatOvertookItsOrderIsNotTheEndOfIt) {
     EXPECT_FALSE(world.store.vehicles.at(kV1).has_leg);
 }
 
+/// It refuses each cancelOrder at once, and says that something of the order is left.
+TEST(LostLegs, OneThatRefusesEveryCancelIsNotAskedAsOftenAsItSpeaks) {
+    World world;
+    world.connect_all();
+    const auto created = world.order("V1", {3});
+    ASSERT_TRUE(created);
+    world.run(2);
+    ASSERT_TRUE(world.store.vehicles.at(kV1).has_leg);
+    ASSERT_TRUE(world.fleet->cancel_order(created->order.id, std::nullopt, "op", world.now));
+    auto& vehicle = world.vehicle("V1");
+    vehicle.state.driving = false;
+    vehicle.state.velocity_mps = 0;
+    int asked = 0;
+    const Time end = world.now + std::chrono::seconds(60);
+    while (world.now < end) {
+        world.now += std::chrono::milliseconds(200);
+        const Outputs out = world.fleet->take_outputs(world.now);
+        world.store.commit(out.records);
+        for (const auto& message : out.messages) {
+            if (!message.instant_actions) continue;
+            ++asked;
+            vehicle.state.action_states.push_back({message.instant_actions->actions.front().id,
+                                                   "cancelOrder",
+                                                   vda5050::ActionStatus::kFailed,
+                                                   "noOrderToCancel",
+                                                   {}});
+        }
+        world.fleet->vehicle_state(kV1, vehicle.state, world.now);
+        world.fleet->tick(world.now);
+    }
+    EXPECT_GE(asked, 2);
+    EXPECT_LE(asked, 13);
+    EXPECT_TRUE(world.store.vehicles.at(kV1).has_leg) << "it may drive on";
+}
+
 TEST(LostLegs, AVehicleThatRestartsBeforeItShowedItsOrderWaitsForAPerson) {
     World world;
     world.connect_all();

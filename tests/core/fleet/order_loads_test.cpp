@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "core/fleet/views/order_preview.hpp"
 #include "tests/core/fleet/load_world.hpp"
@@ -25,7 +26,8 @@ plant::Plant with_two_loads() {
 
 class OrderLoads : public ::testing::Test {
 protected:
-    OrderLoads() : world(with_two_loads()) {
+    OrderLoads() : OrderLoads(with_two_loads()) {}
+    explicit OrderLoads(plant::Plant plant) : world(std::move(plant)) {
         world.connect_all();
         world.announce(
             {"setBracketHeight", "raiseParking", "lowerParking", "stopLifts", "pick", "drop"});
@@ -200,6 +202,66 @@ TEST_F(OrderLoads, WithALoadItGoesNowhereWhereAnotherOneHangs) {
     ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
     world.run(60);
     EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded);
+}
+
+/// J-1 hangs at station 2, on the only way between the others.
+class LoadOnTheWay : public OrderLoads {
+protected:
+    LoadOnTheWay() : OrderLoads(with_hoist_on_the_way()) {}
+    static plant::Plant with_hoist_on_the_way() {
+        plant::Plant plant = with_two_loads();
+        plant.stations[1].support = plant::Support{};
+        plant.loads.front().station = plant.stations[1].id;
+        plant.stations[0].support.reset();
+        return plant;
+    }
+    JobState driven_to(int station) {
+        const auto made = world.order("V1", {station});
+        EXPECT_TRUE(made);
+        world.run(60);
+        newest = made->order.id;
+        return world.stored(newest).state;
+    }
+    void put_j2_on_v1() {
+        ASSERT_TRUE(world.fleet->place_load(kOther, {kV1, {}}, "op", world.now));
+        weigh(v1(), world.plant, kMass_kg, 0.15);
+        world.run(1);
+    }
+    JobOrderId newest;
+};
+
+TEST_F(LoadOnTheWay, IsPassedBelowByWhoCarriesNothingAndWaitedForByWhoCarriesSomething) {
+    ASSERT_EQ(driven_to(3), JobState::kEnded);
+    put_j2_on_v1();
+    const int steps = v1().node_steps;
+    EXPECT_EQ(driven_to(1), JobState::kRunning);
+    EXPECT_EQ(world.stored(newest).reason,
+              (Reason{"load_in_the_way", {{"load", "J-1"}, {"station", std::int64_t{2}}}}));
+    EXPECT_EQ(v1().node_steps, steps) << "it stays where it is";
+    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.stored(newest).state, JobState::kEnded);
+}
+
+TEST_F(LoadOnTheWay, IsInItAfterARestartToo) {
+    ASSERT_EQ(driven_to(3), JobState::kEnded);
+    put_j2_on_v1();
+    world.crash_server();
+    world.connect_all();
+    world.run(1);
+    EXPECT_EQ(driven_to(1), JobState::kRunning);
+    EXPECT_EQ(world.stored(newest).reason.code, "load_in_the_way");
+}
+
+TEST_F(LoadOnTheWay, IsNotSaidToHangWhereSomebodyWithALoadStands) {
+    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
+    put_j2_on_v1();
+    ASSERT_EQ(driven_to(2), JobState::kEnded);
+    const auto placed =
+        world.fleet->place_load(kJig, {{}, world.plant.stations[1].id}, "op", world.now);
+    ASSERT_FALSE(placed);
+    EXPECT_EQ(placed.error().reason.code, "floor_held");
+    EXPECT_TRUE(jig().station.empty());
 }
 
 /// A part of the weight is on the brackets, and nobody drives with that; it is taken over again.

@@ -96,6 +96,18 @@ TEST_F(LiftsTest, RunByThemselvesUntilTheyHaveEnded) {
     expect_failed("down", "bracket_force_out_of_range");
 }
 
+/// In the moment in which what it wanted has ended, or while the executor stood still for a fault.
+TEST_F(LiftsTest, AnOrderIsCancelledAfterWhatItWantedHasEnded) {
+    give_order();
+    pass(0.1);
+    ASSERT_EQ(action("lower").status, ActionStatus::kRunning);
+    lifts.moving = false;
+    tell("cancelOrder", "cancel");
+    pass(0.1);
+    EXPECT_EQ(action("lower").status, ActionStatus::kFinished) << "nothing is left of the order";
+    EXPECT_EQ(action("cancel").status, ActionStatus::kFinished);
+}
+
 TEST_F(LiftsTest, OneMovementAtATimeAndNoneThatTheVehicleDoesNotHave) {
     tell("setBracketHeight", "first");
     tell("lowerParking", "second");

@@ -88,7 +88,7 @@ export function useSend(choice: Choice, /** A move is watched: nothing is previe
   const chosen = chosenOption(step, mode);
   const option = chosen?.feasible ? chosen : undefined;
   const leadThere = useMemo(() => sortOptions(step?.options ?? []).filter((o) => o.feasible), [step]);
-  const floor = floorCheck(option, closures);
+  const floor = floorCheck(option, closures, loads ?? []);
   const codes = codesCheck(option);
   const checks = data && [
     ...withHands(data.checks, vehicle),

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Closure, ModeOption } from "@/shared/api/types";
+import type { Closure, Load, ModeOption } from "@/shared/api/types";
 import { codesCheck, floorCheck, withHands, type ShownCheck } from "./wayChecks";
 
 const option = (over: Partial<ModeOption>): ModeOption => ({
@@ -14,19 +14,30 @@ const closures = [closure("a", "Wet floor", "panel-2"), closure("b", "Work", "pa
 
 describe("the check of closed floor", () => {
   it("says nothing before there is a way", () => {
-    expect(floorCheck(undefined, closures)).toBeUndefined();
-    expect(floorCheck(option({ feasible: false }), closures)).toBeUndefined();
+    expect(floorCheck(undefined, closures, [])).toBeUndefined();
+    expect(floorCheck(option({ feasible: false }), closures, [])).toBeUndefined();
   });
   it("passes when the way leads round what is closed", () =>
-    expect(floorCheck(option({}), closures)).toMatchObject({ result: "pass", params: { closed: 2 } }));
+    expect(floorCheck(option({}), closures, [])).toMatchObject({ result: "pass", params: { closed: 2 } }));
   it("fails with the names and the person when the only way leads over it", () =>
-    expect(floorCheck(option({ closures: ["a", "b"] }), closures)).toEqual({
+    expect(floorCheck(option({ closures: ["a", "b"] }), closures, [])).toEqual({
       code: "floor",
       result: "fail",
       params: { closure: "Wet floor, Work", by: "panel-2" },
     }));
+  it("fails with the names of loads that what it carries would run into", () => {
+    const loads = [{ id: "l-1", name: "A-102" } as Load];
+    expect(floorCheck(option({ loads_in_the_way: ["l-1", "l-2"] }), closures, loads)).toEqual({
+      code: "floor",
+      result: "fail",
+      params: { load: "A-102, l-2" },
+    });
+  });
   it("fails also when the closure is not known here yet", () =>
-    expect(floorCheck(option({ closures: ["c"] }), closures)).toMatchObject({ result: "fail", params: {} }));
+    expect(floorCheck(option({ closures: ["c"] }), closures, [])).toMatchObject({
+      result: "fail",
+      params: {},
+    }));
 });
 
 describe("the check of codes on the way", () => {

@@ -1,14 +1,23 @@
-import type { Check, Closure, ModeOption, Vehicle } from "@/shared/api/types";
+import type { Check, Closure, Load, ModeOption, Vehicle } from "@/shared/api/types";
 
 /** The server's checks, and those that the screen makes of the chosen way. */
 export type ShownCheck = Omit<Check, "code"> & { code: Check["code"] | "floor" | "codes_on_way" };
 
-/** Closed floor on the only way there: the order would wait until a person reopens it, so it is not begun. */
+/**
+ * Closed floor on the only way there, or a load that would be run into: the order would wait until a person
+ * reopens it or has that moved, so it is not begun.
+ */
 export function floorCheck(
   option: ModeOption | undefined,
   closures: readonly Closure[],
+  loads: readonly Load[],
 ): ShownCheck | undefined {
   if (option?.feasible !== true) return undefined;
+  const standing = option.loads_in_the_way ?? [];
+  if (standing.length > 0) {
+    const names = standing.map((id) => loads.find((load) => load.id === id)?.name ?? id);
+    return { code: "floor", result: "fail", params: { load: names.join(", ") } };
+  }
   const bars = option.closures ?? [];
   if (bars.length === 0) return { code: "floor", result: "pass", params: { closed: closures.length } };
   const known = closures.filter((c) => bars.includes(c.id));
