@@ -56,6 +56,15 @@ void World::check_load(const plant::VehicleId& id, const Vehicle& vehicle) {
             violate(id.str() + " drives with a part of its load");
     }
     if (carried) check_loads_apart(id, vehicle);
+    if (carried || vehicle.type().brackets.empty()) return;
+    const auto body = geometry::transformed(vehicle.pose(), vehicle.type().footprint);
+    for (const auto& station : plant_.stations) {
+        const auto* place = supports_->above(station.hall, station.pose);
+        if (!place || !place->load || vehicle.bracket_height_m() < place->height_m) continue;
+        if (geometry::intersects(body,
+                                 geometry::transformed(station.pose, vehicle.type().footprint)))
+            violate(id.str() + " drives its brackets into " + place->load->id.str());
+    }
 }
 
 /// What it carries meets nothing that stands or hangs, or that another one carries.

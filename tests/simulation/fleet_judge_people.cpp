@@ -28,6 +28,10 @@ bool is_taking(const std::optional<fleet::LiftMove>& lift) {
            vda5050::is_transfer(lift->what.type);
 }
 
+fleet::StepAction bracket_height(double height_m) {
+    return {vda5050::kSetBracketHeight, {{"bracket", std::string("all")}, {"height_m", height_m}}};
+}
+
 const plant::Station& home_of(const plant::Plant& plant, const plant::VehicleId& id) {
     return *plant::find_station(plant, plant::find_vehicle(plant, id)->home);
 }
@@ -166,14 +170,13 @@ std::optional<fleet::StepAction> World::mend_load(const plant::VehicleId& id,
                                                   const fleet::VehicleView& view) {
     const Vehicle& vehicle = vehicles_.at(id);
     if (!view.load.fault) return std::nullopt;
-    const fleet::StepAction raise{vda5050::kSetBracketHeight,
-                                  {{"bracket", std::string("all")}, {"height_m", kLifted_m}}};
+    if (view.load.fault->code == "brackets_raised") return bracket_height(0);
     if (!view.carries) {
         const auto load = vehicle.load();
         if (!load) return std::nullopt;
         return fleet::StepAction{vda5050::kPick, {{"load", load->str()}}};
     }
-    if (vehicle.load()) return raise;  // a part of it is on the support yet
+    if (vehicle.load()) return bracket_height(kLifted_m);  // a part of it is on the support yet
     const auto said = fleet_->place_load(view.carries->id, {{}, view.at_station}, "fitter", now());
     if (said) ++outcome_.faults["person: says where the load is"];
     settle();
@@ -202,6 +205,8 @@ void World::work_platform(const plant::VehicleId& id) {
             wanted = {vda5050::kDrop, {}};
         } else if (!parks && there != nullptr) {
             wanted = {vda5050::kPick, {{"load", there->id.str()}}};
+        } else if (!parks) {
+            wanted = bracket_height(kLifted_m);  // nothing hangs in its row to be run into
         }
     }
     if (!wanted) return;

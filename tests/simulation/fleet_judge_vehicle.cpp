@@ -1,5 +1,6 @@
 #include "tests/simulation/fleet_judge_vehicle.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace pulseline::fleet_judge {
@@ -106,6 +107,14 @@ void Vehicle::receive(const fleet::VehicleMessage& message) {
 std::optional<plant::LoadId> Vehicle::load() const {
     const auto& carried = equipment_ ? equipment_->carried() : std::nullopt;
     return carried ? std::optional(carried->id) : std::nullopt;
+}
+
+double Vehicle::bracket_height_m() const {
+    double highest_m = 0;
+    for (const auto& bracket : type_.brackets) {
+        highest_m = std::max(highest_m, equipment_->bracket_height_m(bracket.name).value_or(0));
+    }
+    return highest_m;
 }
 
 void Vehicle::step(double dt_s) {

@@ -57,6 +57,8 @@ public:
     double load_kg() const { return equipment_ ? equipment_->load_kg() : 0; }
     /// Of which that is all or a part.
     std::optional<plant::LoadId> load() const;
+    /// The highest of its brackets.
+    double bracket_height_m() const;
 
     bool dead = false;            // without power: silent and standing
     bool manual = false;          // a person has taken it over

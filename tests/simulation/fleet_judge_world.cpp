@@ -26,7 +26,7 @@ Outcome judge_seed(std::uint64_t seed, const Options& options) {
 World::World(std::uint64_t seed, const Options& options)
     : random_(seed), options_(options), foot_random_(seed), papers_random_(seed) {
     free_ = seed % kFreeEvery == 0;
-    plant_ = random_plant(random_, free_, seed % kSeveralEvery == 2);
+    plant_ = random_plant(random_, free_, seed % kSeveralEvery == 0);
     supports_ = std::make_shared<simulation::Supports>(plant_, seed);
     for (const auto& vehicle : plant_.vehicles) {
         vehicles_.emplace(std::piecewise_construct, std::forward_as_tuple(vehicle.id),

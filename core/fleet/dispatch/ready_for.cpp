@@ -35,6 +35,8 @@ std::optional<Barred> not_ready_for(const FleetState& fleet, const JobOrder& ord
     if (!barred) return std::nullopt;
     // What is broken off in a transfer is begun again; what is done after a stop drives nothing.
     if (barred->by == Bar::kLoad && next_transfer(order, live)) return std::nullopt;
+    // It may be what lowers them; the drive behind it is asked for again.
+    if (barred->by == Bar::kBracketsRaised && acts_next(order, live)) return std::nullopt;
     const bool stays = acts_next(order, live) && is_after_its_stop(order);
     const bool bars_drives = barred->by == Bar::kFeetDown || barred->by == Bar::kCodesNotSeen ||
                              barred->by == Bar::kWheelFault;

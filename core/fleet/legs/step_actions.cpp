@@ -124,6 +124,43 @@ std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
     return leg;
 }
 
+namespace {
+
+/// What the vehicle says of the leg's next action; nullptr: nothing, or there is none.
+const vda5050::ActionState* told_of_next(const LiveVehicle& live, const Step& step) {
+    if (step.actions_done >= actions_of_phase(step).size()) return nullptr;
+    const std::string id = action_id(live.leg().id, step.actions_done);
+    const auto& states = live.state.action_states;
+    const auto found = std::ranges::find(states, id, &vda5050::ActionState::id);
+    return found == states.end() ? nullptr : &*found;
+}
+
+/// Its next action is done; a load that it has moved is elsewhere from now on.
+void count_done(FleetState& fleet, LiveVehicle& live, const JobOrder& order, Step& step, Time now) {
+    const Leg& leg = live.leg();
+    const StepAction& done = actions_of_phase(step)[step.actions_done];
+    if (vda5050::is_transfer(done.type))
+        note_transferred(fleet, live, done, {order.created_by, order.id, leg.id}, now);
+    ++step.actions_done;
+    add_event(fleet, now, event::kStepActionDone, order.id, leg.id, leg.vehicle, {},
+              {{"action", done.type}, {"phase", to_string(step.phase)}});
+}
+
+}  // namespace
+
+void count_done_before_cancel(FleetState& fleet, LiveVehicle& live, Time now) {
+    if (!live.has_leg() || !live.delivery.cancelling() || !live.leg().actions_only) return;
+    JobOrder* order = fleet.find(live.leg().order);
+    if (!order || live.state.order_id != live.leg().id.str()) return;
+    Step& step = order->steps[static_cast<std::size_t>(live.leg().step)];
+    const std::size_t before = step.actions_done;
+    while (const auto* told = told_of_next(live, step)) {
+        if (told->status != vda5050::ActionStatus::kFinished) break;
+        count_done(fleet, live, *order, step, now);
+    }
+    if (step.actions_done != before) fleet.store(*order);
+}
+
 void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now) {
     const Leg leg = live.leg();
     JobOrder* order = fleet.find(leg.order);
@@ -131,13 +168,7 @@ void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now) {
     Step& step = order->steps[static_cast<std::size_t>(leg.step)];
     const auto& wanted = actions_of_phase(step);
     const std::size_t before = step.actions_done;
-    while (step.actions_done < wanted.size()) {
-        const std::string id = action_id(leg.id, step.actions_done);
-        const auto& states = live.state.action_states;
-        const auto found =
-            std::find_if(states.begin(), states.end(),
-                         [&](const vda5050::ActionState& state) { return state.id == id; });
-        if (found == states.end()) break;
+    while (const auto* found = told_of_next(live, step)) {
         const std::string& type = wanted[step.actions_done].type;
         if (found->status == vda5050::ActionStatus::kFailed) {
             end_leg(fleet, live, LegEnd::kDone, now);
@@ -152,13 +183,7 @@ void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now) {
             return;
         }
         if (found->status != vda5050::ActionStatus::kFinished) break;
-        if (vda5050::is_transfer(type)) {
-            note_transferred(fleet, live, wanted[step.actions_done],
-                             {order->created_by, order->id, leg.id}, now);
-        }
-        ++step.actions_done;
-        add_event(fleet, now, event::kStepActionDone, order->id, leg.id, leg.vehicle, {},
-                  {{"action", type}, {"phase", to_string(step.phase)}});
+        count_done(fleet, live, *order, step, now);
     }
     if (step.actions_done != before) fleet.store(*order);
     if (has_action(leg, action_id(leg.id, step.actions_done)) || live.state.driving) return;

@@ -22,6 +22,9 @@ Result<std::optional<Reason>> prepare_transfer(FleetState& fleet, const JobOrder
 /// The leg that does what the present step asks for now; nullopt: it is time to drive.
 std::optional<Leg> next_actions_leg(const FleetState& fleet, JobOrder& order,
                                     const LiveVehicle& live, LegId id);
+/// Of such a leg that is to be given up: what the vehicle did before it heard of that is done, and
+/// a load that it moved is where it is. Before the leg ends.
+void count_done_before_cancel(FleetState& fleet, LiveVehicle& live, Time now);
 /// What the vehicle reports of a leg with Leg::actions_only.
 void take_actions_leg(FleetState& fleet, LiveVehicle& live, Time now);
 /// The step's stop is inside its tolerance: its actions follow, or it is done.

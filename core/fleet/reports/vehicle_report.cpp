@@ -6,6 +6,7 @@
 #include "core/fleet/floor/carrying.hpp"
 #include "core/fleet/floor/floor.hpp"
 #include "core/fleet/floor/holding.hpp"
+#include "core/fleet/legs/step_actions.hpp"
 #include "core/fleet/reports/action_states.hpp"
 #include "core/fleet/reports/leg_progress.hpp"
 #include "core/fleet/reports/pose.hpp"
@@ -107,6 +108,7 @@ void handle_state(FleetState& fleet, LiveVehicle& live, const vda5050::StateMess
     note_errors(fleet, live, before.errors, now);
     handle_pose(fleet, live, before, now);
     watch_mode(fleet, live, before, now);
+    count_done_before_cancel(fleet, live, now);
     handle_action_states(fleet, live, now);
     recall_lift(live, now);
     settle_load(fleet, live, now);

@@ -8,6 +8,7 @@
 #include "core/base/gravity.hpp"
 #include "core/fleet/state/fleet_state.hpp"
 #include "core/fleet/vehicle/loads.hpp"
+#include "core/fleet/vehicle/whereabouts.hpp"
 #include "core/plant/load_rules.hpp"
 #include "core/vda5050/actions.hpp"
 
@@ -15,6 +16,9 @@ namespace pulseline::fleet {
 namespace {
 
 using Kind = Interlock::Kind;
+
+constexpr double kLowered_m = 0.01;  // brackets below it are down, whatever their sensors add
+constexpr double kBelow_m = 0.005;   // of a support: who sets a load down ends 10 mm below
 
 std::vector<plant::BracketForce> forces_on(const LiveVehicle& live) {
     std::vector<plant::BracketForce> forces;
@@ -39,6 +43,28 @@ std::optional<Reason> unlike_known(const FleetState& fleet, const LiveVehicle& l
     if (plant::weighs_as_known(measured_kg, load->mass_kg)) return std::nullopt;
     return Reason{"load_differs",
                   {{"load", load->name}, {"load_kg", load->mass_kg}, {"measured_kg", measured_kg}}};
+}
+
+/// Empty brackets pass below loads that stand or hang in its hall; raised so far they would not.
+std::optional<Reason> raised_into_loads(const FleetState& fleet, const LiveVehicle& live) {
+    double highest_m = 0;
+    for (const auto& bracket : live.state.brackets) {
+        highest_m = std::max(highest_m, bracket.height_m.value_or(0));
+    }
+    if (highest_m <= kLowered_m || load_on(fleet, live.record.id)) return std::nullopt;
+    for (const auto& [id, standing] : fleet.floor.standing_loads) {
+        const auto* station = plant::find_station(fleet.plant, id);
+        if (!station || station->hall.str() != hall_of(fleet, live)) continue;
+        const double most_m = station->support->height_m - kBelow_m;
+        if (highest_m <= most_m) continue;
+        const auto* load = find_load(fleet, standing.load);
+        return Reason{"brackets_raised",
+                      {{"load", load ? load->name : standing.load.str()},
+                       {"station", std::int64_t{station->number}},
+                       {"height_m", highest_m},
+                       {"most_m", most_m}}};
+    }
+    return std::nullopt;
 }
 
 std::optional<Reason> load_fault(const FleetState& fleet, const LiveVehicle& live,
@@ -78,6 +104,7 @@ LoadView load_view(const FleetState& fleet, const LiveVehicle& live) {
     if (const auto load = plant::load_on(*live.type, forces)) view.centre = load->centre;
     view.worst = plant::worst_bracket(*live.type, forces);
     view.fault = load_fault(fleet, live, forces);
+    if (!view.fault) view.fault = raised_into_loads(fleet, live);
     return view;
 }
 
@@ -95,6 +122,9 @@ std::optional<Interlock> interlock(const FleetState& fleet, const LiveVehicle& l
     }
     if (auto fault = load_fault(fleet, live, forces_on(live))) {
         return Interlock{Kind::kLoad, std::move(*fault)};
+    }
+    if (auto raised = raised_into_loads(fleet, live)) {
+        return Interlock{Kind::kBracketsRaised, std::move(*raised)};
     }
     for (const auto& wheel : live.state.wheels) {
         if (!wheel.fault.empty()) {

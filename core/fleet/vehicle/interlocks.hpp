@@ -14,11 +14,13 @@ std::optional<Reason> rule_broken(const LiveVehicle& live);
 
 struct Interlock {
     enum class Kind {
-        kFeetDown,    // parking_feet_down {furthest_m}
-        kLoad,        // those of plant::load_fault; load_unknown {measured_kg}, load_differs {load,
-                      // load_kg, measured_kg} of what its brackets feel and nobody knows of
-        kWheelFault,  // wheel_fault {wheel, fault}
-        kCodes,       // codes_not_seen {found, cameras}
+        kFeetDown,  // parking_feet_down {furthest_m}
+        kLoad,      // those of plant::load_fault; load_unknown {measured_kg}, load_differs {load,
+                    // load_kg, measured_kg} of what its brackets feel and nobody knows of;
+                    // load_half_taken {}
+        kBracketsRaised,  // brackets_raised {load, station, height_m, most_m}
+        kWheelFault,      // wheel_fault {wheel, fault}
+        kCodes,           // codes_not_seen {found, cameras}
     };
     Kind kind = Kind::kFeetDown;
     Reason reason;

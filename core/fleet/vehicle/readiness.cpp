@@ -112,6 +112,7 @@ bool bars(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time now) {
             return lifts_move(live);
         case Bar::kFeetDown:
         case Bar::kLoad:
+        case Bar::kBracketsRaised:
         case Bar::kWheelFault:
         case Bar::kCodesNotSeen:
             break;  // interlocks, which are asked together
@@ -164,6 +165,7 @@ Reason reason_of(Bar bar, const FleetState& fleet, const LiveVehicle& live, Time
             break;  // these bar no start
         case Bar::kFeetDown:
         case Bar::kLoad:
+        case Bar::kBracketsRaised:
         case Bar::kWheelFault:
         case Bar::kCodesNotSeen:
             break;  // an interlock says itself what it found
@@ -177,6 +179,8 @@ Bar bar_of(Interlock::Kind kind) {
             return Bar::kFeetDown;
         case Interlock::Kind::kLoad:
             return Bar::kLoad;
+        case Interlock::Kind::kBracketsRaised:
+            return Bar::kBracketsRaised;
         case Interlock::Kind::kWheelFault:
             return Bar::kWheelFault;
         case Interlock::Kind::kCodes:
@@ -225,9 +229,10 @@ bool cannot_move(const FleetState& fleet, const LiveVehicle& live) {
         if (condition.bars_release && bars(condition.bar, fleet, live, {})) return true;
     }
     // On its way a platform loses sight of the codes, and forces shift: what bars a start does not
-    // stop a drive, but for a broken wheel.
+    // stop a drive, but for a broken wheel, and a load that somebody brings into its brackets' way.
     const auto lock = interlock(fleet, live);
-    return lock && (!live.has_leg() || lock->kind == Interlock::Kind::kWheelFault);
+    return lock && (!live.has_leg() || lock->kind == Interlock::Kind::kWheelFault ||
+                    lock->kind == Interlock::Kind::kBracketsRaised);
 }
 
 bool bars_extension(const FleetState& fleet, const LiveVehicle& live, Time now) {

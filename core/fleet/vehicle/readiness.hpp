@@ -53,6 +53,7 @@ enum class Bar {
     kLiftsMoving,  // outside an order
     kFeetDown,
     kLoad,
+    kBracketsRaised,
     kWheelFault,
     kCodesNotSeen,
 };

@@ -32,10 +32,10 @@ protected:
         world.announce(
             {"setBracketHeight", "raiseParking", "lowerParking", "stopLifts", "pick", "drop"});
         for (auto& [id, vehicle] : world.vehicles) {
-            weigh(vehicle, world.plant, 0, 0.15);
+            weigh(vehicle, world.plant, 0, 0.1);
             vehicle.on_action = [this, &vehicle = vehicle](const std::string& type) {
                 if (type == "pick") weigh(vehicle, world.plant, kMass_kg, 0.15);
-                if (type == "drop") weigh(vehicle, world.plant, 0, 0.15);
+                if (type == "drop") weigh(vehicle, world.plant, 0, 0.1);
             };
         }
         world.run(1);
@@ -185,6 +185,22 @@ TEST_F(OrderLoads, WhatIsNotThereInterruptsTheOrderAndAPersonGoesOn) {
     EXPECT_EQ(jig().vehicle, kV1);
 }
 
+TEST_F(OrderLoads, WhatItTookOverBeforeItHeardOfTheCancelIsOnIt) {
+    v1().stands = true;
+    const auto id = ordered(brings()).id;
+    world.run(1);
+    ASSERT_TRUE(world.fleet->cancel_order(id, std::nullopt, "op", world.now));
+    auto& actions = v1().state.action_states;
+    const auto pick = std::ranges::find(actions, "pick", &vda5050::ActionState::type);
+    ASSERT_NE(pick, actions.end());
+    pick->status = vda5050::ActionStatus::kFinished;
+    weigh(v1(), world.plant, kMass_kg, 0.15);
+    world.run(3);
+    EXPECT_EQ(world.stored(id).state, JobState::kAborted);
+    EXPECT_EQ(jig().vehicle, kV1);
+    EXPECT_FALSE(world.fleet->vehicle(kV1, world.now)->load.fault);
+}
+
 /// Two aircraft do not fit below one hoist.
 TEST_F(OrderLoads, WithALoadItGoesNowhereWhereAnotherOneHangs) {
     ordered(brings());
@@ -241,6 +257,35 @@ TEST_F(LoadOnTheWay, IsPassedBelowByWhoCarriesNothingAndWaitedForByWhoCarriesSom
     ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
     world.run(60);
     EXPECT_EQ(world.stored(newest).state, JobState::kEnded);
+}
+
+TEST_F(LoadOnTheWay, IsNotRunIntoByEmptyBrackets) {
+    weigh(v1(), world.plant, 0, 0.118);  // where they touch it, but for what tells up from down
+    world.run(1);
+    EXPECT_EQ(driven_to(3), JobState::kAllowedToStart);
+    const Reason reason = world.stored(newest).reason;
+    EXPECT_EQ(reason.code, "brackets_raised");
+    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->load.fault->code, "brackets_raised");
+    weigh(v1(), world.plant, 0, 0.11);  // as who has just set one down leaves
+    world.run(60);
+    EXPECT_EQ(world.stored(newest).state, JobState::kEnded);
+}
+
+TEST_F(LoadOnTheWay, IsNotRunIntoByOneThatWasOnItsWayWhenItCame) {
+    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
+    weigh(v1(), world.plant, 0, 0.3);
+    world.run(1);
+    const auto made = world.order("V1", {3});
+    ASSERT_TRUE(made);
+    world.run(1);
+    const auto& leg = world.store.vehicles.at(kV1).leg_data;
+    const auto released = leg.released_nodes;
+    ASSERT_LT(released, leg.nodes.size());
+    const auto& third = world.plant.stations[2].id;
+    ASSERT_TRUE(world.fleet->place_load(kJig, {{}, third}, "op", world.now));
+    world.run(60);
+    EXPECT_EQ(world.store.vehicles.at(kV1).leg_data.released_nodes, released);
+    EXPECT_EQ(world.stored(made->order.id).state, JobState::kRunning);
 }
 
 TEST_F(LoadOnTheWay, IsInItAfterARestartToo) {
@@ -346,7 +391,7 @@ TEST(OrderLoadsOf, AboveFloorOfAnotherItWaits) {
     World world(with_v2_beside());
     world.connect_all();
     world.announce({"pick", "drop"});
-    for (auto& [id, vehicle] : world.vehicles) weigh(vehicle, world.plant, 0, 0.15);
+    for (auto& [id, vehicle] : world.vehicles) weigh(vehicle, world.plant, 0, 0.1);
     world.run(1);
     NewOrder order;
     order.vehicle = kV1;
