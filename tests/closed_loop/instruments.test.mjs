@@ -1,25 +1,15 @@
-// An instrument is set down where it measures and picked up again (Li 2022, Fig. 1) by the brackets that carry aircraft elsewhere: a
-// lifting table on three points. Real server, real program with rendered pictures; the stops and the load cells tell what it carries.
+// The laser tracker of the measuring hall is set down where it measures and picked up again (Li 2022, Fig. 1) by the brackets that carry
+// aircraft elsewhere: a lifting table on three points. Real server, real program with rendered pictures; the stops and the load cells tell what it carries.
 import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 import { Client } from "../harness/client.mjs";
-import { variantOf } from "../harness/plants.mjs";
 import { System } from "../harness/processes.mjs";
 
 const kId = "MV-01", kTracker = "LT-1", kMass_kg = 60, MM = 1e-3;
 let system, client;
 
-/** The measuring hall with a laser tracker on the stand of station 2, another stand at station 5, and a table that lifts it. */
-const hall = () => variantOf("measuring-hall", (model) => {
-  const [type] = model.vehicle_types;
-  type.brackets = [["front left", 0.3, 0.25], ["front right", 0.3, -0.25], ["back", -0.3, 0]].map(([name, x_m, y_m]) => ({ name, position: { x_m, y_m } }));
-  type.bracket_lift = { stroke_m: 0.12, speed_mps: 0.02 };
-  for (const station of model.stations.filter(({ number }) => [2, 5].includes(number))) station.support = { height_m: 0.05 };
-  model.loads = [{ id: kTracker, name: "Laser tracker", kind: "instrument", mass_kg: kMass_kg, station: "st02" }];
-});
-
 before(async () => {
-  system = await System.create(hall());
+  system = await System.create("measuring-hall");
   system.prepareVehicles([kId]);
   await system.startServer();
   client = new Client(system.url, system.apiToken);

@@ -27,10 +27,15 @@ test("raised by 30 mm with two presses, held with one by a second operator, who 
   await page.getByText("0 to 300 mm").waitFor();
   await page.getByLabel("Height, mm").fill("30");
   await page.getByText("Move to 30.0 mm").waitFor();
+  await page.getByLabel("Speed, mm/s").fill("fast");
+  await page.getByText("up to 10 mm/s").waitFor();
+  await page.getByLabel("Speed, mm/s").fill("6");
   await move.click();
   await page.waitForTimeout(600);
   assert.equal((await client.get(kPath)).lift, undefined, "one press moves nothing");
+  const asked = page.waitForRequest((request) => request.method() === "POST" && request.url().endsWith("/lifts"));
   await move.click();
+  assert.deepEqual((await asked).postDataJSON(), { type: "setBracketHeight", bracket: "all", height_m: 0.03, speed_mps: 0.006 });
   await untilIt((v) => v.lift?.state === "under_way", "moves");
   await page.locator(".lifts .cmd", { hasText: "as operator wanted" }).waitFor();
   await picture(page, "lifts-moving");

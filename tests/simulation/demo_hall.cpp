@@ -72,9 +72,10 @@ class World {
 public:
     World(const plant::Plant& plant, std::uint64_t seed, const Options& options)
         : plant_(plant), planner_(plant), random_(seed), options_(options) {
+        const auto supports = std::make_shared<simulation::Supports>(plant_, seed);
         for (const auto& vehicle : plant_.vehicles) {
             vehicles_.emplace(std::piecewise_construct, std::forward_as_tuple(vehicle.id),
-                              std::forward_as_tuple(plant_, vehicle, random_()));
+                              std::forward_as_tuple(plant_, vehicle, supports, random_()));
             vehicles_.at(vehicle.id).shows_codes = true;
             next_state_s_[vehicle.id] = 0;
         }
