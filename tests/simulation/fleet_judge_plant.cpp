@@ -251,6 +251,10 @@ private:
 
 }  // namespace
 
+const plant::Station& home_of(const plant::Plant& plant, const plant::VehicleId& id) {
+    return *plant::find_station(plant, plant::find_vehicle(plant, id)->home);
+}
+
 int pick(std::mt19937_64& random, int low, int high) {
     return low + static_cast<int>(random() % static_cast<std::uint64_t>(high - low + 1));
 }

@@ -13,6 +13,8 @@ namespace pulseline::fleet_judge {
 /// there is one else.
 plant::Plant random_plant(std::mt19937_64& random, bool free, bool several);
 
+const plant::Station& home_of(const plant::Plant& plant, const plant::VehicleId& id);
+
 int pick(std::mt19937_64& random, int low, int high);
 
 }  // namespace pulseline::fleet_judge

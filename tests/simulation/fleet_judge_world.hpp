@@ -136,11 +136,13 @@ private:
 
     // fleet_judge_people.cpp: the client and the person
     void order_some();
-    void transfer_at_times(const plant::VehicleId& id, std::vector<fleet::NewStep>& steps);
     void ask(Asked& asked);
     void let_person_act();
     void help_vehicle(const plant::VehicleId& id, Vehicle& vehicle);
     void help_orders();
+
+    // fleet_judge_platforms.cpp: who works the platforms, their loads and the crane
+    void transfer_at_times(const plant::VehicleId& id, std::vector<fleet::NewStep>& steps);
     void work_platform(const plant::VehicleId& id);
     std::optional<fleet::StepAction> mend_load(const plant::VehicleId& id,
                                                const fleet::VehicleView& view);

@@ -52,14 +52,14 @@ std::optional<Reason> raised_into_loads(const FleetState& fleet, const LiveVehic
         highest_m = std::max(highest_m, bracket.height_m.value_or(0));
     }
     if (highest_m <= kLowered_m || load_on(fleet, live.record.id)) return std::nullopt;
-    for (const auto& [id, standing] : fleet.floor.standing_loads) {
-        const auto* station = plant::find_station(fleet.plant, id);
-        if (!station || station->hall.str() != hall_of(fleet, live)) continue;
+    for (const auto& [id, record] : fleet.loads) {
+        const auto* station = plant::find_station(fleet.plant, record.station);
+        if (!station || !station->support || station->hall.str() != hall_of(fleet, live)) continue;
         const double most_m = station->support->height_m - kBelow_m;
         if (highest_m <= most_m) continue;
-        const auto* load = find_load(fleet, standing.load);
+        const auto* load = find_load(fleet, id);
         return Reason{"brackets_raised",
-                      {{"load", load ? load->name : standing.load.str()},
+                      {{"load", load ? load->name : id.str()},
                        {"station", std::int64_t{station->number}},
                        {"height_m", highest_m},
                        {"most_m", most_m}}};

@@ -262,6 +262,13 @@ TEST_F(LoadOnTheWay, IsPassedBelowByWhoCarriesNothingAndWaitedForByWhoCarriesSom
 TEST_F(LoadOnTheWay, IsNotRunIntoByEmptyBrackets) {
     weigh(v1(), world.plant, 0, 0.118);  // where they touch it, but for what tells up from down
     world.run(1);
+    NewOrder order;
+    order.vehicle = kV1;
+    order.steps = {{3}};
+    const Preview preview = OrderPreviewer().preview(world.fleet->preview_task(order, world.now));
+    EXPECT_TRUE(std::ranges::any_of(preview.checks, [](const Check& check) {
+        return check.code == "load" && check.result == Check::Result::kFail;
+    })) << "Send says so before";
     EXPECT_EQ(driven_to(3), JobState::kAllowedToStart);
     const Reason reason = world.stored(newest).reason;
     EXPECT_EQ(reason.code, "brackets_raised");
