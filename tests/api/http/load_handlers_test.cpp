@@ -47,6 +47,34 @@ TEST_F(Loads, AreListedWithTheirPlaces) {
     EXPECT_EQ(api.get(kLoads + "/none").code(), "unknown_load");
 }
 
+TEST_F(Loads, OneOnTheWayIsNamedToWhoCarriesSomething) {
+    const fleet::LoadPlace there{{}, api.world.plant.stations[2].id};
+    ASSERT_TRUE(api.world.fleet->place_load(plant::LoadId("J-1"), there, "op", api.world.now));
+    api.world.run(1);
+    const auto linear = [&](const std::string& loaded) {
+        const Answer answer = api.post("/api/v1/motion-previews",
+                                       R"({"vehicle":"V1","station":4,"loaded":)" + loaded + "}");
+        const Json options = answer.json()["options"];
+        for (const Json& option : options) {
+            if (option["mode"] == "linear") return option;
+        }
+        return Json();
+    };
+    EXPECT_EQ(linear("true")["loads_in_the_way"], Json::array({"J-1"}));
+    EXPECT_FALSE(linear("true").contains("closures"));
+    EXPECT_FALSE(linear("false").contains("loads_in_the_way")) << "it passes below";
+
+    const auto routes = [&](const std::string& loaded) {
+        return api
+            .post("/api/v1/routes",
+                  R"({"vehicle_type":"small","from":1,"to":4,"loaded":)" + loaded + "}")
+            .json();
+    };
+    const Json named = Json::array({{{"id", "J-1"}, {"name", "J-1"}}});
+    EXPECT_EQ(routes("true")["blocking"][0]["loads"], named);
+    EXPECT_TRUE(routes("false").contains("route"));
+}
+
 TEST_F(Loads, APersonSaysWhereOneIs) {
     const Answer put = api.call("PUT", kLoads + "/J-1/place", R"({"vehicle":"V2"})");
     EXPECT_EQ(put.status, 202);
