@@ -119,10 +119,7 @@ Json answer_json(const plant::Plant& plant, const planning::WhatIf& question,
 FleetAnswer find_routes(FleetContext& context, const Request& request) {
     auto question = read_what_if(request);
     if (!question) return {problem(400, question.error(), request)};
-    question->closures = context.fleet.closed_floors();
-    std::erase_if(question->closures, [&](const planning::ClosedFloor& closed) {
-        return closed.to_loads_only && !question->loaded;
-    });
+    question->closures = planning::closed_to(question->loaded, context.fleet.closed_floors());
     // The search takes its time, and not the fleet's.
     return {{},
             [question = std::move(*question), &plant = context.plant,

@@ -64,8 +64,8 @@ const JobOrder* elder_of(const FleetState& fleet, const JobOrder& order, const L
 
 /// That is on the support there, where a vehicle with a load of its own would run into it; nullptr:
 /// none.
-const plant::Load* load_in_the_way(const FleetState& fleet, const JobOrder& order,
-                                   const LiveVehicle& live, const plant::Station& station) {
+const plant::Load* load_at_goal(const FleetState& fleet, const JobOrder& order,
+                                const LiveVehicle& live, const plant::Station& station) {
     const bool is_there = live.record.at_station == station.id;
     if (!is_loaded(live) || is_there || acts_next(order, live)) return nullptr;
     return load_at(fleet, station.id);
@@ -160,7 +160,7 @@ void start_step(FleetState& fleet, JobOrder& order, LiveVehicle& live, Time now)
         return;
     }
     if (*waits) return set_order_reason(fleet, order, **waits, now);
-    if (const auto* there = load_in_the_way(fleet, order, live, *station)) {
+    if (const auto* there = load_at_goal(fleet, order, live, *station)) {
         set_order_reason(fleet, order,
                          {"station_has_load",
                           {{"station", std::int64_t{station->number}}, {"load", there->name}}},

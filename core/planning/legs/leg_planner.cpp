@@ -1,10 +1,10 @@
 #include "core/planning/legs/leg_planner.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/kinematics/primitives.hpp"
 #include "core/planning/legs/blind_way.hpp"
@@ -90,7 +90,7 @@ struct LegPlanner::Tables {
               passage(*shared),
               reach(std::move(known)),
               lanes(of.roads, passage, of.plant.routing) {
-            lanes.set_closures(of.closures[loaded ? 1 : 0]);
+            lanes.set_closures(of.closed_to(loaded).floors);
         }
         bool loaded;
         std::shared_ptr<const Passage> shared;
@@ -163,7 +163,7 @@ struct LegPlanner::Tables {
                        by.passage,
                        by.reach,
                        by.lanes,
-                       closures[by.loaded ? 1 : 0],
+                       closed_to(by.loaded).floors,
                        *obstacles,
                        obstacles->limits_from(body, by.passage.body.clearance_m)};
     }
@@ -223,11 +223,14 @@ struct LegPlanner::Tables {
     const plant::Plant& plant;
     std::shared_ptr<const RoadmapIndex> shared;
     const RoadmapIndex& roads;
-    // To those without a load, and to those with one.
-    std::array<std::vector<ClosedFloor>, 2> closures;
-    std::array<LegMemo::Closures, 2> closed = {
-        std::make_shared<const std::string>(),
-        std::make_shared<const std::string>()};  // names them
+    struct Closed {
+        std::vector<ClosedFloor> floors;
+        LegMemo::Closures named = std::make_shared<const std::string>();
+    };
+    const Closed& closed_to(bool loaded) const { return loaded ? closed_to_loads : closed; }
+    Closed& closed_to(bool loaded) { return loaded ? closed_to_loads : closed; }
+    Closed closed;           // to who carries nothing
+    Closed closed_to_loads;  // to who carries something: those, and more
     std::map<Key, std::unique_ptr<Prepared>> prepared;
     FreeLegs free;
     GridLegs grid{free};
@@ -246,7 +249,7 @@ class LegPlanner::GoingRound {
 public:
     GoingRound(Tables& tables, Tables::Prepared& by, const plant::HallId& hall,
                const std::vector<StandingBody>& standing)
-        : closures_(tables.closures[by.loaded ? 1 : 0]), by_(by), closed_(closures_.size()) {
+        : closures_(tables.closed_to(by.loaded).floors), by_(by), closed_(closures_.size()) {
         for (const StandingBody& body : standing) {
             closures_.push_back({id_of(body), body.vehicle.str(), hall, body.outline, 0, true});
         }
@@ -310,7 +313,7 @@ Result<LegPlan> LegPlanner::plan_known(const LegRequest& request, bool with_free
     const bool own = plant::find_vehicle_type(tables_->plant, request.type->id) == request.type;
     if (!own || !from || !(from->pose == request.start) || request.target_pose)
         return tables_->plan(request, with_free);
-    const auto& closed = tables_->closed[request.loaded ? 1 : 0];
+    const auto& closed = std::as_const(*tables_).closed_to(request.loaded).named;
     if (auto known = tables_->memo->find(request, with_free, closed)) return std::move(*known);
     auto plan = tables_->plan(request, with_free);
     tables_->memo->keep(request, with_free, closed, plan);
@@ -379,18 +382,14 @@ std::vector<LegAlternative> LegPlanner::alternatives(
 
 void LegPlanner::set_closures(const std::vector<ClosedFloor>& closures) {
     for (const bool loaded : {false, true}) {
-        auto& to_these = tables_->closures[loaded ? 1 : 0];
-        to_these.clear();
-        std::string closed;
-        for (const auto& closure : closures) {
-            if (closure.to_loads_only && !loaded) continue;
-            to_these.push_back(closure);
-            closed += key_of(closure);
-        }
-        tables_->closed[loaded ? 1 : 0] = std::make_shared<const std::string>(std::move(closed));
+        auto& [floors, named] = tables_->closed_to(loaded);
+        floors = closed_to(loaded, closures);
+        std::string names;
+        for (const auto& floor : floors) names += key_of(floor);
+        named = std::make_shared<const std::string>(std::move(names));
     }
     for (auto& [key, prepared] : tables_->prepared) {
-        prepared->lanes.set_closures(tables_->closures[prepared->loaded ? 1 : 0]);
+        prepared->lanes.set_closures(tables_->closed_to(prepared->loaded).floors);
     }
 }
 

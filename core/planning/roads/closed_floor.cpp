@@ -1,6 +1,7 @@
 #include "core/planning/roads/closed_floor.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace pulseline::planning {
 namespace {
@@ -49,6 +50,14 @@ bool any_near(const std::vector<ClosedFloor>& closures, const plant::HallId& hal
 }
 
 }  // namespace
+
+std::vector<ClosedFloor> closed_to(bool loaded, const std::vector<ClosedFloor>& closures) {
+    std::vector<ClosedFloor> bars;
+    std::ranges::copy_if(closures, std::back_inserter(bars), [&](const ClosedFloor& closed) {
+        return loaded || !closed.to_loads_only;
+    });
+    return bars;
+}
 
 std::string key_of(const ClosedFloor& closed) {
     std::string key = closed.id + '/' + closed.hall.str();

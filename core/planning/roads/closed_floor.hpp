@@ -20,6 +20,9 @@ struct ClosedFloor {
     bool to_loads_only = false;             // who carries nothing passes below
 };
 
+/// Those that bar a body, with a load on it or without.
+std::vector<ClosedFloor> closed_to(bool loaded, const std::vector<ClosedFloor>& closures);
+
 /// Text that no other closed floor has.
 std::string key_of(const ClosedFloor& closed);
 

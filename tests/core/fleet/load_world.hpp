@@ -10,6 +10,7 @@ namespace pulseline::fleet::testing {
 inline const plant::VehicleId kV1("V1");
 inline const plant::VehicleId kV2("V2");
 inline const plant::LoadId kJig("J-1");
+inline const plant::LoadId kOther("J-2");
 inline const plant::StationId kS1("s1");
 inline const StepAction kPick{"pick", {{"load", std::string("J-1")}}};
 inline const StepAction kDrop{"drop", {}};
@@ -31,6 +32,16 @@ inline plant::Plant with_load() {
     plant.loads[0].station = kS1;
     plant.loads[0].outline = geometry::rectangle(3, 2.5);
     plant.loads[0].vehicle_types.clear();
+    return plant;
+}
+
+/// A second load, which is nowhere.
+inline plant::Plant with_two_loads() {
+    plant::Plant plant = with_load();
+    plant.loads.push_back(plant.loads.front());
+    plant.loads.back().id = kOther;
+    plant.loads.back().name = "J-2";
+    plant.loads.back().station = {};  // it comes later
     return plant;
 }
 

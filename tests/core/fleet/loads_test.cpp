@@ -12,8 +12,6 @@
 namespace pulseline::fleet::testing {
 namespace {
 
-const plant::LoadId kOther("J-2");
-
 class Loads : public ::testing::Test {
 protected:
     explicit Loads(const plant::Plant& plant = with_load()) : world(plant) {
@@ -232,16 +230,6 @@ TEST_F(Loads, NobodyTakesOverWhatIsElsewhereUnknownOrNotForIt) {
     EXPECT_EQ(refusal(kPick), "load_elsewhere");
 }
 
-/// A second load, which is nowhere.
-plant::Plant with_two_loads() {
-    plant::Plant plant = with_load();
-    plant.loads.push_back(plant.loads.front());
-    plant.loads.back().id = kOther;
-    plant.loads.back().name = "Other";
-    plant.loads.back().station = {};
-    return plant;
-}
-
 class TwoLoads : public Loads {
 protected:
     TwoLoads() : Loads(with_two_loads()) {}
@@ -259,6 +247,21 @@ TEST_F(TwoLoads, NothingIsSetDownOrSaidToBeWhereAnotherOneIs) {
     EXPECT_EQ(refusal_of_other({kV1, {}}), "vehicle_loaded");
     EXPECT_EQ(refusal_of_other({{}, kS1}), "floor_held") << "V1 stands there with its load";
     EXPECT_EQ(jig().vehicle, kV1);
+    EXPECT_EQ(refusal(kDrop), "");
+}
+
+/// It was out of the hall, as far as people said, and comes back where another one hangs by now.
+TEST_F(TwoLoads, NothingIsSetDownWhereAnotherOneCameWhileTheVehicleWasOffTheFloor) {
+    take_over();
+    ASSERT_TRUE(world.fleet->integrate(kV1, Integration::kIgnore, true, "op", world.now));
+    EXPECT_EQ(refusal_of_other({{}, kS1}), "");
+    ASSERT_TRUE(world.fleet->integrate(kV1, Integration::kUtilise, false, "op", world.now));
+    world.run(1);
+    ASSERT_TRUE(world.fleet->resume_fleet({kV1}, "op", world.now));
+    world.run(1);
+    EXPECT_EQ(refusal(kDrop), "support_taken");
+    EXPECT_EQ(jig().vehicle, kV1);
+    EXPECT_EQ(refusal_of_other({}), "");
     EXPECT_EQ(refusal(kDrop), "");
 }
 

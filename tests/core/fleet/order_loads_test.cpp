@@ -6,74 +6,11 @@
 #include <utility>
 
 #include "core/fleet/views/order_preview.hpp"
-#include "tests/core/fleet/load_world.hpp"
+#include "tests/core/fleet/order_loads_world.hpp"
 
 // Orders whose steps take loads over and set them down.
 namespace pulseline::fleet::testing {
 namespace {
-
-const plant::StationId kS3("s3");
-const plant::LoadId kOther("J-2");
-
-plant::Plant with_two_loads() {
-    plant::Plant plant = with_load();
-    plant.loads.push_back(plant.loads.front());
-    plant.loads.back().id = kOther;
-    plant.loads.back().name = "J-2";
-    plant.loads.back().station = {};  // it comes later
-    return plant;
-}
-
-class OrderLoads : public ::testing::Test {
-protected:
-    OrderLoads() : OrderLoads(with_two_loads()) {}
-    explicit OrderLoads(plant::Plant plant) : world(std::move(plant)) {
-        world.connect_all();
-        world.announce(
-            {"setBracketHeight", "raiseParking", "lowerParking", "stopLifts", "pick", "drop"});
-        for (auto& [id, vehicle] : world.vehicles) {
-            weigh(vehicle, world.plant, 0, 0.1);
-            vehicle.on_action = [this, &vehicle = vehicle](const std::string& type) {
-                if (type == "pick") weigh(vehicle, world.plant, kMass_kg, 0.15);
-                if (type == "drop") weigh(vehicle, world.plant, 0, 0.1);
-            };
-        }
-        world.run(1);
-    }
-
-    FakeVehicle& v1() { return world.vehicle("V1"); }
-    /// Takes it over at station 1 and sets it down at station 3.
-    static NewOrder brings() {
-        NewOrder order;
-        order.vehicle = kV1;
-        order.steps = {{3}};
-        order.steps[0].before = {kPick};
-        order.steps[0].after = {kDrop};
-        return order;
-    }
-    JobOrder ordered(const NewOrder& order) {
-        const auto made = world.order(order);
-        EXPECT_TRUE(made) << made.error().what;
-        return made ? made->order : JobOrder{};
-    }
-    std::string refused(const NewOrder& order, const std::string& field) {
-        const auto made = world.order(order);
-        if (made) return "";
-        EXPECT_EQ(made.error().field, field);
-        const Preview preview = world.fleet->preview(order, world.now);
-        EXPECT_FALSE(preview.accepted) << "and Send says so before";
-        return made.error().reason.code;
-    }
-    LoadRecord jig() const { return world.fleet->load(kJig)->place; }
-    std::vector<Event> moves() const {
-        std::vector<Event> moves;
-        std::ranges::copy_if(world.store.events, std::back_inserter(moves),
-                             [](const Event& event) { return event.type == "load.moved"; });
-        return moves;
-    }
-
-    World world;
-};
 
 TEST_F(OrderLoads, ALoadIsTakenOverBroughtAndSetDownByOneOrder) {
     const JobOrder order = ordered(brings());
@@ -218,102 +155,6 @@ TEST_F(OrderLoads, WithALoadItGoesNowhereWhereAnotherOneHangs) {
     ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
     world.run(60);
     EXPECT_EQ(world.stored(made->order.id).state, JobState::kEnded);
-}
-
-/// J-1 hangs at station 2, on the only way between the others.
-class LoadOnTheWay : public OrderLoads {
-protected:
-    LoadOnTheWay() : OrderLoads(with_hoist_on_the_way()) {}
-    static plant::Plant with_hoist_on_the_way() {
-        plant::Plant plant = with_two_loads();
-        plant.stations[1].support = plant::Support{};
-        plant.loads.front().station = plant.stations[1].id;
-        plant.stations[0].support.reset();
-        return plant;
-    }
-    JobState driven_to(int station) {
-        const auto made = world.order("V1", {station});
-        EXPECT_TRUE(made);
-        world.run(60);
-        newest = made->order.id;
-        return world.stored(newest).state;
-    }
-    void put_j2_on_v1() {
-        ASSERT_TRUE(world.fleet->place_load(kOther, {kV1, {}}, "op", world.now));
-        weigh(v1(), world.plant, kMass_kg, 0.15);
-        world.run(1);
-    }
-    JobOrderId newest;
-};
-
-TEST_F(LoadOnTheWay, IsPassedBelowByWhoCarriesNothingAndWaitedForByWhoCarriesSomething) {
-    ASSERT_EQ(driven_to(3), JobState::kEnded);
-    put_j2_on_v1();
-    const int steps = v1().node_steps;
-    EXPECT_EQ(driven_to(1), JobState::kRunning);
-    EXPECT_EQ(world.stored(newest).reason,
-              (Reason{"load_in_the_way", {{"load", "J-1"}, {"station", std::int64_t{2}}}}));
-    EXPECT_EQ(v1().node_steps, steps) << "it stays where it is";
-    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
-    world.run(60);
-    EXPECT_EQ(world.stored(newest).state, JobState::kEnded);
-}
-
-TEST_F(LoadOnTheWay, IsNotRunIntoByEmptyBrackets) {
-    weigh(v1(), world.plant, 0, 0.118);  // where they touch it, but for what tells up from down
-    world.run(1);
-    NewOrder order;
-    order.vehicle = kV1;
-    order.steps = {{3}};
-    const Preview preview = OrderPreviewer().preview(world.fleet->preview_task(order, world.now));
-    EXPECT_TRUE(std::ranges::any_of(preview.checks, [](const Check& check) {
-        return check.code == "load" && check.result == Check::Result::kFail;
-    })) << "Send says so before";
-    EXPECT_EQ(driven_to(3), JobState::kAllowedToStart);
-    const Reason reason = world.stored(newest).reason;
-    EXPECT_EQ(reason.code, "brackets_raised");
-    EXPECT_EQ(world.fleet->vehicle(kV1, world.now)->load.fault->code, "brackets_raised");
-    weigh(v1(), world.plant, 0, 0.11);  // as who has just set one down leaves
-    world.run(60);
-    EXPECT_EQ(world.stored(newest).state, JobState::kEnded);
-}
-
-TEST_F(LoadOnTheWay, IsNotRunIntoByOneThatWasOnItsWayWhenItCame) {
-    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
-    weigh(v1(), world.plant, 0, 0.3);
-    world.run(1);
-    const auto made = world.order("V1", {3});
-    ASSERT_TRUE(made);
-    world.run(1);
-    const auto& leg = world.store.vehicles.at(kV1).leg_data;
-    const auto released = leg.released_nodes;
-    ASSERT_LT(released, leg.nodes.size());
-    const auto& third = world.plant.stations[2].id;
-    ASSERT_TRUE(world.fleet->place_load(kJig, {{}, third}, "op", world.now));
-    world.run(60);
-    EXPECT_EQ(world.store.vehicles.at(kV1).leg_data.released_nodes, released);
-    EXPECT_EQ(world.stored(made->order.id).state, JobState::kRunning);
-}
-
-TEST_F(LoadOnTheWay, IsInItAfterARestartToo) {
-    ASSERT_EQ(driven_to(3), JobState::kEnded);
-    put_j2_on_v1();
-    world.crash_server();
-    world.connect_all();
-    world.run(1);
-    EXPECT_EQ(driven_to(1), JobState::kRunning);
-    EXPECT_EQ(world.stored(newest).reason.code, "load_in_the_way");
-}
-
-TEST_F(LoadOnTheWay, IsNotSaidToHangWhereSomebodyWithALoadStands) {
-    ASSERT_TRUE(world.fleet->place_load(kJig, {}, "op", world.now));
-    put_j2_on_v1();
-    ASSERT_EQ(driven_to(2), JobState::kEnded);
-    const auto placed =
-        world.fleet->place_load(kJig, {{}, world.plant.stations[1].id}, "op", world.now);
-    ASSERT_FALSE(placed);
-    EXPECT_EQ(placed.error().reason.code, "floor_held");
-    EXPECT_TRUE(jig().station.empty());
 }
 
 /// A part of the weight is on the brackets, and nobody drives with that; it is taken over again.
